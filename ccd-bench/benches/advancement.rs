@@ -1,4 +1,4 @@
-//! Benchmarks whole queries, with every schedule and distance backend, on rows spread evenly over each scene. Every
+//! Benchmarks whole queries with every schedule and distance backend, on queries picked evenly from each scene. Every
 //! answer is checked against the truth before it is timed.
 //!
 //! ```sh
@@ -22,9 +22,9 @@ use rigid_ccd::batch::ScheduleKind;
 use settings::criterion_settings;
 use std::time::Duration;
 
-/// The number of rows of each scene that are measured, evenly spread over its table.
+/// The number of queries to measure in each scene, picked evenly from its table of motions.
 const ROWS_PER_SCENE: usize = 32;
-/// The names of the measured scenes, in which each mesh occurs once.
+/// The names of the scenes to measure, chosen so that no mesh is in two of them.
 const SCENE_NAMES: [&str; 7] = [
     "santa",
     "bunny turning",
@@ -34,7 +34,7 @@ const SCENE_NAMES: [&str; 7] = [
     "falling rings",
     SMALL_SCENE,
 ];
-/// The name of the only scene that is small enough for the slowest schedule.
+/// The name of the only scene with few enough pairs of pieces for the naive schedule, which is the slowest.
 const SMALL_SCENE: &str = "knot216";
 
 fn benchmark_queries(criterion: &mut Criterion) {
@@ -62,7 +62,7 @@ fn benchmark_queries(criterion: &mut Criterion) {
             if kind.schedule == ScheduleKind::Naive && scene.name != SMALL_SCENE {
                 continue;
             }
-            // A method that is wrong, or that cannot open a session, is not timed.
+            // A method that does not support the scene is not timed. A wrong answer stops the benchmark.
             if !all_answers_are_right(&contest, method) {
                 continue;
             }
@@ -82,7 +82,7 @@ fn benchmark_queries(criterion: &mut Criterion) {
     }
 }
 
-/// Returns true if the method opens a session and all its answers are right.
+/// Returns true if the method supports the scene, after asserting that all its answers are right.
 fn all_answers_are_right(contest: &PreparedScene<'_>, method: Method) -> bool {
     let allowance = MeasurementLimits {
         cell: Duration::MAX,

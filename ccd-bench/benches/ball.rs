@@ -6,7 +6,7 @@ use ccd_decomp::build_hull_tree;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Returns the hull of random points on a sphere.
+/// Returns the convex hull of `corners` random points on the unit sphere, as a hull tree.
 pub(crate) fn random_ball_hull(rng: &mut Pcg64, corners: usize) -> HullTree {
     let points: Vec<DVec3> = (0..corners).map(|_| random_direction(rng)).collect();
     let half = |points: &[DVec3]| Polytope {

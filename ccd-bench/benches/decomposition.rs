@@ -1,4 +1,4 @@
-//! Benchmarks the preparation of bodies: the decomposition of meshes alone, and everything up to the first query.
+//! Benchmarks two tasks: the decomposition of a mesh into convex patches, and the creation of a body from a mesh.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench decomposition
@@ -29,7 +29,7 @@ fn knot_meshes() -> Vec<(String, TriangleMesh)> {
         .collect()
 }
 
-/// Benchmarks the decomposition of surfaces into convex patches, in every order of growth.
+/// Benchmarks the decomposition of surfaces into convex patches, with each order in which a patch can grow.
 fn benchmark_decompositions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decompose");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
@@ -49,7 +49,7 @@ fn benchmark_decompositions(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Asserts that every triangle is in exactly one patch before anything is timed.
+/// Asserts that every triangle of the mesh is in exactly one patch of its decomposition.
 fn assert_patches_partition_mesh(mesh: &TriangleMesh, order: PatchOrder) {
     let patches = decompose(mesh, order)
         .expect("a knot bounds a solid")
@@ -63,7 +63,7 @@ fn assert_patches_partition_mesh(mesh: &TriangleMesh, order: PatchOrder) {
     assert!(faces.iter().copied().eq(0..mesh.faces().len() as u32));
 }
 
-/// Benchmarks the making of bodies that are ready for queries from meshes.
+/// Benchmarks the creation of a body from a mesh, with each kind of pieces.
 fn benchmark_body_creation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("body");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);

@@ -1,5 +1,5 @@
-//! Benchmarks the distance of two convex pieces with every backend, by kind of piece, separation, and rotation between
-//! calls.
+//! Benchmarks the distance computation of two convex pieces with every backend, over several shapes, separations, and
+//! rotations between calls.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench distance
@@ -31,24 +31,23 @@ struct PoseSequence {
     cache_state: CacheState,
 }
 
-/// What a distance call may reuse.
+/// Whether a distance call starts from the oracle's cache of the call before it.
 #[derive(Clone, Copy)]
 enum CacheState {
-    /// The call starts from the result for the previous pose.
+    /// The call starts from the cache that the call for the previous pose has filled.
     Warm,
-    /// The call starts without any state.
+    /// The call starts from an empty cache.
     Cold,
 }
 
-/// The kinds of sequences: a name, the rotation between poses in radians, and what a call may reuse.
+/// The kinds of sequences: a name, the rotation from pose to pose in radians, and the state of the cache.
 const SEQUENCE_KINDS: [(&str, f64, CacheState); 3] = [
     ("close", 0.01, CacheState::Warm),
     ("apart", 0.3, CacheState::Warm),
     ("cold", 0.01, CacheState::Cold),
 ];
 
-/// The separations of pieces: a name, and the distance of the centres in radii, counted from where the pieces cannot
-/// touch.
+/// The separations of the pieces: a name, and the distance of their bounding balls, which have radius 1.
 const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
 
 fn benchmark_distances(criterion: &mut Criterion) {
@@ -82,7 +81,7 @@ fn benchmark_distances(criterion: &mut Criterion) {
     }
 }
 
-/// Returns pieces that lie within the unit ball and touch its surface.
+/// Returns a pair of pieces for each shape, with the shape's name; every piece lies within the unit ball.
 fn pieces_in_unit_ball(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
     let side = DVec3::splat(3f64.sqrt().recip());
     let cube = Body::cuboid(side).expect("a box").pieces().clone();
@@ -106,8 +105,8 @@ fn pieces_in_unit_ball(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
     shapes
 }
 
-/// Computes the distances of a whole sequence, and returns the sum of their axes, so that the compiler cannot drop a
-/// call.
+/// Computes the distance at every pose of a sequence, and returns a sum over the results so that the compiler removes
+/// no call.
 fn run_sequence<O: DistanceOracle + Default>(course: &PoseSequence) -> f64 {
     let mut oracle = O::default();
     let mut cache = O::Cache::default();
@@ -158,7 +157,7 @@ fn assert_distances_close(one: &[f64], other: &[f64]) {
     }
 }
 
-/// Returns poses with a steady rotation and a constant distance between the centres.
+/// Returns poses of B in A's frame: B rotates by `turn` radians from pose to pose, at a fixed position.
 fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     let (way, turn) = (random_direction(rng), turn * random_direction(rng));
     let pose = |k: usize| {

@@ -1,5 +1,5 @@
-//! Benchmarks two hundred bodies in free flight over hills of 28,322 triangles and among each other, at 60 steps a
-//! second.
+//! Benchmarks the search for contacts among two hundred bodies that fly over a terrain of 28,322 triangles, at 60 steps
+//! a second.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench scene
@@ -20,16 +20,18 @@ use std::num::NonZeroUsize;
 
 /// The duration of a step, in seconds.
 const STEP_DURATION: f64 = 1.0 / 60.0;
-/// The number of steps, and of bodies.
+/// The number of steps in a flight, and the number of flying bodies.
 const STEP_AND_BODY_COUNTS: (u32, usize) = (20, 200);
-/// The number of squares along each side of the hills, with two triangles each, and half the length of a side.
+/// The number of grid squares along each side of the terrain, and half the length of a side.
 const HILL_GRID_SIZE: (u32, f64) = (119, 30.0);
 
-/// Returns the place and the velocity of a body, from random vectors for both and the ground below the place.
+/// A function that returns the start position and the velocity of a body. Its arguments are a random vector for each of
+/// the two, and the height of the ground as a vector.
 type Start = fn(DVec3, DVec3, DVec3) -> (DVec3, DVec3);
 
-/// The flights by name: the bodies fall onto the hills, skim along them, fly from all sides to one place, fly from one
-/// place in all directions, or fall ten times as fast as the others.
+/// The flights by name, each with the function that gives a body its start. In turn, the bodies fall onto the hills,
+/// skim along them, fly from all sides to one place, fly in all directions within a crowd, or fall ten times as fast as
+/// in the first flight.
 const FLIGHTS: [(&str, Start); 5] = [
     ("hail", |place, way, _| {
         let high = DVec3::Z * (4.0 + 2.0 * place.z);
@@ -67,7 +69,7 @@ fn terrain_height(x: f64, y: f64) -> f64 {
     1.5 * (0.31 * x).sin() * (0.27 * y).cos() + 0.3 * (1.7 * x + 0.9 * y).sin()
 }
 
-/// Returns the hills, followed by one body of each kind.
+/// Returns the body of the hills, followed by the four flying bodies: a sphere, a box, a capsule and a torus knot.
 fn hills_and_bodies() -> anyhow::Result<[Body; 5]> {
     let of_mesh = |mesh: &TriangleMesh| anyhow::Ok(body_from_mesh(mesh, Detail::Auto)?.body);
     let (cells, half) = HILL_GRID_SIZE;
@@ -121,7 +123,7 @@ fn flight_motions(start: Start) -> anyhow::Result<Vec<Vec<Motion>>> {
         .collect()
 }
 
-/// Moves all bodies of a scene of hills and bodies by a step.
+/// Sets the motion of each flying body for the next step; the hills, body 0, stay at rest.
 fn set_motions(scene: &mut Scene<'_>, motions: &[Motion]) {
     for (k, &motion) in motions.iter().enumerate() {
         scene

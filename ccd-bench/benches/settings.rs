@@ -3,10 +3,12 @@
 use criterion::Criterion;
 use std::time::Duration;
 
-/// The number of bootstrap resamples, enough for a median. The default takes longer than the calls.
+/// The number of bootstrap resamples per benchmark, enough for the error of a median. The default takes longer than the
+/// calls.
 const RESAMPLE_COUNT: usize = 2_000;
 
-/// Returns settings with this number of samples, and with these times for warm-up and measurement in milliseconds.
+/// Returns Criterion's settings with the given number of samples, and the given times for warm-up and measurement in
+/// milliseconds.
 pub(crate) fn criterion_settings(samples: usize, warm_up: u64, measurement: u64) -> Criterion {
     Criterion::default()
         .nresamples(RESAMPLE_COUNT)

@@ -1,5 +1,5 @@
-//! Benchmarks the search for extremal corners, by the size of the piece: a scan of all corners, and climbing from a
-//! cold and a warm start. The result decides `ccd_core::tuning::MAX_SCANNED_POINTS`.
+//! Benchmarks support functions on pieces of several sizes: a scan of all corners, and hill climbing from a cold and
+//! from a warm start. The result decides `ccd_core::tuning::MAX_SCANNED_POINTS`.
 //!
 //! `cargo bench -p ccd-bench --bench support`
 
@@ -15,7 +15,7 @@ use rand_pcg::Pcg64;
 use settings::criterion_settings;
 use std::hint::black_box;
 
-/// The number of directions in which the extremal corner is searched for.
+/// The number of directions for which a benchmark searches the extremal corner.
 const DIRECTION_COUNT: usize = 256;
 
 fn benchmark_support_search(criterion: &mut Criterion) {

@@ -1,4 +1,4 @@
-//! The command `ccd-bench`: charts, brackets of exact first contacts, stability.
+//! The command line of `ccd-bench`, with a subcommand for each kind of comparison.
 
 mod answer;
 mod chart;
@@ -39,17 +39,17 @@ Examples:
 enum Command {
     /// Compare all methods on the paper's five scenes: tables, a chart, a page (under a minute)
     Chart(ChartArgs),
-    /// Bracket the exact first contacts of two meshes, to judge answers by
+    /// Bracket the exact times of first contact of two meshes, as the truth by which answers are judged
     Truth(TruthArgs),
     /// Find where each method fails: families of scenes that get harder step by step
     Stability(StabilityArgs),
-    /// Ask one method about a table of motions, and judge its answers by exact ones
+    /// Ask one method about a table of motions, and judge its answers by the exact ones
     Judge(JudgeArgs),
     #[command(hide = true)]
     Answer(AnswerArgs),
 }
 
-/// Runs the command that the process was started with.
+/// Runs the subcommand given in the arguments of the process, or `chart` if there are no arguments.
 pub fn main() -> ExitCode {
     let mut words: Vec<OsString> = env::args_os().collect();
     if words.len() < 2 {
@@ -64,7 +64,7 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Prints what was found.
+/// Prints a summary of the results to standard output.
 fn print_summary(text: &impl Display) -> Result<(), CannotWrite> {
     writeln!(io::stdout(), "{text}").map_err(|source| CannotWrite {
         place: "the summary".to_owned(),

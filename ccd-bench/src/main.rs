@@ -1,4 +1,4 @@
-//! The `ccd-bench` command.
+//! The executable `ccd-bench`, which runs the command line of the library.
 
 use std::process::ExitCode;
 

@@ -28,16 +28,16 @@ pub enum Method {
     ThisProject(SolverKind, PieceKind),
     /// A published method that is built here for comparison.
     Rival(RivalKind),
-    /// A peer library that is called in this program.
+    /// A peer library that this program calls directly.
     Peer(PeerKind),
-    /// A peer library that a script runs.
+    /// A peer library that a script runs, since it has no Rust interface.
     Script(ScriptKind),
 }
 
 /// The published methods that are built here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum RivalKind {
-    /// The method CONTACT: continuous tests of oriented boxes.
+    /// The method CONTACT: tests of oriented boxes over intervals of time.
     #[value(name = "CONTACT")]
     Contact,
     /// The method of the dynamic collision checker: adaptive bisection of time.
@@ -60,12 +60,11 @@ pub enum MotionKind {
     Screw,
 }
 
-/// The tolerance of the paper's benchmarks `[FAST06 §6.2]`: that of charts of one tolerance, and of methods without one
-/// of their own.
+/// The tolerance of the paper's benchmarks `[FAST06 §6.2]`, at which methods without a tolerance setting are measured.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
 
 impl Method {
-    /// Returns all methods that this program runs, this project's default first.
+    /// Returns all methods that this program runs itself, this project's default first.
     pub fn built_in_methods() -> Vec<Method> {
         let kind = |schedule, oracle| SolverKind {
             schedule,
@@ -94,8 +93,8 @@ impl Method {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
-    /// Returns all methods with a name: those that this program runs, FAST as published, whose bound does not hold over a
-    /// step, so that its answers may be late, and those that a script runs.
+    /// Returns every method that has a name, including FAST as published and those that a script runs. The bound of
+    /// FAST as published does not hold over a step, so that its answers may be late.
     pub fn known_methods() -> Vec<Method> {
         let published = SolverKind {
             schedule: ScheduleKind::Fast,
@@ -136,7 +135,8 @@ impl Method {
         }
     }
 
-    /// Returns true for the default method on pieces other than its own choice.
+    /// Returns true if the method is this project's default on triangles or patches, instead of the fewest exact
+    /// pieces.
     pub fn is_piece_variant(self) -> bool {
         matches!(self, Method::ThisProject(kind, pieces)
             if pieces != PieceKind::FewestPieces && !kind.schedule.uses_hull_trees())
@@ -176,7 +176,7 @@ impl RivalKind {
     }
 }
 
-/// Finds the first contact of two bodies with given motions.
+/// Finds the first contact of two moving bodies with a solver of this project.
 ///
 /// # Errors
 /// A motion or the duration is out of range.
@@ -201,7 +201,7 @@ pub struct Ours<'s> {
 }
 
 impl<'s> Ours<'s> {
-    /// Creates a solver of the given kind for two bodies that are to keep a margin.
+    /// Creates a solver of the given kind for two bodies, and the margin that they are to keep.
     pub fn new(kind: SolverKind, bodies: Bodies<'s>, margin: f64) -> Self {
         Ours {
             bodies,
@@ -213,7 +213,8 @@ impl<'s> Ours<'s> {
 }
 
 impl Solver for Ours<'_> {
-    /// Answers a query; steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
+    /// Answers a query with the solver of this project, which refuses an invalid query. Steps are advancements of all
+    /// pairs together, or pairs of nodes visited by the best-first schedule.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let settings = Settings {
             tolerance,

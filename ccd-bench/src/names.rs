@@ -1,4 +1,4 @@
-//! Names of values on the command line and in the tables.
+//! Gives the names that values have on the command line and in the tables.
 
 use clap::ValueEnum;
 

@@ -1,4 +1,4 @@
-//! Runs methods on scenes: each method gets the same queries, is timed and judged.
+//! Runs methods on scenes, so that each method gets the same queries, is timed, and is judged.
 
 pub mod contest;
 pub mod evaluation;

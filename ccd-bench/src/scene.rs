@@ -17,7 +17,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-/// Two bodies, and many queries about motions of them.
+/// Two bodies, and many queries that move them.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The name of the scene in tables.
@@ -26,17 +26,18 @@ pub struct Scene {
     pub a: SceneBody,
     /// The body that the second motion of each query moves.
     pub b: SceneBody,
-    /// The motions of both bodies, one query each.
+    /// The queries, each with the motions of both bodies and a duration.
     pub queries: Vec<Motions>,
 }
 
-/// A body of a scene, shared between scenes.
+/// A body of one or several scenes, with the mesh from which it is made.
 #[derive(Clone, Debug)]
 pub struct SceneBody {
     /// The body, made of the fewest exact pieces.
     pub body: Arc<Body>,
     mesh: Arc<TriangleMesh>,
-    /// The same body made of each other kind of pieces on first use; `None` if it cannot be made.
+    /// The same body made of other kinds of pieces, one slot for each kind, filled on first use; `None` in a slot if
+    /// the mesh does not allow the kind.
     bodies_by_pieces: Arc<[OnceLock<Option<Body>>; PieceKind::Patches as usize + 1]>,
 }
 
@@ -88,7 +89,7 @@ impl PieceKind {
     }
 }
 
-/// The bodies of the models, each of which is made once.
+/// A cache of the bodies of the models, each of which is made on first use.
 #[derive(Debug, Default)]
 pub struct ModelCache {
     directory: Option<PathBuf>,
@@ -112,14 +113,14 @@ impl Scene {
         })
     }
 
-    /// Returns the number of pairs of pieces, all of which a schedule without a tree processes.
+    /// Returns the number of pairs of pieces of the two bodies, all of which the naive schedule processes.
     pub fn pairs(&self) -> u64 {
         self.a.body.pieces().len() as u64 * self.b.body.pieces().len() as u64
     }
 }
 
 impl ModelCache {
-    /// Creates models that are made by code, except those that have a file in the directory.
+    /// Creates an empty cache, which reads a model from its file in the directory if there is one.
     pub fn new(directory: Option<PathBuf>) -> Self {
         ModelCache {
             directory,

@@ -1,4 +1,4 @@
-//! Surveys stability: families of scenes get harder step by step, and each method is asked until it fails.
+//! Surveys stability: families of scenes get harder step by step, and show where each method fails.
 //!
 //! | to … | see |
 //! |---|---|

@@ -31,13 +31,13 @@ pub use table::{STATUSES, TRUTH_COLUMNS, TruthRow};
 use rigid_ccd::table::motions::Motions;
 use search::Search;
 
-/// What is proven about a query; times are from 0 to the duration.
+/// What is proven about the first contact of a query; times are from 0 to the duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Truth {
     /// The surfaces share no point before `lo`, and they share one at `hi`.
     Hit {
-        /// The latest time before which no contact is proven, usually less than 1e-13 of the duration before the first
-        /// contact.
+        /// A time before which the surfaces are proven to share no point, usually less than 1e-13 of the duration
+        /// before the first contact.
         lo: f64,
         /// The time at which a common point is proven.
         hi: f64,
@@ -46,29 +46,29 @@ pub enum Truth {
     Free,
     /// The surfaces share a point at the start, or cannot be separated there in floating point.
     ContactAtStart,
-    /// The surfaces share no point before `lo`, cannot be separated at `lo`, and no proof of contact was found then or
-    /// later: they touch without intersecting, or nearly touch.
+    /// The surfaces share no point before `lo`, cannot be separated at `lo`, and no contact could be proven from then
+    /// on. They touch without intersecting, or nearly touch.
     Graze {
         /// The first time at which the surfaces cannot be separated.
         lo: f64,
     },
-    /// The surfaces share no point before `lo`; the work limit of a query was reached.
+    /// The search reached its work limit; the surfaces share no point before `lo`.
     Undecided {
         /// The time before which the surfaces are proven to share no point.
         lo: f64,
     },
 }
 
-/// A lower and an upper bound of a distance.
+/// Proven bounds of the distance of two surfaces at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceBounds {
     /// The lower bound of the distance, which is not negative.
     pub lower: f64,
-    /// The upper bound of the distance.
+    /// The upper bound of the distance; infinite if a body has no triangles.
     pub upper: f64,
 }
 
-/// A referee that decides queries about two surfaces with proofs.
+/// Brackets the first contact and the distance of two moving surfaces with proven bounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Referee<'a> {
     a: &'a Surface,
@@ -76,7 +76,7 @@ pub struct Referee<'a> {
 }
 
 impl<'a> Referee<'a> {
-    /// Returns the referee of body A and body B, which may be the same.
+    /// Creates a referee for the surfaces of body A and body B, which may be the same surface.
     pub fn new(a: &'a Surface, b: &'a Surface) -> Self {
         Referee { a, b }
     }

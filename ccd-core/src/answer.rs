@@ -1,4 +1,4 @@
-//! The answer to a query.
+//! The answer to a query: the outcome, the accuracy of its numbers, and the work that the query took.
 
 mod contact;
 mod hit;
@@ -18,10 +18,10 @@ pub use unresolved::{Limit, Unresolved};
 pub struct Answer {
     /// What the query found: contact, no contact, a distance, or the limit that stopped it.
     pub outcome: Outcome,
-    /// The tolerance of the answer. It is the requested one, unless only a larger one can be certified at the
-    /// coordinates of the scene, or the bodies were [let go](crate::StartPolicy::Leave) with a smaller one. For
-    /// bounds of a distance it is at least their width, which includes the [excess](crate::Body::with_excess) of the
-    /// bodies.
+    /// The distance beyond the margin within which a contact is reported. It is the requested tolerance, unless only a
+    /// larger one can be certified at the coordinates of the scene, or the bodies were [let
+    /// go](crate::StartPolicy::Leave) with a smaller one. For bounds of a distance it is at least their width, which
+    /// includes the [excess](crate::Body::with_excess) of the bodies.
     pub tolerance: f64,
     /// The number of steps that the query took, by kind.
     pub stats: Stats,
@@ -59,9 +59,9 @@ pub struct Answer {
 pub enum Outcome {
     /// The bodies stay apart over the whole duration.
     Free {
-        /// A lower bound of the distance at all times: half the tolerance beyond the margin, however far apart the
-        /// bodies are. It is less, down to 0, if a contact at the start was [let go](crate::StartPolicy::Leave). With
-        /// a required [clearance](crate::Settings::clearance) it is at least that.
+        /// A lower bound of the distance at all times: the margin plus half the tolerance, even if the bodies are
+        /// farther apart. It is less, down to 0, if a contact at the start was [let go](crate::StartPolicy::Leave).
+        /// With a required [clearance](crate::Settings::clearance) it is at least that.
         proven_gap: f64,
     },
     /// The bodies are in contact at `time`: within margin + tolerance, or nearer than a required
@@ -93,11 +93,11 @@ pub enum Outcome {
         /// The last time of contact, and its kind.
         last: Hit,
     },
-    /// The least distance is between a lower bound and the distance of the nearest pieces.
+    /// The least distance over the duration is at least `lower`, and at most the distance of the nearest pieces.
     LeastDistance {
         /// A lower bound of the least distance.
         lower: f64,
-        /// The time at which the bodies are nearest, as far as known.
+        /// The time of the smallest distance that was found, in the motions' unit.
         time: f64,
         /// The nearest pieces at that time. Their distance is an upper bound of the least distance.
         contact: Contact,
@@ -111,7 +111,8 @@ pub enum Outcome {
 pub struct Stats {
     /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
     pub iterations: u64,
-    /// The approximate number of evaluations of piece points, in the oracle's searches and in bounds of future gaps.
+    /// The approximate number of times that a point of a piece was evaluated, by the oracle or for bounds of future
+    /// gaps.
     pub point_evaluations: u64,
     /// The number of calls of the oracle.
     pub oracle_calls: u64,
@@ -119,14 +120,14 @@ pub struct Stats {
     pub give_ups: u64,
     /// The largest number of pairs that waited in the queue at one time.
     pub peak_front: u64,
-    /// The number of steps in which all pairs advanced together, the first distance included. These are the steps of
-    /// conservative advancement. It is 0 for schedules with a clock for every pair.
+    /// The number of steps in which all pairs advanced together; the first computation of the distance counts as a
+    /// step. These are the steps of conservative advancement. It is 0 for schedules with a clock for every pair.
     pub advancements: u64,
-    /// The work of the oracle, in its own steps.
+    /// The work of the oracle, counted in the steps of its own algorithm.
     pub effort: Effort,
 }
 
-/// Whether two bodies keep a required distance over the whole duration.
+/// Whether two bodies stay at least a required distance apart over the whole duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clearance {
     /// The bodies are certainly at least the required distance apart at all times.
@@ -146,8 +147,8 @@ impl Answer {
         self.outcome.hit()
     }
 
-    /// Converts an answer about enclosing bodies to one about the shapes in them. It is called once for each query
-    /// about a distance.
+    /// Converts an answer about enclosing bodies to an answer about the enclosed shapes. It is called once for each
+    /// query about a distance.
     pub(crate) fn widened_by_excess(self, excess: Excess) -> Self {
         let outcome = self.outcome.to_shapes(excess);
         Answer {
@@ -188,8 +189,8 @@ impl Outcome {
         }
     }
 
-    /// Returns a lower bound of the requested distance; for queries about contacts, of the distance at all times. It
-    /// is 0 if no better one is known.
+    /// Returns a lower bound of the requested distance; for a query about contacts, a lower bound of the distance at
+    /// all times. It is 0 if no better one is known.
     pub fn lower(&self) -> f64 {
         match *self {
             Outcome::Free { proven_gap } => proven_gap,
@@ -202,8 +203,8 @@ impl Outcome {
         }
     }
 
-    /// Returns an upper bound of the requested distance; for queries about contacts, of the least distance. It is
-    /// infinite if none is known.
+    /// Returns an upper bound of the requested distance; for a query about contacts, an upper bound of the least
+    /// distance. It is infinite if none is known.
     pub fn upper(&self) -> f64 {
         match *self {
             Outcome::Free { .. } => f64::INFINITY,
@@ -228,7 +229,7 @@ impl Outcome {
         }
     }
 
-    /// Returns the pieces in contact, or those between which a distance was measured, with the time.
+    /// Returns the time of the contact or of the measured distance, and the nearest pieces at that time.
     pub fn nearest(&self) -> Option<(f64, Contact)> {
         match *self {
             Outcome::Contact { time, contact } | Outcome::LeastDistance { time, contact, .. } => {
@@ -241,7 +242,7 @@ impl Outcome {
         }
     }
 
-    /// Returns the limit that ended the query, if one did.
+    /// Returns the limit that ended the query; `None` if the query was answered.
     pub fn limit(&self) -> Option<Limit> {
         match self {
             Outcome::Unresolved(known) => Some(known.limit),
@@ -249,7 +250,8 @@ impl Outcome {
         }
     }
 
-    /// Compares the bounds of the least distance to a required distance.
+    /// Returns whether the bodies stay at least the required distance apart, as far as the bounds of the least distance
+    /// tell.
     ///
     /// Bodies that may touch keep no clearance, not even a clearance of 0.
     pub fn clearance(&self, required: f64) -> Clearance {
@@ -263,7 +265,7 @@ impl Outcome {
         }
     }
 
-    /// Creates the outcome for two bodies in contact at a time.
+    /// Creates the outcome for a contact at a time: [`Outcome::Touching`] at time 0, else [`Outcome::Contact`].
     pub(crate) fn contact_at(time: f64, contact: Contact) -> Self {
         if time > 0.0 {
             Outcome::Contact { time, contact }
@@ -285,7 +287,7 @@ impl Outcome {
         Outcome::Unresolved(Unresolved::from_safe_until(safe_until, limit))
     }
 
-    /// Returns the difference of the measured bounds; 0 if nothing was measured.
+    /// Returns the difference between the bounds of the least distance; 0 if the outcome is no least distance.
     pub(crate) fn width(&self) -> f64 {
         match *self {
             Outcome::LeastDistance { lower, contact, .. } => contact.separation.upper - lower,
@@ -332,7 +334,7 @@ impl Outcome {
         }
     }
 
-    /// Converts an outcome about enclosing bodies to one about the shapes in them.
+    /// Converts an outcome about enclosing bodies to an outcome about the enclosed shapes.
     fn to_shapes(self, excess: Excess) -> Self {
         match self.map_contacts(|contact, _| contact.to_shapes(excess)) {
             Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
@@ -352,7 +354,7 @@ impl Stats {
         self.iterations + self.point_evaluations / EVALUATIONS_PER_VISIT
     }
 
-    /// Adds the counters of another answer.
+    /// Adds the counters of another query; the peak of the front is the larger one of both.
     pub(crate) fn add(&mut self, other: &Stats) {
         self.iterations += other.iterations;
         self.point_evaluations += other.point_evaluations;

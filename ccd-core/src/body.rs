@@ -58,8 +58,7 @@ pub struct Body {
     tree: Tree,
     volume: Volume,
     shells: Vec<Shell>,
-    /// The tree of convex hulls, if one was given; its leaves are pieces, in the order of the tree. Its leaves name the
-    /// pieces in the order of the tree.
+    /// The tree of convex hulls, if one was given; its leaves refer to the pieces by their index in `pieces`.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
     surface: Option<Box<Surface>>,
@@ -67,11 +66,11 @@ pub struct Body {
     excess: f64,
 }
 
-/// The surface of a convex body as triangles, which replace the body in queries against a body of many triangles.
+/// The triangulated surface of a convex body, which replaces the body in queries against a body of many triangles.
 #[derive(Clone, Debug)]
 struct Surface {
     triangles: Body,
-    /// True if the body is the box at the root of its tree.
+    /// True if the body fills the box at the root of its tree nearly completely.
     is_box: bool,
 }
 
@@ -84,7 +83,7 @@ pub enum Volume {
     /// direction. Of nested shells, each has to be wound opposite to the one around it. A body inside the solid
     /// overlaps it. A single piece is solid by itself.
     Solid,
-    /// Only contact with the pieces counts; their inside is empty.
+    /// The body is only a surface: another body inside it, without contact with its pieces, does not touch it.
     Surface,
 }
 
@@ -98,8 +97,8 @@ impl Body {
         Body::with_hierarchy(pieces, &hierarchy, volume)
     }
 
-    /// Creates a body with a given hierarchy. The body keeps the pieces in the hierarchy's order; features have the
-    /// numbers that the pieces carry.
+    /// Creates a body whose bounding volume tree is built from a given binary hierarchy. The body keeps the pieces in
+    /// the hierarchy's order; features have the numbers that the pieces carry.
     ///
     /// # Errors
     /// [`InputError::BadHierarchy`] when the nodes are no hierarchy over these pieces.
@@ -133,8 +132,8 @@ impl Body {
         })
     }
 
-    /// Adds the triangles of the surface to a body of one piece. They are for queries against bodies of many triangles,
-    /// each of which is near only a few of them. Against other bodies the body stays one piece.
+    /// Adds the triangulated surface to a body of one piece. It is used in queries against bodies of many triangles,
+    /// each of which is near only a few triangles of the surface. Against other bodies the body stays one piece.
     ///
     /// # Guarantee
     /// The guarantee of queries holds when the triangles bound the same solid as the piece; this is not checked.
@@ -159,7 +158,7 @@ impl Body {
         Ok(self)
     }
 
-    /// Adds a hull tree over the body's pieces, for the schedules that use one.
+    /// Adds a hull tree over the body's pieces, for schedules that search hull trees instead of boxes.
     ///
     /// # Errors
     /// [`HullFault::NotAPiece`](crate::HullFault::NotAPiece) unless the tree's leaves are the body's pieces, to the
@@ -175,7 +174,8 @@ impl Body {
         &self.pieces
     }
 
-    /// Returns a piece by its index. A piece of many points has a search structure for extremal points.
+    /// Returns the piece with this index in `pieces`. A piece of many points has a search structure for extremal
+    /// points.
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
         self.pieces.get(index as usize).with_support_map(support_of)
@@ -223,7 +223,7 @@ impl Body {
         self.tree.span()
     }
 
-    /// Returns whether a body inside this one counts as touching.
+    /// Returns whether the body is a solid or a surface, so whether a body inside it counts as touching.
     pub fn volume(&self) -> Volume {
         self.volume
     }
@@ -275,24 +275,25 @@ impl Body {
         .map_or(feature, Feature::Face)
     }
 
-    /// Returns whether the body is a solid whose inside may not be filled by its pieces.
+    /// Returns whether the body is a solid with a possibly empty space between its pieces, where another body might be.
     pub(crate) fn may_be_hollow(&self) -> bool {
         self.volume == Volume::Solid && (self.pieces.all_triangles() || self.pieces.len() > 1)
     }
 
-    /// Returns the tree over the pieces.
+    /// Returns the bounding volume tree over the pieces.
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
     }
 
-    /// Returns a few points of every connected part. If one of a part's points is inside another solid, the whole part
-    /// is, or its surface crosses that of the solid.
+    /// Returns the extreme points of every connected part of the body, to test whether the part is inside another
+    /// solid. If one of a part's points is inside another solid, the whole part is, or its surface crosses that of the
+    /// solid.
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }
 }
 
-/// Builds the search structure for extremal points of a piece of many points.
+/// Builds the search structure for extremal points of a piece with many points.
 #[cfg(not(feature = "hull-tree"))]
 fn support_of(piece: &Piece<'_>) -> Support {
     Support::of_points(piece.points)

@@ -21,7 +21,7 @@ use near::near_face_pairs;
 use skin::NearSurface;
 use std::fmt;
 
-/// The reason why the contacts cannot be listed.
+/// The reason why the contacts at a time cannot be listed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ContactsError {
@@ -37,13 +37,13 @@ pub enum ContactsError {
     /// More pairs are near than the [budget](crate::Settings::budget) allows. Either the bodies are small for the
     /// margin and the tolerance, or one is deep in the other.
     TooManyPairs {
-        /// The largest amount of work that the query allows.
+        /// The budget of the query, which limits the number of near pairs.
         budget: u64,
     },
 }
 
 impl Problem<'_> {
-    /// Returns all pairs of features in contact at `clock`, a share of the duration from 0 to 1; see
+    /// Returns all pairs of features in contact at `clock`, which is 0 at the start of the query and 1 at its end; see
     /// [`Query::contacts_at`](crate::Query::contacts_at).
     pub(crate) fn contacts_at(&self, clock: f64) -> Result<Vec<FeaturePair>, ContactsError> {
         let frames = [self.a.path.frame(clock), self.b.path.frame(clock)];

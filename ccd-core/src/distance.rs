@@ -1,5 +1,4 @@
-//! The distance between two pieces: the interface of the backends that measure it, and the bounds that are proven from
-//! what they claim.
+//! The distance between two pieces: the interface of the oracles, and the bounds that are proven from their claims.
 
 pub(crate) mod common_normals;
 pub(crate) mod containment;

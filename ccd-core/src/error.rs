@@ -36,7 +36,7 @@ pub enum InputError {
     NoSuchLink {
         /// The requested number of the link.
         link: usize,
-        /// The number of joints: links count from 0, the base, to this.
+        /// The number of joints of the chain, which is also the number of its last link; link 0 is the base.
         joints: usize,
     },
     /// A link's motion was requested relative to a link that is farther from the base.
@@ -244,7 +244,7 @@ pub(crate) fn check_length(what: &'static str, length: f64) -> Result<(), InputE
     check(what, length, allowed, "from 0 to 1e12")
 }
 
-/// Prints a number in as few digits as identify it. Very large and very small numbers have a power of ten.
+/// A number that is printed in as few digits as identify it. Very large and very small numbers have a power of ten.
 struct ShortNumber(f64);
 
 impl fmt::Display for ShortNumber {

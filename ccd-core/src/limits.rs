@@ -12,8 +12,8 @@ pub const DEFAULT_BUDGET: u64 = 1 << 22;
 pub const LEAST_TOLERANCE: f64 = 1e-100;
 
 /// The largest coordinate of points, positions and centres, and the largest travel, margin and tolerance, in the
-/// scene's unit of length. Squares of distances, and of speeds after the [largest turn](MAX_ROTATION_ANGLE), stay below the
-/// overflow of f32 (3.4e38).
+/// scene's unit of length. Squares of distances, and of speeds at the [largest turn](MAX_ROTATION_ANGLE), stay below
+/// the overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e12;
 
 /// The least nonzero magnitude of a coordinate for which exact predicates are exact.

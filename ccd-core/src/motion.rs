@@ -45,7 +45,7 @@ impl Motion {
         centre: DVec3::ZERO,
     };
 
-    /// Creates a motion at rest.
+    /// Creates the motion of a body that rests at a pose.
     pub fn still(pose: Pose) -> Self {
         Motion {
             start: pose,

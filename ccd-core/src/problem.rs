@@ -24,7 +24,7 @@ use std::time::Duration;
 pub(crate) struct Problem<'a> {
     pub(crate) a: BodyWithPath<'a>,
     pub(crate) b: BodyWithPath<'a>,
-    /// The time of the motions at clock 0; not 0 if the problem is a part of another one.
+    /// The time of the motions at clock 0; not 0 if the problem is a part of a longer one.
     start_time: f64,
     duration: f64,
     /// The origin of the problem's coordinates in the world, near both bodies.
@@ -33,7 +33,7 @@ pub(crate) struct Problem<'a> {
     /// coordinates.
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
-    /// The required distance, if the query compares the closest approach to one.
+    /// The distance with which the query compares the closest approach, if it does.
     pub(crate) clearance: Option<f64>,
     pub(crate) start: StartPolicy,
     /// The plane of the contact at the start, if that contact is to be ignored.
@@ -44,7 +44,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) stop: Option<&'a AtomicBool>,
     /// A bound of the rounding of distances in f64, from [`rounding::distance_rounding`].
     pub(crate) rounding: f64,
-    /// The vector instructions that kernels use.
+    /// The vector instructions with which bounds of nodes are computed.
     pub(crate) level: Level,
     pub(crate) shortcuts: Shortcuts,
 }
@@ -58,7 +58,7 @@ pub(crate) struct BodyWithPath<'a> {
     pub(crate) path: Path,
 }
 
-/// Body A or body B.
+/// One of the two bodies of a query, A or B.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WhichBody {
     A,
@@ -95,7 +95,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Creates the problem of two bodies whose centres may accelerate, for schedules that handle
-    /// [accelerations](crate::engine::answer::Solve::takes_accelerations).
+    /// [accelerations](crate::engine::answer::EngineSchedule::takes_accelerations).
     pub(crate) fn accelerated(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
@@ -297,7 +297,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the distance that the bodies are proven to keep until the clocks of all pairs.
+    /// Returns the distance that the bodies are proven to keep up to the least clock of all pairs.
     pub(crate) fn proven_gap(&self) -> f64 {
         match self.start {
             StartPolicy::Report => self.gap(),

@@ -23,9 +23,9 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct MovingBody<'a> {
-    /// The body that moves.
+    /// The moving body, which several queries may share.
     pub body: &'a Body,
-    /// How the body moves during the query.
+    /// The motion or the trajectory of the body during the query.
     pub movement: Movement<'a>,
 }
 
@@ -221,7 +221,7 @@ impl<'a> Query<'a> {
         problem.map_or(self.terms.tolerance, |problem| problem.tolerance)
     }
 
-    /// Returns all features that are in contact at a time, the contact manifold `[FAST06 §5.2]`.
+    /// Returns all pairs of features that are in contact at a time, the contact manifold `[FAST06 §5.2]`.
     ///
     /// There are two kinds of pairs. Each pair is listed once, nearest first:
     /// - a vertex and the nearest part of a face: usually the face's inside, at the vertex's foot,

@@ -1,4 +1,5 @@
-//! Questions other than the first contact of two motions, each as a rule on the steps of a search.
+//! Queries other than the first contact of two motions: any contact, the closest approach, searches in steps, and
+//! trajectories.
 //!
 //! `any.rs` asks whether bodies touch at all, `closest.rs` how close they come; both search as
 //! `depth_first.rs` does. `steps.rs` searches for a first contact up to a time, and continues later. `along.rs` asks

@@ -1,10 +1,10 @@
-//! All error bounds that proofs rely on, each with its unit, its derivation, and the consequence of leaving it out. A
-//! wrong one breaks the guarantee. Numbers that only cost time are in `tuning.rs`.
+//! The bounds of rounding errors that proofs rely on, each with its unit and its derivation. A wrong bound breaks the
+//! guarantee. Numbers that only cost time are in `tuning.rs`.
 //!
-//! `u` is half a unit in the last place of 1: [`UNIT_ROUNDOFF_F64`] in f64, [`UNIT_ROUNDOFF_F32`] in f32. An operation rounds with a relative
-//! error of at most `u`. The counts below add up the worst error of every operation. Tests compare each allowance
-//! with exact references, in the worst cases that a search finds. `docs/allowances.md` says how tight each allowance
-//! is.
+//! `u` is half a unit in the last place of 1: [`UNIT_ROUNDOFF_F64`] in f64, [`UNIT_ROUNDOFF_F32`] in f32. An operation
+//! rounds with a relative error of at most `u`. The counts below add up the worst error of every operation. Tests
+//! compare each allowance with exact references, in the worst cases that a search finds. `docs/allowances.md` says how
+//! tight each allowance is.
 
 use glam::DVec3;
 
@@ -14,24 +14,25 @@ pub const UNIT_ROUNDOFF_F64: f64 = f64::EPSILON / 2.0;
 /// The relative rounding error of one operation in f32.
 pub const UNIT_ROUNDOFF_F32: f32 = f32::EPSILON / 2.0;
 
-/// The share of its distance by which a skipped pair may be nearer than the nearest measured pair of pieces. Bounds of
-/// nodes are rounded by at most this share ([`FREE_TIME_FACTOR_F32`]). With it, one pair suffices if many pairs share a corner, or
-/// lie in two planes.
+/// The relative amount by which a skipped pair of pieces may be nearer than the nearest measured pair. Bounds of nodes
+/// are rounded by at most this share ([`FREE_TIME_FACTOR_F32`]). With this allowance, one measured pair suffices if
+/// many pairs share a corner, or lie in two planes.
 pub const SKIPPED_NEARER_SHARE: f64 = 1.0 / 65536.0;
 
-/// The range of squared lengths that are computed with a relative error of a few `u`. A component whose own square
-/// underflows, below 2.2e-308, is negligible in this range.
+/// The range of squared lengths that are computed with a relative error of a few [`UNIT_ROUNDOFF_F64`]. A component
+/// whose own square underflows, below 2.2e-308, is negligible in this range.
 pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 
-/// The power of two that scales vectors with squares outside of [`SQUARES`], up or down: 2⁷⁰⁰ = 5.3e210.
+/// The power of two, 2⁷⁰⁰ = 5.3e210, by which vectors are scaled up or down if their squared lengths are outside of
+/// [`SQUARES`].
 ///
 /// It takes the least number, 4.9e-324, to 2.6e-113, whose square is exact enough, and 1e-100 to
 /// 5.3e110. Its inverse takes the greatest, 1.8e308, to 3.4e97, and 1e100 to 1.9e-111.
 pub const EXTREME_VECTOR_SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 
-/// Returns a bound of the rounding of distances computed in f64: the difference of a support gap or witness distance
-/// from the exact one. The exact distance is that of the bodies as posed: the given points, poses, centres and
-/// velocities, or end poses.
+/// Returns a bound of the rounding error of distances computed in f64: by how much a support gap or the distance of two
+/// witnesses may differ from the exact value. The exact distance is that of the bodies as posed: the given points,
+/// poses, centres and velocities, or end poses.
 ///
 /// All numbers are in units of `u`. The error of a matrix is the largest displacement of a unit
 /// vector. A point `x` of a body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
@@ -78,8 +79,8 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     UNIT_ROUNDOFF_F64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
 }
 
-/// Returns the contribution of one body to [`distance_rounding`], whatever the other body does. The sum of the shares
-/// of two bodies, with the ways of their centres from the world's origin, is no less than the rounding of their
+/// Returns the contribution of one body to [`distance_rounding`], for any motion of the other body. The sum of the
+/// shares of two bodies, with the ways of their centres from the world's origin, is no less than the rounding of their
 /// distance.
 pub fn body_distance_rounding(span: f64, turn: f64, way: f64) -> f64 {
     UNIT_ROUNDOFF_F64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
@@ -90,8 +91,8 @@ pub fn margin_rounding(margin: f64) -> f64 {
     96.0 * UNIT_ROUNDOFF_F64 * margin
 }
 
-/// The relative error of a pose that is computed for another time of a motion. It is relative to the lengths of its
-/// position, its centre and its travel; as an angle, it is relative to a radian more than its rotation.
+/// The relative error of a motion's pose that is computed for a time other than its start. It is relative to the
+/// lengths of its position, its centre and its travel; as an angle, it is relative to a radian more than its rotation.
 ///
 /// In units of `u`: the angle is off by 1 of the turn, its sine and cosine by 2, the product of two
 /// quaternions by 6, and normalising by 4: an angle of twice that, 24 and 2 of the turn. Turning the centre
@@ -99,8 +100,8 @@ pub fn margin_rounding(margin: f64) -> f64 {
 /// pose that it is computed from: 80 are taken.
 pub const RETIMED_POSE_ERROR_F64: f64 = 80.0 * UNIT_ROUNDOFF_F64;
 
-/// Returns a bound of the error of positions on a part of a path, in addition to [`distance_rounding`]. It also bounds
-/// the error of bounds that are taken over from one period to others.
+/// Returns a bound of the error of one body's positions in a part of its path, such as one of many periods; it is added
+/// to [`distance_rounding`]. It also bounds the error of bounds that are taken over from one period to others.
 ///
 /// In units of `u`, of a point at `reach` from the centre, with a turn of `ω` over the whole path:
 /// - sine and cosine of the angle at which the part begins add 3, their products and sums 6, that angle `ω`, and the
@@ -114,7 +115,8 @@ pub fn position_rounding(reach: f64, turn: f64, way: f64) -> f64 {
     32.0 * UNIT_ROUNDOFF_F64 * ((1.0 + turn) * reach + way)
 }
 
-/// The absolute error of lengths whose squares underflow, in the scene's unit of length: see [`distance_rounding`].
+/// A bound of the absolute error of lengths whose squares underflow, in the scene's unit of length; see
+/// [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
 
 /// Returns the least tolerance that can be certified if distances are off by up to `rounding`.
@@ -126,14 +128,16 @@ pub fn least_tolerance(rounding: f64) -> f64 {
     8.0 * rounding
 }
 
-/// The error of a support gap computed in f32, relative to the other node's distance from the split group's origin.
+/// The error of a support gap between two nodes computed in f32, relative to the distance of the unsplit node from the
+/// origin of the split node's group.
 ///
 /// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
 /// projected by three operations (3), the reaches subtracted (2), and the gap divided by the axis's
 /// length: a root and a quotient (3), and a product (1). That is 11u; 12u are taken.
 pub const GAP_ERROR_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
 
-/// The error of a support gap computed in f32, relative to the radii of the split group and the other node.
+/// The error of a support gap between two nodes computed in f32, relative to the radii of the split node's group and of
+/// the unsplit node.
 ///
 /// A box's half sizes are measured along axes rounded to f32, which are orthogonal to 2u (3.5u of
 /// its radius). Three products with three half sizes, each projected by three operations, add `√3
@@ -142,24 +146,26 @@ pub const GAP_ERROR_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
 /// 28u of the other one; 32u are taken. Triangles need less.
 pub const GAP_ERROR_PER_RADIUS_F32: f32 = 32.0 * UNIT_ROUNDOFF_F32;
 
-/// The error of a rate of approach computed in f32, relative to the largest speed in it.
+/// The error of a rate of approach computed in f32, relative to the largest speed of a point that the rate is computed
+/// from.
 ///
 /// Velocities, arms and angular velocities are rounded once (1u each), crossed (3u), rotated with the box (9u)
 /// and projected (4u). A rate is therefore off by at most 32u = 1.9e-6 of the largest speed.
 pub const RATE_ERROR_F32: f32 = 2e-6;
 
-/// The share of a distance from the split group's origin that is added to an arm when the largest speed is computed.
-/// The arm is the difference of two positions, a node's and that of its body's centre of rotation, each rounded by 1u.
-/// The share is 4u of the 33u of [`RATE_ERROR_F32`].
+/// The share of a node's distance from the origin of the split node's group that is added to its distance from the
+/// centre of rotation, when the largest speed is computed. That vector, the arm, is the difference of two positions, a
+/// node's and that of its body's centre of rotation, each rounded by 1u. The share is 4u of the 33u of
+/// [`RATE_ERROR_F32`].
 pub const ARM_DISTANCE_SHARE: f64 = 1.0 / 8.0;
 
-/// The factor that lowers a free time computed in f32, from a gap and a rate that are conservative already.
+/// The factor that lowers a free time computed in f32, to allow for the rounding of the computation from gap and rate.
 ///
 /// Square, product, sum, root, sum and quotient: at most 8u; 32u are taken.
 pub const FREE_TIME_FACTOR_F32: f32 = 1.0 - 32.0 * UNIT_ROUNDOFF_F32;
 
-/// The factor that raises a second derivative computed in f32. It covers two lengths of vectors whose components are
-/// off by up to `8u` each.
+/// The factor that raises a second derivative computed in f32, to allow for its rounding. It covers two lengths of
+/// vectors whose components are off by up to `8u` each.
 pub const SECOND_DERIVATIVE_FACTOR_F32: f32 = 1.0 + 64.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of `|n × ω|` in f32, in units of `|ω|`: both vectors are rounded (1u each) and crossed (3u). For parallel
@@ -172,21 +178,24 @@ pub const CROSS_PRODUCT_ERROR_F32: f32 = 8.0 * UNIT_ROUNDOFF_F32;
 /// below [`LEAST_GAP_F32`].
 pub const LEAST_AXIS_F32: f32 = 1e-18;
 
-/// The gap at and below which a gap counts as closed in f32, in the scene's unit of length. Above it, a second
-/// derivative whose product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the whole duration.
+/// The least gap for which a free time is computed in f32, in the scene's unit of length; smaller gaps count as closed.
+/// Above it, a second derivative whose product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the
+/// whole duration.
 pub const LEAST_GAP_F32: f32 = 1e-15;
 
-/// The least second derivative of a path that is used, in units of length over time squared. It keeps a division by the
-/// second derivative finite for a straight path, and can only increase it.
+/// The least bound of a second derivative of a path that is used in f32, in units of length over time squared. Smaller
+/// bounds are raised. It keeps a division by the second derivative finite for a straight path, and can only increase
+/// it.
 pub const LEAST_SECOND_DERIVATIVE_F32: f32 = 1e-30;
 
-/// The error of speeds and free times computed in f64, relative to them: the axis is off by 2u, the arm by 5u, products
-/// and sums add 7u. The quotient and the root of a free time need less.
+/// The relative error of speeds and free times computed in f64: the axis is off by 2u, the arm by 5u, products and sums
+/// add 7u. The quotient and the root of a free time need less.
 pub const RATE_ERROR_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 
-/// Returns the error of heights and rates along an axis that turns with one body, computed in f64 for points of the
-/// other body. It comes in addition to the error of their positions. It is relative to the farthest distance from the
-/// turning body's centre, and to the largest speed past it. `turns` is the sum of both bodies' rotations.
+/// Returns the relative error of heights and rates of one body's points along an axis that turns with the other body,
+/// computed in f64. It comes in addition to the error of their positions. Heights are relative to the farthest distance
+/// from the turning body's centre, and rates to the largest speed past it. `turns` is the sum of both bodies'
+/// rotations.
 ///
 /// In units of `u`: an angle is off by `4ω` (its rate by 3, a product adds 1), sine and cosine by 4
 /// more, and the turned axis by 8 more (3 terms, and 2 of its own). Turning it with its body and
@@ -197,17 +206,17 @@ pub fn turning_axis_rounding(turns: f64) -> f64 {
     UNIT_ROUNDOFF_F64 * (96.0 + 8.0 * turns)
 }
 
-/// The decrease of a pair's distance below that at the start at which the pair counts as approaching, in units of the
-/// distance's rounding. It is for pairs in contact at the start. Four units cover the rounding of both distances, and
-/// the rounding that a rate of zero accumulates over the whole duration.
+/// The decrease of a pair's distance from which on the pair counts as approaching, in units of the distance's rounding.
+/// It is for pairs that are in contact at the start, and is measured from the distance at the start. Four units cover
+/// the rounding of both distances, and the rounding that a rate of zero accumulates over the whole duration.
 pub const RESTING_DECREASE: f64 = 4.0;
 
-/// The height up to which the corners around a point count as level with the point, in units of the distance's rounding
-/// error. One unit is for the point, and one for the corners.
+/// The height along a direction up to which the corners around a point count as level with the point, in units of the
+/// distance's rounding. One unit is for the point, and one for the corners.
 pub const LEVEL_HEIGHT: f64 = 2.0;
 
-/// The distance from a point up to which faces count as adjacent to it, in units of the distance's rounding. They are
-/// the faces across an edge that contains the point, and faces that bridge cracks.
+/// The distance up to which a face counts as adjacent to a point, in units of the distance's rounding. Such faces are
+/// those across an edge that contains the point, and faces that bridge cracks.
 pub const ADJACENCY_DISTANCE: f64 = 256.0;
 
 /// Returns whether rounding may turn the direction between two points by more than a millionth of a radian. Such a
@@ -217,26 +226,27 @@ pub fn is_direction_uncertain(distance: f64, rounding: f64) -> bool {
     !(1e-6 * distance > rounding)
 }
 
-/// The least length of a component perpendicular to other vectors for which its direction is used, for a unit vector.
-/// Rounding turns it by the inverse of the length, in units of [`UNIT_ROUNDOFF_F64`].
+/// The least length of a unit vector's component perpendicular to other vectors, for the direction of the component to
+/// be used. Rounding turns the component by the inverse of the length, in units of [`UNIT_ROUNDOFF_F64`].
 pub const LEAST_COMPONENT_LENGTH: f64 = 1e-6;
 
-/// The error of the determinant of three vectors, relative to the product of their 1-norms, if at least two of them are
-/// differences of points. It also bounds that of a product of two vectors, relative to theirs.
+/// The error of the determinant of three vectors, relative to the product of their 1-norms, if at least two of the
+/// vectors are differences of points. It also bounds the error of a scalar product of two vectors, relative to the
+/// product of their 1-norms.
 ///
 /// Each difference is rounded (1u), the products of three components take 2 more, the six of them are
 /// summed in 3: at most 8u; 16u are taken.
 pub const DETERMINANT_ERROR_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 
-/// The deviation of a computed orthonormal frame from unit lengths and right angles, in f64: twelve rotations of
+/// The deviation of an orthonormal frame computed in f64 from unit lengths and right angles. Twelve rotations of
 /// [`UNIT_ROUNDOFF_F64`] each come to less, and f32, to which a box's axes are rounded, is far above.
 pub const FRAME_ERROR_F64: f64 = 1e-13;
 
-/// The widening of a node's box for tests against rays, relative to its radius: the box's axes are rounded to f32, and
-/// rays are not counted by the bit.
+/// The amount by which a node's box is widened for tests against rays, relative to its radius. The box's axes are
+/// rounded to f32, and the test itself is not exact.
 pub const RAY_BOX_WIDENING_F64: f64 = 1e-5;
 
-/// The gap beyond the margin that the clocks of pairs of nodes keep, in units of the tolerance. It takes up the
+/// The gap beyond the margin at which the clock of a pair of nodes stops, in units of the tolerance. It takes up the
 /// rounding of nodes that are not too large, so that all of them stop at the same gap. With a slack that grows with the
 /// size of the nodes instead, two flat faces that meet would have all of their larger nodes split before a pair of
 /// pieces is seen.
@@ -246,20 +256,20 @@ pub const NODE_GAP: f64 = 7.0 / 8.0;
 /// with a coordinate, and no sum of four weights, overflows or underflows.
 pub const WEIGHT_RANGE: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// The least distance from a surface at which a point is known to be inside or outside, in units of the rounding of
-/// distances: the positions of both are rounded.
+/// The least distance from a surface at which a point is certainly inside or outside, in units of the rounding of
+/// distances. The positions of both are rounded.
 pub const INSIDE_DISTANCE: f64 = 4.0;
 
-/// The distance from an edge on a flat piece at which points of the piece are tested, in units of the edge's part on
-/// it: far above rounding, below the distance to other features.
+/// The distance beside an edge at which points of a flat piece are tested, in units of the length of the edge's part on
+/// the piece. It is far above rounding, and below the distance to other features.
 pub const BESIDE_EDGE_DISTANCE: f64 = 1e-3;
 
-/// The error of a height `n·x`, relative to `|n|₁` and the largest coordinate: three products and two sums, at most 3u;
-/// 4u are taken.
+/// The error of a height `n·x` computed in f64, relative to the product of `|n|₁` and the largest coordinate of `x`.
+/// Three products and two sums take at most 3u; 4u are taken.
 pub const HEIGHT_ERROR_F64: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 
-/// The error of the height of a disc around points computed in f32, in units of the piece's size, along a direction
-/// whose largest component is 1.
+/// The error of the height of a disc that encloses the points of a piece, computed in f32 and in units of the piece's
+/// size. The height is along a direction whose largest component is 1.
 ///
 /// In units of `u = 2⁻²⁴`, with lengths of points and of the direction at most √3: the direction is
 /// rounded (3u); the centre is projected by five operations (12u); radius and thickness are
@@ -267,13 +277,13 @@ pub const HEIGHT_ERROR_F64: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 /// part across it (12u); the sums add 14u. That is 59u; 96u are taken.
 pub const DISC_HEIGHT_ERROR_F32: f32 = 96.0 * UNIT_ROUNDOFF_F32;
 
-/// The error of the squared component of a direction perpendicular to a disc's normal, relative to the direction's own
-/// square. The square (9u), that of its component along the normal (27u), the normal's length (6u), and the difference
-/// (3u) add up to 45u; 64u are taken.
+/// The error of the squared component of a direction perpendicular to a disc's normal, relative to the squared length
+/// of the direction. The squared length (9u), that of the component along the normal (27u), the normal's length (6u),
+/// and the difference (3u) add up to 45u; 64u are taken.
 pub const DISC_TILT_ERROR_F32: f32 = 64.0 * UNIT_ROUNDOFF_F32;
 
-/// The error of the least height of many points along an axis while their body turns. Its unit is the sum of their
-/// farthest distances from the centre of rotation and from the body's origin.
+/// The relative error of the least height of a body's points along an axis while the body turns. It is relative to the
+/// sum of the points' farthest distances from the centre of rotation and from the body's origin.
 ///
 /// The axis in the body's frame is off by the direction of the angular velocity (2u), two products with it
 /// (6u), sine and cosine (4u), their products and sums (4u), and the rotation into that frame (7u):
@@ -294,28 +304,28 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
     128.0 * UNIT_ROUNDOFF_F64 * u * v * reach + f64::MIN_POSITIVE
 }
 
-/// The error of the extent of a box along an axis computed in f64, relative to the box's radius: the box's axes are
-/// orthonormal to f32 only.
+/// The error of the extent of a box along an axis, relative to the box's radius. The extent is computed in f64, but the
+/// box's axes are orthonormal to f32 only.
 ///
 /// Half sizes are measured along the rounded axes. With `U` the matrix of these, `UᵀU` differs from
 /// 1 by at most `2√3 u`, as each axis is off by `u` in length: 3.5u; 4u are taken.
 pub const BOX_EXTENT_ERROR_F32: f64 = 4.0 * UNIT_ROUNDOFF_F32 as f64;
 
-/// The thickness of a box, relative to its radius, up to which a node counts as flat: its axis is rounded to f32
-/// ([`BOX_EXTENT_ERROR_F32`]), its size outward.
+/// The thickness of a node's box up to which the node counts as flat, relative to the box's radius. The box's axis is
+/// rounded to f32 ([`BOX_EXTENT_ERROR_F32`]), its size outward.
 pub const FLAT_THICKNESS_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
 
-/// The error of the velocity along a screw axis, relative to the whole velocity: the axis is off by 4.5u, twice, and
+/// The error of the velocity along a screw axis, relative to the whole velocity. The axis is off by 4.5u, twice, and
 /// products, sums and differences by 9u; 32u are taken.
 pub const ADVANCE_ERROR_F64: f64 = 32.0 * UNIT_ROUNDOFF_F64;
 
-/// The widening of an interval of numbers of turns before its whole numbers are taken, in turns and relative to them.
-/// It is far above the rounding of a quotient, a few units in the last place.
+/// The amount by which an interval of numbers of turns is widened before the whole numbers in it are taken, both in
+/// turns and relative to the numbers. It is far above the rounding of a quotient, a few units in the last place.
 pub const TURN_COUNT_WIDENING: f64 = 1e-9;
 
-/// Returns a bound of the rounding of `f = a r + b ζ` for a node, together with the rounding of its extent, computed in
-/// f64. `shortcuts/screw/profile.rs` explains `f`. The values `n` are `|a|` and `|b|`; `arm` is the distance of the
-/// node's centre from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per radian,
+/// Returns a bound of the rounding of the values of `f = a r + b ζ` over a node, computed in f64.
+/// `shortcuts/screw/profile.rs` explains `f`. The values `n` are `|a|` and `|b|`; `arm` is the distance of the node's
+/// centre from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per radian,
 /// divided by the distance from the axis.
 ///
 /// In units of `u`: a centre's offset is rounded (1), its height taken (4) and taken off (2), and the
@@ -329,7 +339,8 @@ pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 
     64.0 * UNIT_ROUNDOFF_F64 * ((a + b) + b * tilt.abs()) * (arm + radius)
 }
 
-/// The factor that moves the corners of a polygon around a circle outward, to compensate for their rounding.
+/// The factor that enlarges a polygon around a circle, so that it contains the circle despite the rounding of its
+/// corners.
 ///
 /// In units of `u`: a corner's angle is off by 9 (a product with 2π, rounded twice), which brings an edge nearer by
 /// 6.4 at most; sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a cosine,

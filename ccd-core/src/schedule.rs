@@ -1,4 +1,4 @@
-//! The public interface of schedules, which choose the order in which pairs of pieces are advanced.
+//! The public interface of schedules, which choose the order in which pairs of nodes are advanced.
 
 use crate::answer::Answer;
 use crate::distance::oracle::DistanceOracle;
@@ -14,7 +14,7 @@ pub use crate::questions::depth_first::DepthFirst;
 pub use crate::questions::steps::{FirstContact, Progress};
 pub use crate::shortcuts::{Shortcut, Shortcuts};
 
-/// An algorithm that answers queries: it chooses in which order the pairs of two bodies are advanced.
+/// An algorithm that answers queries, by choosing the order in which the pairs of nodes of two bodies are advanced.
 ///
 /// A schedule owns its working memory. Keep the schedule and the oracle between queries.
 ///

@@ -19,8 +19,8 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The accuracy of contacts: they are reported at a distance of at most margin + tolerance. In the scene's unit of
-    /// length, at least [`LEAST_TOLERANCE`](limits::LEAST_TOLERANCE).
+    /// The accuracy of contacts: a contact is reported at a distance of at most margin + tolerance. In the scene's unit
+    /// of length, at least [`LEAST_TOLERANCE`](limits::LEAST_TOLERANCE).
     pub tolerance: f64,
     /// The distance at which bodies count as touching, in the scene's unit of length; 0 reports actual contact.
     pub margin: f64,
@@ -29,7 +29,7 @@ pub struct Settings {
     /// the bodies may [exceed](crate::Body::with_excess). With `None` the closest approach is measured. Other questions
     /// use the margin.
     pub clearance: Option<f64>,
-    /// What happens if the bodies are in contact at the start.
+    /// The policy for bodies that are in contact at the start: report the contact, or ignore it until they approach.
     pub start: StartPolicy,
     /// The largest amount of [work](crate::Stats::work) before the query is left unresolved. It counts iterations over
     /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less, and up to about 150
@@ -47,13 +47,13 @@ pub struct Settings {
     /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached depends on the
     /// machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
-    /// Which vector instructions are used. Answers are the same, to the last bit.
+    /// The vector instructions that are used; answers are the same with any, to the last bit.
     pub instructions: Instructions,
-    /// Which shortcuts of the search are used. Answers have the same guarantee.
+    /// The shortcuts that the search uses; answers have the same guarantee with any of them.
     pub shortcuts: Shortcuts,
-    /// A flag by which other threads stop queries. Soon after it is set, a query ends as
-    /// [`Limit::Stopped`](crate::Limit::Stopped), with a certified time. It is read as often as the clock is for a
-    /// deadline.
+    /// A flag that another thread sets to stop the query; `None` if nothing stops it. Soon after it is set, a query
+    /// ends as [`Limit::Stopped`](crate::Limit::Stopped), with a certified time. It is read as often as the clock is
+    /// for a deadline.
     ///
     /// ```
     /// use ccd_core::Settings;
@@ -78,7 +78,7 @@ impl Settings {
         stop: None,
     };
 
-    /// Converts the settings to the form that a query stores.
+    /// Returns the settings in the form that a query stores, with the stop flag borrowed.
     pub(crate) fn terms(&self) -> QuerySettings<'_> {
         QuerySettings {
             tolerance: self.tolerance,
@@ -136,7 +136,7 @@ impl QuerySettings<'_> {
     }
 }
 
-/// Which vector instructions are used.
+/// The choice of vector instructions for the bounds of nodes.
 ///
 /// On x86 these are AVX2 or SSE2. Other targets have one set each, NEON for instance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -144,11 +144,11 @@ pub enum Instructions {
     /// The best instructions of the machine, detected at run time.
     #[default]
     Best,
-    /// The instructions for which the program was built, which every machine of that target has.
+    /// The instructions of the target that the program was built for, which every such machine has.
     Baseline,
 }
 
-/// What happens if the bodies are in contact at the start.
+/// The policy for bodies that are in contact at the start.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};

@@ -1,5 +1,5 @@
-//! Optional shortcuts of the search. Each proves at once what the search would prove in many steps, in a certain kind
-//! of scene. No answer depends on them.
+//! Optional shortcuts of the search. In a certain kind of scene, each proves at once what the search would prove in
+//! many steps. No answer depends on them.
 //!
 //! The README of this folder has the scene that needs each of them, and what it saves there.
 
@@ -15,20 +15,20 @@ pub(crate) mod turning_pieces;
 /// A shortcut of the search, which can be turned off to measure its benefit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shortcut {
-    /// Proves far bodies apart at once, by two balls on straight paths.
+    /// Proves two distant bodies apart for the whole query at once, by bounding balls on straight paths.
     Balls,
-    /// Proves bodies apart at once, by one fixed plane between their bounding boxes.
+    /// Proves two bodies apart for the whole query at once, by one fixed plane between their bounding boxes.
     Boxes,
-    /// Searches one period instead of all periods of bodies that turn many times.
+    /// Searches one period of the motion instead of all periods, for bodies that turn many times.
     Rounds,
     /// Proves a bolt and its nut, or a shaft and its sleeve, apart at once, by surfaces that the screw motion maps to
     /// themselves.
     Screw,
-    /// Bounds flat nodes that approach face to face in f64, where f32 is too coarse.
+    /// Computes bounds in f64 for pairs of flat nodes that approach face to face, if f32 is too coarse for them.
     FlatNodes,
-    /// Separates small nodes from a large turning one by planes that turn with it.
+    /// Separates small nodes from a large turning node by planes that turn with the large node.
     TurningNodes,
-    /// Tries planes that turn with a piece, for pieces beside it.
+    /// Separates two pieces by a plane that turns with one of them.
     TurningPieces,
 }
 
@@ -48,8 +48,8 @@ impl Shortcut {
 /// The set of shortcuts that a query uses.
 ///
 /// # Guarantee
-/// Any choice gives answers with the same guarantee. Without a shortcut, the scenes that it is made for take longer, and
-/// may reach the budget.
+/// Any choice gives answers with the same guarantee. Without a shortcut, the scenes that it is made for take longer,
+/// and may reach the budget.
 ///
 /// ```
 /// use ccd_core::{Settings, schedule::{Shortcut, Shortcuts}};

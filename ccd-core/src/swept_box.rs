@@ -1,4 +1,4 @@
-//! Bounding boxes of moving bodies over a duration, for a broad phase over many bodies.
+//! Bounding boxes of bodies over their whole motion, for the broad phase of a query about many bodies.
 
 use crate::body::Body;
 use crate::error::InputError;
@@ -66,10 +66,10 @@ impl MovingBody<'_> {
     }
 }
 
-/// The number of equal parts into which a trajectory is cut, besides the cuts at its corners.
+/// The number of equal parts into which the duration of a trajectory is cut; each part is cut again at a corner.
 const PART_COUNT: usize = 16;
 
-/// Computes the union of the boxes of all stretches of a trajectory.
+/// Computes a box that contains the body on its whole trajectory, as the union of the boxes of short stretches.
 fn swept_box_of_stretches(
     body: &Body,
     trajectory: &dyn Trajectory,
@@ -104,7 +104,7 @@ fn swept_box_of_stretches(
     )
 }
 
-/// Computes a box around a body in one stretch of a trajectory.
+/// Computes a box that contains the body throughout one stretch of a trajectory.
 fn swept_box_of_stretch(
     body: &Body,
     stretch: &Stretch,
@@ -150,7 +150,8 @@ fn swept_box_of_motion(
     })
 }
 
-/// Returns a box that contains the body in all orientations, with its centre of rotation at the start.
+/// Returns a box, by its least and greatest corner, that contains the body in all orientations of its motion with its
+/// centre of rotation held at the start.
 fn at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().body_box();
@@ -172,8 +173,8 @@ fn at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     )
 }
 
-/// Returns a bound of half the contact distance plus the rounding of the box. The tolerance in that distance is the
-/// greater of the one in the settings and the least that can be certified.
+/// Returns the length by which a box is grown: half the contact distance plus a bound of the rounding of the box. The
+/// contact distance is the margin plus the tolerance, which may be raised to the least that can be certified.
 fn half_contact_distance(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;

@@ -1,4 +1,4 @@
-//! Helpers of the unit tests: exact references, a slow oracle, random scenes.
+//! Helpers that unit tests share: exact arithmetic, a slow oracle, random scenes and trajectories.
 
 pub(crate) mod double;
 pub(crate) mod far_ends;

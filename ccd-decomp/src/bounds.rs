@@ -6,7 +6,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
-/// An axis-aligned box, with its boundary: boxes that touch meet.
+/// An axis-aligned box, including its boundary.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) lo: DVec3,
@@ -65,8 +65,8 @@ impl BoundsTree {
         &self.bounds[index as usize]
     }
 
-    /// Calls `holds` for the index of every box that meets a box, until it returns false. Returns whether all results
-    /// were true.
+    /// Returns whether `holds` is true for the index of every box that meets the given box. It calls `holds` until the
+    /// first false result.
     pub(crate) fn all_boxes_meeting(
         &self,
         bounds: &Bounds,

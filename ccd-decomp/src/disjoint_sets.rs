@@ -1,6 +1,7 @@
 //! A union-find structure for disjoint sets of integers.
 
-/// Disjoint sets of the elements `0..n`. Every element points to another element of its set, and the root to itself.
+/// A partition of the elements `0..n` into disjoint sets. Every element points to another element of its set, and the
+/// root to itself.
 pub(crate) struct DisjointSets(Vec<u32>);
 
 impl DisjointSets {
@@ -20,7 +21,7 @@ impl DisjointSets {
         k
     }
 
-    /// Returns the set number of each element. Sets are numbered in the order of their smallest elements.
+    /// Returns, for each element, the number of its set. Sets are numbered in the order of their smallest elements.
     pub(crate) fn numbers(&mut self) -> Vec<u32> {
         let mut numbers = Vec::with_capacity(self.0.len());
         let mut count = 0;
@@ -38,14 +39,15 @@ impl DisjointSets {
         numbers
     }
 
-    /// Joins the sets of two elements.
+    /// Merges the sets that contain two elements into one set.
     pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b) as usize] = a.min(b);
     }
 }
 
-/// Returns the elements of each set in ascending order, given the [number](DisjointSets::numbers) of each element's set.
+/// Returns the elements of each set in ascending order, given the [number](DisjointSets::numbers) of each element's
+/// set.
 pub(crate) fn members(numbers: &[u32]) -> Vec<Vec<u32>> {
     let count = numbers.iter().max().map_or(0, |&last| last as usize + 1);
     let mut members = vec![Vec::new(); count];

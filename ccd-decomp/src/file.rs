@@ -1,4 +1,4 @@
-//! Stores prepared bodies in files, and loads them.
+//! Stores bodies that are prepared for queries in files, and loads them.
 
 pub(crate) mod error;
 mod frame;
@@ -22,8 +22,8 @@ pub(crate) fn has_stored_body_extension(path: &Path) -> bool {
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
 }
 
-/// The stored fields of a model, in this order, followed by remarks if there are any. A hull tree is stored without its
-/// pieces. Any change to these types or their order needs a new version of the format.
+/// The fields of a model in the order in which they are stored; remarks follow if there are any. A hull tree is stored
+/// without its pieces. Any change to these types or their order needs a new version of the format.
 type Stored = (
     Pieces,
     Hierarchy,
@@ -126,8 +126,8 @@ impl Model {
         Ok(model)
     }
 
-    /// Checks that the fields of a loaded model are consistent with each other. Each field has been checked by
-    /// itself.
+    /// Checks that the fields of a loaded model are consistent with each other, and returns what is wrong if not. Each
+    /// field has been checked by itself.
     fn check(&self) -> Result<(), &'static str> {
         let pieces = self.pieces.len();
         // A binary tree has one more leaf than inner nodes.

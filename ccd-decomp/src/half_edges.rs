@@ -2,19 +2,21 @@
 
 use rayon::prelude::*;
 
-/// The number of a half-edge: `3 f + k` runs along face `f` from its corner `k` to the next. Less than 2³¹.
+/// The number of a half-edge, less than 2³¹. The half-edge `3 f + k` runs along face `f` from its corner `k` to the
+/// next corner.
 pub(crate) type HalfEdge = u32;
 
-/// The edges of a list of triangles, in ascending order of their end vertices, the smaller end first.
+/// The half-edges of a list of triangles, sorted so that the half-edges on one edge are adjacent. Edges are in
+/// ascending order of their end vertices, the smaller end first.
 pub(crate) struct Edges(Vec<EdgeUse>);
 
-/// A half-edge on an edge.
+/// A half-edge, with the undirected edge on which it lies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeUse {
-    /// The ends of the edge, the smaller first.
+    /// The end vertices of the edge, the smaller number first.
     ends: [u32; 2],
     half_edge: HalfEdge,
-    /// Whether the half-edge runs from the upper end to the lower.
+    /// Whether the half-edge runs from the larger end vertex to the smaller.
     pub(crate) is_backward: bool,
 }
 
@@ -23,14 +25,15 @@ impl EdgeUse {
         self.half_edge / 3
     }
 
-    /// Returns 1 if the half-edge runs from the lower end to the upper, else −1.
+    /// Returns 1 if the half-edge runs from the smaller end vertex to the larger, and −1 otherwise.
     pub(crate) fn direction(self) -> i32 {
         if self.is_backward { -1 } else { 1 }
     }
 }
 
 impl Edges {
-    /// Finds all edges, except from a vertex to itself. O(n log n) in the number of triangles.
+    /// Sorts the half-edges of some triangles by edge, without those from a vertex to itself. O(n log n) in the number
+    /// of triangles.
     pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
         let half_edges = (0..)
             .zip(triangles)
@@ -50,14 +53,14 @@ impl Edges {
         Edges(uses)
     }
 
-    /// Iterates over the edges: the two end vertices, and the half-edges on the edge in ascending order.
+    /// Iterates over the edges: for each, its two end vertices, and the half-edges on it in ascending order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[EdgeUse])> {
         let edges = self.0.chunk_by(|one, next| one.ends == next.ends);
         edges.map(|uses| (uses[0].ends, uses))
     }
 }
 
-/// Returns the twin of every half-edge of some triangles: the half-edge on the same edge in the opposite direction.
+/// Returns the twin of every half-edge of some triangles: the half-edge along the same edge in the opposite direction.
 /// Returns `None` unless each half-edge has exactly one twin.
 pub(crate) fn twins(triangles: &[[u32; 3]]) -> Option<Vec<HalfEdge>> {
     let edges = Edges::new(triangles);

@@ -15,8 +15,8 @@ use crate::hull::polygons::merged_polygons;
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, PolygonList};
 
-/// A hull cannot be computed: a coordinate of a point is too near to 0 for exact predicates, not finite, or too
-/// large.
+/// The error of a hull that cannot be computed: a coordinate of a point is too near to 0 for exact predicates, too
+/// large, or not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("point {point} has a coordinate that is out of range for exact predicates")]
 pub struct HullError {
@@ -46,7 +46,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     })
 }
 
-/// Creates a hull from its facets, and from the points that are corners of them.
+/// Creates a hull from its facets, which keeps only the points that are corners of facets.
 fn hull_from_facets(points: &[DVec3], mut facets: PolygonList) -> Hull {
     let mut corners: Vec<u32> = facets.corners().to_vec();
     corners.sort_unstable();
@@ -64,7 +64,7 @@ fn hull_from_facets(points: &[DVec3], mut facets: PolygonList) -> Hull {
     }
 }
 
-/// Returns the distinct points of a list, in the order in which they first appear.
+/// Returns the points of a list without duplicates, in the order in which they first appear.
 fn distinct_points(points: &[DVec3]) -> Vec<DVec3> {
     let at = |k: u32| points[k as usize];
     let mut first: Vec<u32> = (0..points.len() as u32).collect();

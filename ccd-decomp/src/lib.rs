@@ -1,4 +1,4 @@
-//! Meshes in, bodies out: readers, checks, repairs and hierarchies for `ccd-core`.
+//! Turns meshes into bodies for `ccd-core`: readers, checks, repairs, convex pieces and hierarchies.
 //!
 //! | to … | see |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Triangle meshes: read, checked and repaired.
+//! Triangle meshes that are read from files or memory, checked and repaired.
 
 pub(crate) mod adjustments;
 pub(crate) mod affine;
@@ -28,7 +28,8 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
-/// A triangle mesh with finite vertices. Each triangle has the number of its face in the file.
+/// A triangle mesh with finite vertices, which has been checked and repaired. Each triangle has the number of its face
+/// in the file.
 ///
 /// # Guarantee
 /// The triangles cover every planar polygon of the file and every point of its degenerate faces. There is at
@@ -47,7 +48,7 @@ pub struct TriangleMesh {
     vertices: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     face_ids: Vec<u32>,
-    /// By vertex, the first vertex with exactly the same coordinates.
+    /// For each vertex, the index of the first vertex with exactly the same coordinates.
     positions: Vec<u32>,
     /// The number of faces in the file, including those that were dropped.
     face_count: u32,
@@ -55,8 +56,8 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// Reads a mesh file in the format of its extension, with all its parts as one mesh. [`MeshFile`] reads one part,
-    /// or each of them, and converts units.
+    /// Reads a mesh file in the format that its extension names, with all its parts as one mesh. [`MeshFile`] reads one
+    /// part, or each of them, and converts units.
     ///
     /// # Errors
     /// [`MeshError`], which names the file and the element. No bytes panic.
@@ -112,7 +113,8 @@ impl TriangleMesh {
         ))
     }
 
-    /// Creates a mesh from valid triangles, each with its face number. Drops duplicate and collapsed triangles.
+    /// Creates a mesh from triangles with valid indices, each with the number of its face in the file. Drops duplicate
+    /// and collapsed triangles.
     fn from_triangles(
         vertices: Vec<DVec3>,
         (all_faces, all_ids): (Vec<[u32; 3]>, Vec<u32>),
@@ -149,22 +151,22 @@ impl TriangleMesh {
         }
     }
 
-    /// Returns the vertices in the file's order, unreferenced ones included.
+    /// Returns the vertices in the file's order, including those that no face uses.
     pub fn vertices(&self) -> &[DVec3] {
         &self.vertices
     }
 
-    /// Returns the triangles, as indices into the vertices.
+    /// Returns the triangles, each as three indices into the vertices.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
-    /// Returns the face number in the file for each triangle.
+    /// Returns, for each triangle, the number of its face in the file.
     pub fn face_ids(&self) -> &[u32] {
         &self.face_ids
     }
 
-    /// Copies the mesh, with the given triangles reversed.
+    /// Returns a copy of the mesh in which the given triangles have the reverse orientation.
     pub(crate) fn with_reversed_faces(&self, faces: &[u32]) -> Self {
         let mut mesh = self.clone();
         for &face in faces {
@@ -173,7 +175,7 @@ impl TriangleMesh {
         mesh
     }
 
-    /// Returns the faults of the mesh that were repaired.
+    /// Returns the faults of the mesh that were found and repaired.
     pub fn repairs(&self) -> &Repairs {
         &self.repairs
     }
@@ -183,7 +185,8 @@ impl TriangleMesh {
         self.faces[face as usize].map(|v| self.vertices[v as usize])
     }
 
-    /// Returns a triangle's corners with equal points welded: each is the first vertex at exactly its point.
+    /// Returns a triangle's corners after welding: each corner is the index of the first vertex at exactly the same
+    /// point.
     pub(crate) fn welded_face(&self, face: u32) -> [u32; 3] {
         self.faces[face as usize].map(|v| self.positions[v as usize])
     }
@@ -195,7 +198,7 @@ impl TriangleMesh {
     }
 }
 
-/// Maps every vertex to the first one at exactly the same point; 0 and −0 are equal.
+/// Returns, for each vertex, the index of the first vertex at exactly the same point; 0 and −0 are equal.
 fn weld_vertices(vertices: &[DVec3]) -> Vec<u32> {
     let mut first = HashMap::with_capacity(vertices.len());
     let number = |(vertex, point): (usize, &DVec3)| {

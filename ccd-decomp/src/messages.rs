@@ -1,4 +1,4 @@
-//! Texts that messages about files of meshes and of bodies share.
+//! Texts that the error messages about mesh files and about stored bodies have in common.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub struct FileError<F: fmt::Display> {
     /// The path of the file; `None` for content from a reader or from memory.
     pub file: Option<PathBuf>,
-    /// The fault of the content.
+    /// What is wrong with the file or its content.
     pub fault: F,
 }
 
@@ -33,7 +33,7 @@ fn path_prefix(file: Option<&PathBuf>) -> String {
 /// The first bytes of a Git LFS pointer.
 const LFS_POINTER_PREFIX: &[u8] = b"version https://git-lfs";
 
-/// The error message for a Git LFS pointer.
+/// The error message for a file that is a Git LFS pointer instead of its content.
 pub(crate) const LFS_ADVICE: &str = "is a Git LFS pointer, a few lines that stand for the file; run `git \
                                      lfs pull` to fetch the file itself";
 

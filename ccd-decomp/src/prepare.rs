@@ -1,4 +1,4 @@
-//! Prepares bodies for queries from meshes.
+//! Prepares meshes for queries: makes convex pieces of them, and bodies of the pieces.
 
 mod choose;
 pub(crate) mod error;
@@ -78,7 +78,7 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBod
     prepare(mesh, detail)?.into_prepared_body()
 }
 
-/// Makes the pieces of a mesh and a hierarchy over them. The result is a model, which can be stored.
+/// Makes the convex pieces of a mesh and a hierarchy over them. The result is a model, which can be stored.
 ///
 /// # Guarantee
 /// The pieces cover the mesh. Except with [`Detail::OuterHull`], they touch nothing outside the solid that it bounds.

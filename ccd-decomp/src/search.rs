@@ -41,8 +41,8 @@ impl TriangleBoxes {
         }
     }
 
-    /// Calls `holds` for every triangle that may meet a region, and some others. Stops when `holds` returns false or
-    /// the work is spent, one step for each box. Returns whether all results were true.
+    /// Calls `holds` for every triangle that conservative tests do not separate from a region. Stops when `holds`
+    /// returns false or the work is spent, one step for each box. Returns whether all results were true.
     ///
     /// # Guarantee
     /// An omitted triangle shares no point with the region, except perhaps a common corner.

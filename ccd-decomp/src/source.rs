@@ -56,7 +56,8 @@ pub enum BodySource {
         radius: f64,
         /// The half length of the cylinder along z.
         half_height: f64,
-        /// The maximum excess of the cylinder's polytope; `None` for the [usual](SolidOfRevolution::usual_excess) one.
+        /// The maximum excess of the cylinder's polytope; `None` for the [usual](SolidOfRevolution::usual_excess)
+        /// excess.
         excess: Option<f64>,
     },
     /// A cone along z, `cone:r,h` or `cone:r,h,excess`; see [`Body::cone`] and [`SolidOfRevolution::enclose`].
@@ -65,12 +66,13 @@ pub enum BodySource {
         radius: f64,
         /// The half length of the cone along z; the apex is up.
         half_height: f64,
-        /// The maximum excess of the cone's polytope; `None` for the [usual](SolidOfRevolution::usual_excess) one.
+        /// The maximum excess of the cone's polytope; `None` for the [usual](SolidOfRevolution::usual_excess) excess.
         excess: Option<f64>,
     },
     /// A [stored](crate::Model::save) body, by the path of a file that ends in `.ccd`.
     Stored(PathBuf),
-    /// A mesh file or a part of one, with adjustments; any other text. All parts of a file are one body.
+    /// A mesh file or a part of a mesh file, with adjustments: any text that describes no other kind of body. All parts
+    /// of a file are one body.
     Mesh(MeshSource),
 }
 
@@ -93,9 +95,9 @@ impl BodySource {
         self.load_adjusted(&Adjustments::NONE, detail)
     }
 
-    /// Creates the body like [`BodySource::load`], with coordinates in a unit. Those of a mesh file that states its
-    /// unit are [converted](crate::MeshFile::in_unit); all other lengths, including those of shapes and stored bodies,
-    /// are assumed to be in that unit.
+    /// Creates the body like [`BodySource::load`], with coordinates in the given unit. The coordinates of a mesh file
+    /// that states its unit are [converted](crate::MeshFile::in_unit); all other lengths, including those of shapes and
+    /// stored bodies, are assumed to be in that unit.
     ///
     /// # Errors
     /// Those of [`BodySource::load`].
@@ -103,7 +105,8 @@ impl BodySource {
         self.load_adjusted(&Adjustments::NONE.converted_to(unit), detail)
     }
 
-    /// Creates the body like [`BodySource::load`], with further adjustments of mesh files. Shapes do not change.
+    /// Creates the body like [`BodySource::load`], with adjustments to mesh files in addition to those of the
+    /// description. Shapes do not change.
     ///
     /// # Errors
     /// Those of [`BodySource::load`]; [`SourceError::Prepared`] for a stored body, unless only the unit is given.
@@ -158,7 +161,7 @@ impl BodySource {
         Ok(PreparedBody { unit, ..prepared })
     }
 
-    /// Describes the body in a file. The extension decides whether it is a stored body or a mesh.
+    /// Returns the description of the body in a file: a stored body or a mesh, depending on the extension.
     pub fn from_file(path: PathBuf) -> Self {
         if has_stored_body_extension(&path) {
             BodySource::Stored(path)
@@ -232,7 +235,8 @@ const SHAPE_LENGTHS: [(&str, usize); 5] = [
     ("cone", 2),
 ];
 
-/// Parses the lengths of a shape. A cylinder and a cone may have one more, the excess.
+/// Creates the description of a shape from the words of its lengths. A cylinder and a cone may have one more, the
+/// excess.
 fn parse_shape(
     shape: &'static str,
     expected: usize,

@@ -38,7 +38,7 @@ impl<T> Tally<T> {
 }
 
 impl Tally<u32> {
-    /// Adds the elements of another tally, each increased by `first`.
+    /// Adds the element numbers of another tally, each increased by `first`.
     pub(crate) fn append(&mut self, other: &Self, first: u32) {
         let room = MAX_STORED_ELEMENTS - self.first.len();
         let numbers = other.first.iter().map(|number| first + number);

@@ -32,14 +32,14 @@ mod gltf {
     use base64::engine::general_purpose::STANDARD;
     use serde_json::{Value, json};
 
-    /// A glTF under construction, with the JSON's fields.
+    /// A glTF under construction: its JSON, and the bytes of its buffer.
     pub(crate) struct Gltf {
         pub(crate) json: Value,
         pub(crate) binary: Vec<u8>,
     }
 
     impl Gltf {
-        /// Creates a glTF with one mesh of the given primitives, in one node without a name.
+        /// Creates a glTF with one unnamed node, whose mesh has no primitives yet.
         pub(crate) fn new() -> Self {
             let json = json!({
                 "asset": {"version": "2.0"},
@@ -54,7 +54,7 @@ mod gltf {
             Gltf { json, binary }
         }
 
-        /// Creates a glTF with a triangle that has a corner at the origin, in one node.
+        /// Creates a glTF with one node and a mesh of one triangle, which has a corner at the origin.
         pub(crate) fn triangle() -> Self {
             let mut gltf = Gltf::new();
             let position =
@@ -79,7 +79,7 @@ mod gltf {
             list.expect("a list").push(value);
         }
 
-        /// Appends bytes to the buffer as a view, and returns the view's index.
+        /// Appends bytes to the buffer as a buffer view, and returns the view's index.
         pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
             while !self.binary.len().is_multiple_of(4) {
                 self.binary.push(0);

@@ -1,4 +1,4 @@
-//! Small closed meshes for tests, with whole coordinates.
+//! Small closed meshes for tests.
 
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::{DVec3, dvec3};
@@ -62,7 +62,7 @@ pub(crate) fn block([x, y, z]: [i32; 3]) -> Vec<[i32; 3]> {
         .collect()
 }
 
-/// Returns a tetrahedron, oriented outward.
+/// Returns the tetrahedron of the origin and the three unit vectors, oriented outward.
 pub(crate) fn tetrahedron() -> TriangleMesh {
     mesh(
         vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
@@ -81,13 +81,13 @@ pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> Triangle
     mesh(vertices.collect(), part.faces())
 }
 
-/// Reverses every face of a mesh.
+/// Returns the mesh with every face reversed, which turns it inside out.
 pub(crate) fn mesh_with_reversed_faces(part: &TriangleMesh) -> TriangleMesh {
     let faces: Vec<[u32; 3]> = part.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
     mesh(part.vertices().to_vec(), &faces)
 }
 
-/// Creates a mesh from vertices and faces.
+/// Creates a mesh from vertices and faces; panics if they are invalid.
 pub(crate) fn mesh(vertices: Vec<DVec3>, faces: &[[u32; 3]]) -> TriangleMesh {
     TriangleMesh::new(vertices, faces).unwrap()
 }
@@ -131,8 +131,8 @@ fn prism_with_caps(outline: &[DVec3], caps: &[[u32; 3]]) -> TriangleMesh {
     mesh(vertices, &faces)
 }
 
-/// Returns upright teeth of given heights on a bar from z = 0 to 1. Its caps fit it: a fan for the bar, and two
-/// triangles for every tooth.
+/// Returns a comb, extruded along z from 0 to 1: a bar along x, with teeth that end at the given heights along y. The
+/// caps are a fan for the bar, and two triangles for every tooth.
 pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
     let count = heights.len() as u32;
     let mut outline = vec![DVec3::ZERO, dvec3(f64::from(2 * count + 1), 0.0, 0.0)];
@@ -163,8 +163,7 @@ pub(crate) fn toothed_disc_outline(count: u32) -> Vec<DVec3> {
         .collect()
 }
 
-/// Returns a convex prism with a number of corners under a narrower, longer one: large caps on a solid that is not
-/// star-shaped.
+/// Returns a wide prism with a narrower, longer prism on top: a solid with large caps that is not star-shaped.
 pub(crate) fn prism_under_prism(corners: u32) -> TriangleMesh {
     let ring = |radius: f64, z: f64| {
         (0..corners).map(move |k| {

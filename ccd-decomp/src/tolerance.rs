@@ -16,7 +16,7 @@ pub(crate) const MAX_CLUSTER_PIECES: usize = 256;
 /// Unit: passes. Fewer: slower, hardly better trees.
 pub(crate) const ADJACENT_ONLY_PASSES: usize = 2;
 
-/// The search distance along the curve for the best neighbour in later passes of agglomeration.
+/// The search distance along the Morton curve for the best neighbour of a node, in later passes of agglomeration.
 ///
 /// Unit: places. Larger: better trees by less than a percent, but slower to build.
 pub(crate) const NEIGHBOUR_SEARCH_DISTANCE: usize = 6;
@@ -60,7 +60,7 @@ pub(crate) const MAX_EIGEN_ITERATIONS: usize = 256;
 /// Unit: boxes and triangles examined in searches, of 10 to 50 ns: half a second's work.
 pub(crate) const EXCESS_WORK_BUDGET: u64 = 3 << 23;
 
-/// The number of plane tests that cost as much as a triangle test, one step of that work.
+/// The number of plane tests that cost as much as one triangle test, which is one step of [`EXCESS_WORK_BUDGET`].
 pub(crate) const PLANES_PER_STEP: usize = 16;
 
 /// The maximum number of waiting boxes in the search for a bound on the excess of a hull.
@@ -69,22 +69,23 @@ pub(crate) const PLANES_PER_STEP: usize = 16;
 /// only a few steps: millions of them took hundreds of megabytes.
 pub(crate) const MAX_EXCESS_BOXES: usize = 1 << 19;
 
-/// The ratio of the excess bound to the largest distance found at which the search for the bound ends.
+/// The search for a bound on the excess ends when the bound is at most this multiple of the largest distance found.
 pub(crate) const EXCESS_RATIO: f64 = 1.01;
 
-/// The difference between the excess bound and the largest distance found at which the search ends, in units of half
-/// the mesh's diagonal. Either this or the ratio suffices.
+/// The search for a bound on the excess ends when the bound exceeds the largest distance found by at most this, in
+/// units of half the mesh's diagonal. Either this or [`EXCESS_RATIO`] suffices.
 pub(crate) const EXCESS_FLOOR: f64 = 1e-4;
 
-/// The maximum number of triangles near a box from which the excess within the box is bounded.
+/// The maximum number of triangles near a box that are used to bound the excess within the box.
 pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;
 
 /// The measured time of queries with one kind of pieces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PieceCost {
-    /// The median time against a body of many triangles, for any number of pieces, in µs.
+    /// The median time of a query against a body of many triangles, in µs. The same time is assumed for any number of
+    /// pieces.
     pub(crate) typical_time: f64,
-    /// The time per piece of a plane that rests flat on another, in µs.
+    /// The time that a query takes for each piece of a plane that rests flat on another body, in µs.
     pub(crate) resting_time: f64,
 }
 
@@ -112,11 +113,11 @@ pub(crate) const PATCH_COST: PieceCost = PieceCost {
 /// examined. It is a guess: with it, patches are chosen from about three hundred triangles in one plane on.
 pub(crate) const RESTING_QUERY_SHARE: f64 = 1.0 / 50.0;
 
-/// The number of length bins per doubling of the length. Edges in one bin count as equally long, so that rounding
-/// does not separate the edges of a grid.
+/// The number of bins per doubling of the length, into which edges are sorted by length. Edges in one bin count as
+/// equally long, so that rounding does not separate the edges of a grid.
 pub(crate) const LENGTH_BINS: f64 = 16.0;
 
-/// The number of direction bins per unit of each coordinate of a unit vector.
+/// The number of bins per unit of each coordinate of a unit vector, into which edges are sorted by direction.
 pub(crate) const DIRECTION_BINS: f64 = 64.0;
 
 /// The minimum number of pieces for which the two sides of a hull tree node are built in parallel.
@@ -130,7 +131,7 @@ pub(crate) const MIN_PARALLEL_PIECES: usize = 256;
 /// tree's own.
 pub(crate) const MAX_SPREAD_SAMPLES: usize = 64;
 
-/// The minimum number of triangles at one vertex that are searched as a fan.
+/// The minimum number of triangles that share a vertex for them to be searched as a fan.
 ///
 /// Unit: triangles. The boxes of fewer triangles also overlap, but are few.
 pub(crate) const MIN_FAN_TRIANGLES: u32 = 32;
@@ -145,12 +146,12 @@ pub(crate) const BOXES_BEFORE_ORIENTED_TESTS: usize = 32;
 /// Unit: pairs. The fan of a non-convex polygon may have as many as the square of its corners.
 pub(crate) const MAX_CROSSINGS: usize = 1000;
 
-/// The work budget of `Detail::Auto` for testing and making patches.
+/// The work budget of `Detail::Auto` for checking that a mesh bounds a solid, and for making patches.
 ///
 /// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
 pub(crate) const AUTO_WORK_BUDGET: u64 = 1 << 24;
 
-/// The cost of an expanded vertex, in units of a face corner, which takes about 25 bytes.
+/// The cost of a vertex that a file expands to, in units of the cost of a face corner, which takes about 25 bytes.
 pub(crate) const VERTEX_COST: u64 = 4;
 
 /// The constant part of the limit on what a file may expand to by repeated references, in face corners.

@@ -9,19 +9,19 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    /// Creates a budget without a limit.
+    /// Creates a budget without a limit, which only counts steps.
     pub(crate) fn unbounded() -> Self {
         Work::with_steps(u64::MAX)
     }
 
-    /// Creates a budget of `steps` steps.
+    /// Creates a budget that is exhausted after `steps` steps.
     pub(crate) fn with_steps(steps: u64) -> Self {
         Work {
             left: Cell::new(steps),
         }
     }
 
-    /// Spends steps from the budget. Returns whether any are left.
+    /// Spends steps from the budget, and returns whether any are left.
     pub(crate) fn spend(&self, steps: usize) -> bool {
         let rest = self.left.get().checked_sub(steps as u64);
         self.left.set(rest.unwrap_or(0));

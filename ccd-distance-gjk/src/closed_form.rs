@@ -51,7 +51,7 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Creates the oracle for a choice of vector instructions; the claims are the same, to the last bit.
+    /// Creates the oracle for a choice of vector instructions. All choices give the same claims, to the last bit.
     pub fn new(instructions: Instructions) -> Self {
         ClosedForm {
             level: instructions.level(),
@@ -101,8 +101,9 @@ fn best_axis_and_points(level: Level, p: &Corners, q: &Corners, near: Nearest) -
     (axis, pierce::common_point(p, q, near))
 }
 
-/// Transforms both pieces to A's axes with A's first point as origin, so that the rounding of later operations depends
-/// on the pieces' size and distance, not on where they lie in their bodies.
+/// Returns the corners of both pieces along A's axes, with A's first point as origin; `None` unless both have one to
+/// three points. The rounding of later operations then depends on the pieces' size and distance, not on where they lie
+/// in their bodies.
 #[inline]
 fn corners_in_local_frame(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);

@@ -3,7 +3,7 @@
 use ccd_core::fearless_simd::{ExtractToken, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 
-/// Four vectors in f64, coordinate by coordinate.
+/// Four vectors in f64. Each field holds one coordinate of all four vectors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes3<L: Simd> {
     pub(crate) x: f64x4<L>,
@@ -37,7 +37,7 @@ impl<L: Simd> Lanes3<L> {
         self.x.token()
     }
 
-    /// Returns the vector in one lane.
+    /// Returns the vector in the lane `k`, from 0 to 3.
     pub(crate) fn lane(self, k: usize) -> DVec3 {
         DVec3::new(self.x[k], self.y[k], self.z[k])
     }
@@ -62,13 +62,13 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Returns the scalar products.
+    /// Returns the scalar product of the two vectors in each lane.
     #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> f64x4<L> {
         self.x * other.x + (self.y * other.y + self.z * other.z)
     }
 
-    /// Returns the cross products.
+    /// Returns the cross product of the two vectors in each lane.
     #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
         Lanes3 {
@@ -78,7 +78,8 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Returns the component of each vector that is perpendicular to `direction`; the vector itself if that is zero.
+    /// Returns the component of each vector that is perpendicular to `direction`; the vector itself if `direction` is
+    /// zero.
     #[inline(always)]
     pub(crate) fn perpendicular_to(self, direction: Self) -> Self {
         let t = self.dot(direction) * reciprocal(direction.dot(direction));

@@ -1,7 +1,7 @@
 //! All numeric tolerances of this crate, each with its unit, derivation, and purpose.
 
-/// The least share of the distance between the nearest points found that the support gap along the axis must reach for
-/// a search to end.
+/// A search ends only if the support gap along its axis is at least this fraction of the distance of the nearest points
+/// found.
 ///
 /// Witnesses of pieces of size s carry rounding of about u·s. Their difference, of length d, is
 /// therefore tilted by u·s/d, and loses u·s²/d of the support gap: a share u·(s/d)² of d. Above d =
@@ -10,8 +10,8 @@
 /// than 1e-8 s appear to intersect.
 pub(crate) const MIN_CERTIFIED_SHARE: f64 = 63.0 / 64.0;
 
-/// The share of the nearest points' distance below which an axis suggests that the pieces intersect. The nearest
-/// features' own axes keep [`MIN_CERTIFIED_SHARE`]; a half is far from it and from 0.
+/// Pieces are tested for intersection if the gap along the best axis is less than this fraction of the nearest points'
+/// distance. The nearest features' own axes keep [`MIN_CERTIFIED_SHARE`]; a half is far from it and from 0.
 pub(crate) const INTERSECTION_SHARE: f64 = 0.5;
 
 /// The largest number of steps of a GJK search.

@@ -1,4 +1,4 @@
-//! Finds axes whose support gap certifies that two features are nearest, if the march alone leaves a tie.
+//! Finds axes whose support gap certifies that two features are nearest, if the march ends in a tie.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
@@ -16,7 +16,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Computes the gap along a direction of any length; for a zero direction the gap is −∞.
+    /// Creates the axis along a direction of any length, with its support gap; −∞ for a zero direction.
     pub(crate) fn along(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
         let known = direction != DVec3::ZERO;
@@ -30,7 +30,7 @@ impl Axis {
         }
     }
 
-    /// Returns whether the gap along the axis certifies the distance, up to rounding.
+    /// Returns whether the support gap along the axis equals the given distance, up to rounding.
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
@@ -64,7 +64,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     }
 }
 
-/// Returns the best axis for nearest features if their difference vector is a tie or tiny.
+/// Returns the axis with the largest support gap among directions that the features around the nearest points span.
 ///
 /// The directions along which features are extremal form a cone; a rounded vector may fall out of it. Its borders are
 /// also tried: the normals of adjacent faces, cross products of edges, the vector across each edge; and for coplanar or

@@ -15,10 +15,10 @@ use crate::witness::Witness;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUpReason};
 
-/// A claim, after the pair of features from which the next call starts.
+/// The pair of features from which the next call starts, and a claim.
 type Certified = (Pair, Claim);
 
-/// Certifies the result of a march that ended in a tie, a cycle or a common point.
+/// Certifies the result of a march that ended in a tie, in a cycle, at a common point or at the step limit.
 ///
 /// If a neighbouring pair of features is nearer, the march resumes there. If the end cannot be certified, the march
 /// restarts at the corners that are extremal along the best axis.
@@ -57,7 +57,7 @@ pub(crate) fn certify_march_end(
     found.ok_or(why)
 }
 
-/// The result of a check of a march's end.
+/// The result of checking the end of a march: certified, or how to continue.
 enum CheckResult {
     Certified(Certified),
     /// The end is not certified: a neighbouring pair of features is nearer.
@@ -81,7 +81,7 @@ fn check(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> CheckRes
     }
 }
 
-/// Certifies a pair at which a march stopped, if that is not certain already.
+/// Certifies the pair of features at which a march stopped, unless the pair is certain already.
 fn check_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> CheckResult {
     let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= CERTAIN_DISTANCE * placed.scale.size {
@@ -90,7 +90,7 @@ fn check_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Chec
     certify_tie(placed, pair)
 }
 
-/// Certifies the nearest pair of a cycle.
+/// Certifies the pair of features with the least distance among the pairs of a cycle.
 fn check_cycle(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
     let (mut pair, mut nearest) = (start, start);
     let mut least = Witness::new(placed, start).distance();
@@ -110,8 +110,8 @@ fn check_cycle(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
     certify_tie(placed, nearest)
 }
 
-/// Certifies a pair by the best axis of the features around, or else a nearer neighbouring pair. A new march might end
-/// at the same tie.
+/// Certifies a pair of features by the best axis of the features around it. If that fails, it tries nearer neighbouring
+/// pairs. A new march might end at the same tie.
 fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
     let mut pair = start;
     for _ in 0..MAX_TIE_MOVES {
@@ -133,7 +133,7 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
     CheckResult::NearerPair(pair)
 }
 
-/// Returns the claim of a witness along another axis.
+/// Returns the certified claim with the points of a witness and the given axis.
 fn certified_along_axis(pair: Pair, witness: &Witness, axis: DVec3) -> CheckResult {
     let claim = Claim {
         axis,
@@ -142,7 +142,7 @@ fn certified_along_axis(pair: Pair, witness: &Witness, axis: DVec3) -> CheckResu
     CheckResult::Certified((pair, claim))
 }
 
-/// Searches all edges and faces for a common point of the polytopes.
+/// Searches all edges and faces for a point where the polytopes cross; `None` if there is no such point.
 fn search_common_point(
     placed: &PlacedPair<'_>,
     pair: Pair,

@@ -1,4 +1,4 @@
-//! Clips edges by the Voronoi planes of another feature `[VCLIP98 §3.2]`.
+//! Clips edges by the Voronoi planes of a face, and finds the overlap of parallel edges `[VCLIP98 §3.2]`.
 
 use crate::placed::{Line, Placed, clamp};
 use ccd_core::glam::DVec3;
@@ -7,12 +7,12 @@ use ccd_core::glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ClipEnd {
     pub(crate) parameter: f64,
-    /// The edge of the face whose plane made the cut; `None` if the clipped edge ends there itself.
+    /// The edge of the face whose Voronoi plane cut the clipped edge; `None` if the clipped edge itself ends here.
     pub(crate) cutting_edge: Option<u32>,
 }
 
-/// Clips an edge by the face-edge planes of a face, and returns both ends of the part within the prism above and below
-/// the face; `None` if nothing is left.
+/// Clips an edge to the prism above and below a face, and returns both ends of the part inside; `None` if nothing is
+/// left.
 #[inline]
 pub(crate) fn clip_to_prism<Y: Placed>(
     line: &Line,

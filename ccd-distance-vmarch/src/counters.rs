@@ -1,6 +1,6 @@
 //! Counters of an oracle's work.
 
-/// Counters of an oracle's work, over all calls.
+/// Counts of what an oracle has done, summed over all calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// The number of calls of the oracle.

@@ -7,7 +7,7 @@
 use ccd_core::glam::DVec3;
 use std::ops::{Add, Mul, Sub};
 
-/// A number with twice the digits of f64, as the unevaluated sum of two.
+/// A number with twice the digits of f64, as the unevaluated sum of two f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DoubleDouble {
     high: f64,

@@ -9,7 +9,8 @@ use crate::tolerance::{MAX_PARALLEL_SINE, PRODUCT_ERROR};
 use crate::vertex_edge::face_towards_point;
 use ccd_core::glam::DVec3;
 
-/// Tests the nearest points of both edges against the Voronoi planes of the other edge, vertex-edge planes first.
+/// Computes the march's next step from two edges, by testing the nearest point of each edge against the Voronoi planes
+/// of the other edge. Vertex-edge planes are tested first.
 ///
 /// The march goes on to a corner if a nearest point is an end, or to a face if the other edge's
 /// point is on its side.
@@ -47,18 +48,19 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
-/// The nearest points of two segments, and the axis between them.
+/// The nearest points of two segments, and the cross product of the segments' directions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestPoints {
     /// The parameters of the nearest points along both segments.
     pub(crate) parameters: [f64; 2],
-    /// The cross product of the directions; its length is the sine of their angle.
+    /// The cross product of the segments' unit directions; its length is the sine of the angle between them.
     pub(crate) cross_product: DVec3,
 }
 
 impl NearestPoints {
-    /// Returns the cross product, oriented along `offset`, if rounding turns it less than it turns `offset`; `None`
-    /// otherwise. The former is its own rounding over the sine, the latter that of the positions over the distance.
+    /// Returns the cross product, oriented along `offset`, if rounding tilts it less than it tilts `offset`; `None`
+    /// otherwise. The cross product is tilted by its own rounding over the sine, `offset` by the rounding of the
+    /// positions over the distance.
     #[inline(always)]
     pub(crate) fn axis(&self, offset: DVec3, scale: Scale) -> Option<DVec3> {
         // Written so that NaN does not turn it.
@@ -112,14 +114,14 @@ pub(crate) fn end_vertex_at(edge: &Edge, parameter: f64) -> Option<u32> {
     }
 }
 
-/// The vector between the nearest points of two edges, and the axis between the edges.
+/// The vector between the nearest points of two edges, and the most accurate direction of that vector.
 #[derive(Clone, Copy)]
 struct NearestVector {
     offset: DVec3,
     /// The vector between the nearest points, or the direction perpendicular to both edges: whichever rounding tilts
     /// less.
     axis: DVec3,
-    /// The rounding of a scalar product with the axis.
+    /// A bound on the rounding error of a scalar product with the axis.
     slack: f64,
 }
 
@@ -143,8 +145,8 @@ impl NearestVector {
         }
     }
 
-    /// Returns the face of an edge on whose side the other point is; of two, the face with the larger height of the
-    /// point.
+    /// Returns the face of an edge towards which the other edge's nearest point lies; `None` if that point is in the
+    /// edge's Voronoi region. Of two such faces, it is the face that the point is higher above.
     #[inline(always)]
     fn face_side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
         let inward = slopes.map(|slope| slope - self.slack);
@@ -159,16 +161,17 @@ impl NearestVector {
     }
 }
 
-/// On which side of an edge a point outside its Voronoi region is.
+/// The side of an edge on which a point outside the edge's Voronoi region lies.
 enum Side {
     /// The point is on the side of this face.
     InFront(u32),
-    /// The point is behind both faces of the edge, less far behind this one.
+    /// The point is behind both faces of the edge, and less far behind this face.
     Behind(u32),
 }
 
 impl Side {
-    /// Returns the next pair: the face of X, and the feature of Y that contains the point.
+    /// Returns the march's next step: the pair of the face of X and the feature of Y, or a local minimum for a point
+    /// behind both faces.
     fn next_pair(&self, feature: Feature, point: DVec3) -> MarchStep {
         match *self {
             Side::InFront(face) => MarchStep::Continue(Feature::Face(face), feature),

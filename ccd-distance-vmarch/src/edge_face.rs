@@ -1,4 +1,4 @@
-//! The transition of the march from an edge against a face, which is never an end `[VCLIP98 §3.2]`.
+//! The transition of the march from an edge against a face. The march never ends at such a pair `[VCLIP98 §3.2]`.
 
 use crate::clip;
 use crate::edge_edge;
@@ -6,8 +6,9 @@ use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
-/// Continues from the lowest point of the edge above the face, within its prism: to the edge's end, or to the side of
-/// the face that bounds it there. An edge outside the prism leads to the nearest side.
+/// Computes the march's next step from an edge and a face, at the edge's lowest point within the face's prism. The step
+/// leads to the edge's end, or to the side of the face that clips the edge there. An edge outside the prism leads to
+/// the nearest side.
 ///
 /// An edge that has points on both sides of the plane goes through the face if exact signs say so
 /// ([`penetration`]); otherwise it passes by the nearest side, however close.
@@ -54,7 +55,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     }
 }
 
-/// Continues to the edge of the face that is nearest to the given edge.
+/// Returns the step to the side of the face that is nearest to the given edge.
 fn step_to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> MarchStep {
     let sides = y.shape().sides_of(f);
     let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));

@@ -1,4 +1,4 @@
-//! Escapes from local minima: features behind one face, but not behind all `[VCLIP98 §3.3]`.
+//! Escapes from local minima, where a feature is behind the plane of one face of the other polytope `[VCLIP98 §3.3]`.
 
 use crate::feature::{Crossing, Feature, LocalMinimum};
 use crate::penetration;
@@ -8,15 +8,15 @@ use ccd_core::glam::DVec3;
 /// How the march continues from a local minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Escape {
-    /// The feature is in front of this face, and farther in front of it than of any other face.
+    /// The march continues at this face: the feature is in front of it, and farther than in front of any other face.
     Face(u32),
-    /// The feature is behind all faces, and contains a point of the other polytope.
+    /// The feature is behind all faces, and exact signs prove a common point of the polytopes.
     CommonPoint(Crossing),
-    /// The feature is behind all faces up to rounding, and exact signs prove no common point.
+    /// The feature is behind all faces up to rounding, but exact signs could not prove a common point.
     Unclear,
 }
 
-/// Finds the face of Y that a feature of X is farthest in front of.
+/// Returns the face of Y that a feature of X is farthest in front of, or a common point if it is behind all faces.
 pub(crate) fn escape_local_minimum<X: Placed, Y: Placed>(
     x: &X,
     minimum: LocalMinimum,
@@ -42,7 +42,7 @@ pub(crate) fn escape_local_minimum<X: Placed, Y: Placed>(
     inside.map_or(Escape::Unclear, Escape::CommonPoint)
 }
 
-/// Returns the face with the largest height of a point above it, and that height.
+/// Returns the face whose plane the point is highest above, and the signed height; `None` for a polytope without faces.
 fn farthest<Y: Placed>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
     let faces = 0..y.shape().faces.len() as u32;
     let heights = faces.filter_map(|f| {

@@ -22,7 +22,8 @@ pub(crate) struct Pair {
 pub(crate) enum MarchStep {
     /// The march continues with a pair that is nearer, or equally near and of lower dimension.
     Continue(Feature, Feature),
-    /// The march stops: each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
+    /// The march stops: each feature's nearest point is in the Voronoi region of the other feature, so no pair is
+    /// nearer.
     Stop(Certainty),
     /// A feature of one polytope is behind a face of the other. The march is in a local minimum, and needs an
     /// [escape](crate::escape).
@@ -31,7 +32,7 @@ pub(crate) enum MarchStep {
     CommonPoint(WhichPolytope, Crossing),
 }
 
-/// One of the two polytopes X and Y.
+/// The first or the second polytope of a tested pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WhichPolytope {
     X,
@@ -39,7 +40,7 @@ pub(crate) enum WhichPolytope {
 }
 
 impl MarchStep {
-    /// Returns the result with X and Y swapped.
+    /// Returns the result of the same test with polytopes X and Y swapped.
     #[inline(always)]
     pub(crate) fn swapped(self) -> MarchStep {
         match self {
@@ -65,35 +66,35 @@ impl WhichPolytope {
     }
 }
 
-/// How certain it is that a stop is at the nearest pair.
+/// Whether rounding can have stopped the march at a pair that is not the nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Certainty {
-    /// The point is on the inner side of every Voronoi plane, by more than rounding.
+    /// Rounding cannot have hidden a nearer pair: the stop needs no certificate.
     Sure,
-    /// The point is on some Voronoi plane up to rounding, or the features touch: the stop needs a
-    /// certificate.
+    /// Rounding may have hidden a nearer pair, or the features touch: the stop needs a certificate.
     Tied,
 }
 
-/// A corner or edge behind a face of the other polytope, in the part within that face's prism.
+/// A corner or edge of one polytope that is behind a face of the other, wherever it projects onto that face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LocalMinimum {
     /// The corner or edge that is behind the face.
     pub(crate) feature: Feature,
-    /// The point of the feature that is least deep behind the face.
+    /// The point of the feature that projects onto the face, and is the least deep behind it.
     pub(crate) point: DVec3,
-    /// The index of the face.
+    /// The index of the face that the feature is behind.
     pub(crate) face: u32,
 }
 
 /// A common point of two polytopes, on an edge or a corner of one of them, proven by exact signs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
-    /// The ends of the edge, or twice the corner, with their weights.
+    /// The ends of the edge with their weights; if the common point is a corner, that corner twice.
     pub(crate) on_edge: WeightedCorners<2>,
-    /// Three corners of the face with their weights, and a fourth corner if the point is inside.
+    /// Three corners of the face with their weights, and a fourth corner if the common point is inside the polytope.
     pub(crate) face_corners: WeightedCorners<4>,
-    /// The face that is crossed, or a face with the point behind it.
+    /// The index of the face that the edge crosses; for a corner inside the polytope, the index of a face that the
+    /// corner is behind.
     pub(crate) face: u32,
 }
 

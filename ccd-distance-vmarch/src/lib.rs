@@ -1,5 +1,5 @@
-//! Voronoi marching for [`ccd_core`]. It computes distances of convex polytopes from the features that were nearest
-//! last time `[LINCANNY91, VCLIP98, SWIFT01]`.
+//! Voronoi marching as a distance oracle for [`ccd_core`]. It computes distances of convex polytopes from the features
+//! that were nearest last time `[LINCANNY91, VCLIP98, SWIFT01]`.
 //!
 //! [`Vmarch`] is a [`DistanceOracle`](ccd_core::DistanceOracle) for pieces whose facets are known.
 //! Two features, one of either piece, are the nearest ones if the nearest point of each is in the

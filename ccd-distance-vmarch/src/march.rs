@@ -1,4 +1,4 @@
-//! The march from pair to nearer pair of features, until none is nearer `[VCLIP98 §3]`.
+//! Marches from one pair of features to a nearer pair, until no pair is nearer `[VCLIP98 §3]`.
 
 use crate::counters::Counters;
 use crate::escape::{Escape, escape_local_minimum};
@@ -8,7 +8,7 @@ use crate::termination::{BrentCycleDetector, End};
 use crate::tolerance::MAX_STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
-/// Marches from a pair of features to the nearest pair.
+/// Marches from a pair of features towards the nearest pair, and returns how the march ended.
 ///
 /// In exact arithmetic every step leads to features that are nearer, or as near and of a lower dimension, so that no
 /// pair occurs twice. In floating point one may, which [`BrentCycleDetector`] detects.
@@ -43,7 +43,7 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
     End::StepLimit(pair)
 }
 
-/// Finds the way out of a local minimum at a feature of one of the polytopes A and B.
+/// Finds how the march continues from a local minimum; `which` is the polytope of its feature, X for A and Y for B.
 #[cold]
 fn escape(placed: &PlacedPair<'_>, which: WhichPolytope, minimum: LocalMinimum) -> Escape {
     let PlacedPair { a, b, scale } = placed;
@@ -53,8 +53,8 @@ fn escape(placed: &PlacedPair<'_>, which: WhichPolytope, minimum: LocalMinimum) 
     }
 }
 
-/// Tests one pair of features of A and B, and returns the next one. Two faces are never tested: an edge of one replaces
-/// it.
+/// Tests one pair of features of A and B, and returns the step that follows. Two faces are never tested: an edge of one
+/// replaces it.
 #[inline]
 pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> MarchStep {
     let PlacedPair { a, b, scale } = placed;
@@ -74,7 +74,7 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> MarchStep {
     }
 }
 
-/// Returns a pair of features in the order A, B.
+/// Returns two features as a pair in the order A, B; `which` is the polytope of the first one, X for A and Y for B.
 fn ordered_pair(which: WhichPolytope, feature: Feature, other: Feature) -> Pair {
     match which {
         WhichPolytope::X => Pair {

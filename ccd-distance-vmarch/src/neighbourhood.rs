@@ -6,8 +6,8 @@ use crate::placed::{Placed, PlacedPair};
 use crate::tolerance::MAX_TIE_EDGE_PAIRS;
 use ccd_core::glam::DVec3;
 
-/// Returns the nearest pair of features of the faces around a pair, if it is nearer than `distance` by more than
-/// rounding.
+/// Searches the features of the faces around a pair for the nearest pair, and returns it if it is nearer than
+/// `distance` by more than rounding.
 ///
 /// Every local minimum of the distance of convex sets is global: if no neighbouring pair is nearer, no pair is. Unlike
 /// a march, this does not compare directions of decreasing distance, which are rounding at a tie, but distances, which
@@ -65,7 +65,8 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
     best.pair
 }
 
-/// The nearest pair of features so far; `None` if no pair is nearer than the distance.
+/// The nearest pair of features found so far, and its distance; `None` until a pair is nearer than the initial
+/// distance.
 struct NearestPair {
     distance: f64,
     pair: Option<Pair>,
@@ -110,13 +111,13 @@ impl SurroundingFeatures {
     }
 }
 
-/// Returns the vertex of an edge at a parameter, or the edge itself between the ends.
+/// Returns the end vertex of an edge that is at a parameter, or the edge itself for a parameter between the ends.
 fn vertex_or_edge_at<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     let end = edge_edge::end_vertex_at(polytope.shape().edge(e), parameter);
     end.map_or(Feature::Edge(e), Feature::Vertex)
 }
 
-/// Returns the height of a point above a face; infinite outside of its prism and behind its plane.
+/// Returns the height of a point above a face; infinite if the point is behind the face or does not project onto it.
 fn height_above_face<P: Placed>(point: DVec3, polytope: &P, f: u32) -> f64 {
     let mut height = f64::INFINITY;
     let normal = polytope.vector(polytope.shape().face(f).normal);

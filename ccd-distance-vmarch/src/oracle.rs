@@ -60,7 +60,7 @@ pub struct Vmarch {
 }
 
 impl Vmarch {
-    /// Returns the counters of the work so far.
+    /// Returns the counters of the work, summed over all calls of this oracle.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -139,7 +139,8 @@ fn prepare(piece: &Piece<'_>) -> Prepared {
     Box::new(Polytope::new(piece))
 }
 
-/// Returns the prepared form of a piece. A piece that belongs to no list is prepared now, and stored in `own`.
+/// Returns a piece as a polytope prepared for marching, or the reason why its preparation failed. A piece that belongs
+/// to no list is prepared now, and stored in `own`.
 #[inline]
 fn prepared_polytope<'p>(
     piece: &Piece<'p>,

@@ -42,8 +42,7 @@ pub(crate) fn edge_face_crossing<X: Placed, Y: Placed>(
     None
 }
 
-/// Returns the point of a corner inside the other polytope, as a point of a tetrahedron of one of its corners and a
-/// triangle of a face.
+/// Returns corner `v` of X as a common point if it is inside Y; the weights are those of a tetrahedron in Y around it.
 ///
 /// # Guarantee
 /// Like [`edge_face_crossing`].
@@ -96,7 +95,7 @@ pub(crate) fn search_crossing<X: Placed, Y: Placed>(x: &X, y: &Y) -> Option<Cros
     through.or_else(|| inner_corner_crossing(x, 0, y))
 }
 
-/// Returns whether a segment and a triangle that are not coplanar have a common point.
+/// Returns whether a segment and a triangle have a common point; false if they are coplanar.
 fn segment_meets_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let (first, last) = (side(triangle, start), side(triangle, end));
     let beside = first == last && first.is_ne();
@@ -108,7 +107,7 @@ fn segment_meets_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> boo
     turns.iter().all(|&turn| turn.is_ge()) || turns.iter().all(|&turn| turn.is_le())
 }
 
-/// Returns the intersection of a segment and a triangle, by the weights of the ends and of the corners.
+/// Returns the weights of a segment's ends, and of a triangle's corners, for the point in which the two intersect.
 fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 3]) {
     let (first, last) = (volume([a, b, c], start).abs(), volume([a, b, c], end).abs());
     let parts = [[b, c], [c, a], [a, b]].map(|[p, q]| volume([start, p, q], end).abs());

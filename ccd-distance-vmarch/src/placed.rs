@@ -16,13 +16,13 @@ pub(crate) trait Placed {
     /// Rotates a direction from the polytope's frame to A's.
     fn vector(&self, local: DVec3) -> DVec3;
 
-    /// Returns the position of a vertex.
+    /// Returns the position of a vertex in A's frame.
     #[inline(always)]
     fn vertex(&self, v: u32) -> DVec3 {
         self.point(self.shape().vertex(v).point)
     }
 
-    /// Returns the start, direction and length of an edge.
+    /// Returns the start, direction and length of an edge in A's frame.
     #[inline(always)]
     fn line(&self, e: u32) -> Line {
         let edge = self.shape().edge(e);
@@ -33,7 +33,7 @@ pub(crate) trait Placed {
         }
     }
 
-    /// Returns the components of a vector along the directions from an edge into both of its faces.
+    /// Returns the components of a vector along the two directions that point from an edge into its faces.
     #[inline(always)]
     fn inward(&self, edge: &Edge, offset: DVec3) -> [f64; 2] {
         edge.inward.map(|inward| self.vector(inward).dot(offset))
@@ -52,7 +52,7 @@ pub(crate) struct PlacedB<'a> {
     translation: DVec3,
 }
 
-/// Both polytopes in A's frame, and the scale of their rounding.
+/// Both polytopes in A's frame, and the size to which rounding errors are proportional.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedPair<'a> {
     pub(crate) a: PlacedA<'a>,
@@ -60,7 +60,7 @@ pub(crate) struct PlacedPair<'a> {
     pub(crate) scale: Scale,
 }
 
-/// The size of a pair of polytopes, which determines rounding.
+/// The size of a pair of polytopes, to which rounding errors are proportional.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
     /// The sum of both polytopes' reaches and of the distance of their origins.

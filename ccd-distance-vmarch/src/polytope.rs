@@ -39,11 +39,11 @@ pub(crate) struct Polytope {
     pub(crate) edges: Vec<Edge>,
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
-    /// The corners from which a climb starts, for polytopes of many corners.
+    /// A table of corners from which hill climbing starts; `None` for polytopes of few corners, which are scanned.
     start_corners: Option<Box<DirectionTable>>,
 }
 
-/// A corner of the polytope.
+/// A corner of the polytope, and the range of its outgoing edges.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) point: DVec3,
@@ -53,7 +53,7 @@ pub(crate) struct Vertex {
     end_outgoing_edge: u32,
 }
 
-/// An edge at one of its vertices. Its direction is the normal of a vertex-edge plane.
+/// An edge as seen from one of its end vertices. Its direction is the normal of a vertex-edge plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutgoingEdge {
     /// The unit vector away from the vertex along the edge.
@@ -63,7 +63,7 @@ pub(crate) struct OutgoingEdge {
     pub(crate) to: u32,
 }
 
-/// An edge between two faces, or the only one of a piece of two points.
+/// An edge between two faces, or the only edge of a polytope without faces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     pub(crate) start: DVec3,
@@ -95,7 +95,7 @@ pub(crate) struct Face {
 pub(crate) struct Side {
     /// The unit vector into the face, the same as in [`Edge::inward`].
     pub(crate) inward: DVec3,
-    /// The start of the edge, as in [`Edge::start`], so that edge and face compute a point's side of the plane with the
+    /// The start of the edge, the same as [`Edge::start`], so that tests against the edge and against the face give the
     /// same bits.
     pub(crate) start: DVec3,
     pub(crate) edge: u32,
@@ -104,8 +104,8 @@ pub(crate) struct Side {
 }
 
 impl Edge {
-    /// Returns whether a point or direction is certainly outside of both face planes of the edge, given its components
-    /// along `inward`.
+    /// Returns whether a point is outside of both face-edge planes by more than `slack`, given its components along
+    /// `inward`.
     #[inline(always)]
     pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];
@@ -136,14 +136,14 @@ impl Polytope {
         &self.outgoing_edges[vertex.first_outgoing_edge as usize..vertex.end_outgoing_edge as usize]
     }
 
-    /// Returns the sides of a face.
+    /// Returns the sides of a face, counterclockwise as seen from outside.
     #[inline]
     pub(crate) fn sides_of(&self, f: u32) -> &[Side] {
         let face = self.face(f);
         &self.sides[face.first_side as usize..face.end_side as usize]
     }
 
-    /// Returns the edges at a vertex, or the edge itself; an empty list for a face.
+    /// Returns the edges that contain a feature: those at a vertex, or the edge itself; an empty list for a face.
     pub(crate) fn edges_at(&self, feature: Feature) -> Vec<u32> {
         match feature {
             Feature::Vertex(v) => self
@@ -156,7 +156,7 @@ impl Polytope {
         }
     }
 
-    /// Returns the face itself, or the faces that meet in some edges, in ascending order.
+    /// Returns the faces that contain a feature, in ascending order; `edges` are the edges that contain the feature.
     pub(crate) fn faces_at(&self, feature: Feature, edges: &[u32]) -> Vec<u32> {
         let mut faces: Vec<u32> = match feature {
             Feature::Face(f) => vec![f],

@@ -12,7 +12,7 @@ use ccd_core::glam::DVec3;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cache(Option<LastMarchEnd>);
 
-/// The end of the last march on the same pair.
+/// The pair of features and the axis at which the last march ended, and the polytopes that it was about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct LastMarchEnd {
     pair: Pair,
@@ -22,7 +22,7 @@ struct LastMarchEnd {
 }
 
 impl Cache {
-    /// Stores the nearest pair, with the axis from A to B.
+    /// Stores the nearest pair of features, and the axis from A to B.
     #[inline]
     pub(crate) fn store(&mut self, placed: &PlacedPair<'_>, pair: Pair, axis: DVec3) {
         self.0 = Some(LastMarchEnd {
@@ -32,8 +32,8 @@ impl Cache {
         });
     }
 
-    /// Returns the pair to start from: the last one, or else vertices that are extremal along the last axis. Without an
-    /// axis, the vector between the origins replaces it.
+    /// Returns the pair of features to start from: the last pair, or else vertices that are extremal along the last
+    /// axis. Without an axis, the vector between the origins replaces it.
     #[inline]
     pub(crate) fn start(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {
@@ -74,7 +74,7 @@ fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
     [fingerprint(placed.a.shape()), fingerprint(placed.b.shape())]
 }
 
-/// Returns whether a march can start at a pair; it never can at two faces.
+/// Returns whether a march can start at a pair: both features must exist, and must not both be faces.
 #[inline]
 fn is_valid_start(placed: &PlacedPair<'_>, pair: Pair) -> bool {
     let two_faces = matches!((pair.a, pair.b), (Feature::Face(_), Feature::Face(_)));

@@ -11,7 +11,7 @@ pub(crate) enum End {
     CommonPoint(Pair, WhichPolytope, Crossing),
     /// The march returned to this pair.
     Cycle(Pair),
-    /// This pair is behind all faces, but no common point could be proven.
+    /// A feature of this pair is behind all faces of the other polytope, but no common point could be proven.
     Unclear(Pair),
     /// The march reached its limit of steps at this pair.
     StepLimit(Pair),
@@ -35,7 +35,7 @@ impl BrentCycleDetector {
         }
     }
 
-    /// Records a state, and returns whether it is the remembered one.
+    /// Records the next pair of a march, and returns whether it equals the remembered pair.
     #[inline]
     pub(crate) fn is_repeated(&mut self, pair: Pair) -> bool {
         if pair == self.left {

@@ -1,4 +1,5 @@
-//! Compares pairs of every kind with brute force, with empty caches, with warm ones, and with caches of other pairs.
+//! Compares claims about pairs of every kind with brute force, for empty caches, warm caches, and caches of other
+//! pairs.
 //!
 //! To print the results: `CCD_TEST_SLOW=1 cargo test --release -p ccd-distance-vmarch agrees --
 //! --nocapture`.
@@ -36,17 +37,17 @@ struct Tally {
     claims: u64,
     intersecting_pairs: u64,
     give_ups: u64,
-    /// The largest relative error of a distance, for distances of at least a thousandth of the coordinates.
+    /// The largest relative error of a distance, among distances above a thousandth of the scene's reach.
     relative: f64,
-    /// The largest error of a distance, in units of the coordinates' rounding.
+    /// The largest error of a distance, in units of the unit roundoff times the scene's reach.
     rounding: f64,
-    /// The largest difference of the distance and the gap along the axis, in the same units.
+    /// The largest excess of the distance over the support gap along the claimed axis, in the unit of `rounding`.
     gap_deficit: f64,
-    /// The largest distance claimed for intersecting pieces, in the same units.
+    /// The largest distance between the claimed witnesses of intersecting pieces, in the unit of `rounding`.
     intersecting_distance: f64,
 }
 
-/// The relative rounding error of one operation in f64.
+/// The largest relative rounding error of one operation in f64.
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 impl Tally {

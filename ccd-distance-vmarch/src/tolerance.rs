@@ -3,7 +3,7 @@
 //! `u` is half a unit in the last place of 1. Lengths are in the unit of the pieces' coordinates. A pair's *size* is
 //! the sum of both pieces' radii about their own origins, and of the distance of those origins.
 
-/// The relative rounding error of one operation in f64.
+/// The largest relative rounding error of one operation in f64.
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// The largest rounding error of a difference of two transformed points, in units of the pair's size.
@@ -14,10 +14,10 @@ const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 /// Without it the march would follow directions that are nothing but rounding.
 pub(crate) const PLACEMENT_ERROR: f64 = 16.0 * UNIT_ROUNDOFF;
 
-/// The rounding of a scalar product of two unit vectors, one of them transformed. Each is rounded when it is made (1u),
-/// one is turned (3u), and the product adds 3u. Without it a march would wander between the corners of a face that is
-/// parallel to the other one. A larger value would stop at corners next to nearer ones, by that much of an edge's
-/// length.
+/// The largest rounding error of the scalar product of two unit vectors, one of them transformed. Each is rounded when
+/// it is made (1u), one is turned (3u), and the product adds 3u. Without it a march would wander between the corners of
+/// a face that is parallel to the other one. A larger value would stop at corners next to nearer ones, by that much of
+/// an edge's length.
 pub(crate) const PRODUCT_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// The sine below which two edges count as parallel. Their cross product is then rounding, and all points of their
@@ -28,13 +28,13 @@ pub(crate) const MAX_PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
 /// the size, tilts a direction of that length at a cost of at most 64u of the size.
 pub(crate) const CERTAIN_DISTANCE: f64 = 1.0 / 4.0;
 
-/// The largest difference between the distance of the nearest points and the gap along the axis with which both count
-/// as certified, in units of the pair's size. It equals [`PLACEMENT_ERROR`], the error of that distance. A larger value
-/// would accept a tie with a nearer pair around it; a smaller one would search around in vain.
+/// The excess of the distance over the support gap up to which the gap certifies the distance, in units of the pair's
+/// size. It equals [`PLACEMENT_ERROR`], the error of that distance. A larger value would accept a tie with a nearer
+/// pair around it; a smaller one would search around in vain.
 pub(crate) const CERTIFIED_EXCESS: f64 = 16.0 * UNIT_ROUNDOFF;
 
-/// The excess of the distance over the gap up to which both count as certified, in units of the distance. It is for
-/// pieces that are much farther apart than they are large.
+/// The excess of the distance over the support gap that is allowed beyond [`CERTIFIED_EXCESS`], in units of the
+/// distance. It is for pieces that are much farther apart than they are large.
 pub(crate) const RELATIVE_CERTIFIED_EXCESS: f64 = 32.0 * UNIT_ROUNDOFF;
 
 /// The distance from a plane or a line up to which points count as on it, in units of the largest coordinate. Corners
@@ -43,7 +43,7 @@ pub(crate) const RELATIVE_CERTIFIED_EXCESS: f64 = 32.0 * UNIT_ROUNDOFF;
 /// sides.
 pub(crate) const COPLANARITY_TOLERANCE: f64 = 16.0 * UNIT_ROUNDOFF;
 
-/// The height above the plane of a facet up to which a corner counts as below it, in units of the largest coordinate,
+/// The height above a facet's plane up to which a corner counts as behind the facet. Its unit is the largest coordinate
 /// times the ratio of the piece's length to the facet's width. If corners were rounded after the hull was made, a
 /// facet's normal turns by their rounding over its width. Without it no sliver would be accepted; a larger value would
 /// accept facets that enclose nothing.
@@ -53,7 +53,7 @@ pub(crate) const CONVEXITY_TOLERANCE: f64 = 64.0 * UNIT_ROUNDOFF;
 /// at most once, and one per feature in practice; Lloyd's port of V-Clip stops at two.
 pub(crate) const MAX_STEPS_PER_FEATURE: usize = 4;
 
-/// The largest number of pairs of a cycle that are examined for the nearest one. Cycles are two to six pairs long.
+/// The largest number of pairs of a cycle that are examined for the nearest pair. Cycles are two to six pairs long.
 pub(crate) const MAX_CYCLE_PAIRS: usize = 64;
 
 /// The largest number of moves to nearer features around a tie before the march resumes. Each move gets nearer by more
@@ -64,17 +64,19 @@ pub(crate) const MAX_TIE_MOVES: usize = 8;
 /// begins at the corners that are extremal along the best axis.
 pub(crate) const MAX_RESTARTS: u32 = 2;
 
-/// The largest number of edges of each polytope from which axes are computed if the vector between the nearest points
-/// is rounding. They are the edges closest to a right angle to that vector. Five to ten edges meet in a common corner.
+/// The largest number of edges of each polytope from which axes are computed if the nearest points coincide up to
+/// rounding. They are the edges closest to a right angle to the vector between these points. Five to ten edges meet in
+/// a common corner.
 pub(crate) const MAX_AXIS_EDGES: usize = 12;
 
-/// The largest number of pairs of an edge and a face that are tested for a common point before a search gives up: a
-/// few milliseconds' work.
+/// The number of pairs of an edge and a face above which no common point is searched for. Testing so many takes a few
+/// milliseconds.
 pub(crate) const MAX_TESTED_PAIRS: usize = 1 << 17;
 
-/// The largest number of pairs of edges that are compared around a tie: those around a corner of 30 edges.
+/// The number of pairs of edges around a tie above which no nearer pair is searched for. Two corners of 30 edges have
+/// about so many.
 pub(crate) const MAX_TIE_EDGE_PAIRS: usize = 1 << 13;
 
-/// The number of corners above which a polytope has a table of directions; fewer are scanned. Scanning takes one or two
-/// nanoseconds per vertex, a climb from the table about thirty.
+/// The number of corners up to which a polytope is scanned for an extremal one; with more, it has a table of
+/// directions. Scanning takes one or two nanoseconds per vertex, a climb from the table about thirty.
 pub(crate) const MAX_SCANNED_CORNERS: usize = 32;

@@ -1,4 +1,4 @@
-//! Finds axes for pieces with a common point, which may only touch.
+//! Finds separating axes for pieces with a common point, which may only touch each other.
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, WhichPolytope};

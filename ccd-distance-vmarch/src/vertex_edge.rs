@@ -44,7 +44,8 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
-/// Returns the face of an edge on whose side a point is; of two, the face with the larger height of the point.
+/// Returns the face of an edge that a point projects towards; of two such faces, the one that the point is higher
+/// above. `None` if the point is outside of both face-edge planes.
 #[inline(always)]
 pub(crate) fn face_towards_point<Y: Placed>(
     y: &Y,
@@ -63,16 +64,17 @@ pub(crate) fn face_towards_point<Y: Placed>(
     }
 }
 
-/// The edge at a corner that comes nearest to the line of another edge.
+/// The edge at a corner along which the distance to a given line decreases most.
 struct SteepestEdge {
     edge: u32,
-    /// The decrease in distance along the edge, beyond rounding.
+    /// The distance times its rate of decrease along the edge, less an allowance for rounding.
     decrease: f64,
-    /// True if rounding hides for some edge whether it comes nearer.
+    /// Whether rounding hides, for some edge at the corner, if the distance decreases along it.
     is_tied: bool,
 }
 
-/// Finds the edge at a corner that comes nearest to a line; `offset` leads from the corner to the line.
+/// Finds the edge at a corner along which the distance to a line decreases most; `offset` leads from the corner to the
+/// line.
 ///
 /// A step along the corner's edge is matched by one along the line, so only the edge's part across
 /// the line counts. It is small for nearly parallel edges, and the allowance for rounding has to be

@@ -1,4 +1,4 @@
-//! The transition of the march from a corner against a face `[VCLIP98 §3.2]`.
+//! The V-Clip step from a pair of a vertex and a face to the next pair of features `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
@@ -6,8 +6,8 @@ use crate::placed::{Placed, Scale};
 use crate::tolerance::PRODUCT_ERROR;
 use crate::vertex_vertex::steepest_edge;
 
-/// Tests the corner against all face-edge planes, and continues with the edge of the most violated one. Above the face,
-/// it continues with the corner's edge that falls towards the face most steeply.
+/// Tests the corner against all face-edge planes, and continues with the edge of the most violated plane. Above the
+/// face, it continues with the corner's edge that falls towards the face most steeply.
 ///
 /// The nearest violated plane would be wrong: its edge need not be nearer.
 #[inline]

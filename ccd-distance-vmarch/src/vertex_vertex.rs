@@ -1,12 +1,12 @@
-//! The transition of the march from a corner against a corner `[VCLIP98 §3.2]`.
+//! The V-Clip step from a pair of two vertices to the next pair of features `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// Tests each corner against the other's vertex-edge planes, and continues with the edge that leads nearest to the
-/// other corner.
+/// Tests each corner against the other's vertex-edge planes, and continues with the edge behind the most violated
+/// plane.
 ///
 /// No slack is needed: [`vertex_edge`](crate::vertex_edge) tests the same plane by the same product
 /// of the same numbers, so that no pair returns from there.
@@ -29,13 +29,13 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Sc
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
-/// An edge at a corner, and how far it leads along a vector per unit of its length.
+/// An edge at a corner, and the scalar product of its unit direction with a given vector.
 pub(crate) struct SteepestEdge {
     pub(crate) edge: u32,
     pub(crate) slope: f64,
 }
 
-/// Returns the edge at a corner that leads farthest along a vector, per unit of its length.
+/// Returns the edge at a corner whose unit direction has the largest scalar product with a vector.
 #[inline(always)]
 pub(crate) fn steepest_edge<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> SteepestEdge {
     let mut best = SteepestEdge {

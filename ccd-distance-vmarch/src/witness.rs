@@ -11,13 +11,13 @@ use ccd_core::{Claim, Combination};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
-    /// The same points as combinations, and the direction from A to B along which they are apart, of any length.
+    /// The same points as combinations of the pieces' points, and an axis of any length from A to B.
     pub(crate) claim: Claim,
 }
 
 impl Witness {
-    /// Computes the nearest points of a pair at which a march may stop. A march never stops at a face with an edge or a
-    /// face; for these, two vertices are used.
+    /// Computes the nearest points of a pair of features at which a march may stop. A march never stops at a face with
+    /// an edge or a face; for these, two vertices are used.
     #[inline]
     pub(crate) fn new(placed: &PlacedPair<'_>, pair: Pair) -> Self {
         let PlacedPair { a, b, scale } = placed;
@@ -159,7 +159,7 @@ fn first_corner(shape: &Polytope, feature: Feature) -> u32 {
     }
 }
 
-/// Returns a combination of vertices as one of the piece's points.
+/// Converts weighted vertices of a polytope to a combination of the piece's points.
 #[inline]
 fn combination<const N: usize>(
     shape: &Polytope,
@@ -186,7 +186,7 @@ fn on_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Combination {
     Combination::segment(numbers, parameter / edge.length)
 }
 
-/// Projects a point onto a face, clamped to a triangle of the fan about its first corner.
+/// Projects a point onto a face, and returns the projection, clamped to a triangle of the face, with its weights.
 #[inline]
 fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Combination) {
     let sides = y.shape().sides_of(f);
@@ -208,7 +208,7 @@ fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Com
     )
 }
 
-/// Returns the weights of a triangle's corners for the projection of a point onto it.
+/// Returns the barycentric coordinates of a point's projection onto a triangle, clamped into the triangle.
 ///
 /// The weights are computed across the longest side first, then along it with the residual
 /// corrected. For a needle, the first is as accurate as rounding permits, and the second as the

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// The extension that is appended to the name of a claimed file.
 pub const PARTIAL_EXTENSION: &str = ".partial";
 
-/// A file that only this process writes, under a temporary name beside its target.
+/// A file that only this process writes, under a temporary name in the folder of its target.
 ///
 /// # Guarantee
 /// Of several claims of one file, under any path, only one succeeds. The operating system releases it when the process
@@ -23,7 +23,7 @@ pub struct Claim {
     left: u64,
 }
 
-/// The maximum number of attempts to lock the file; other processes may finish between opening and locking.
+/// The maximum number of attempts to lock the file; one fails if another process renames the file before it is locked.
 const MAX_LOCK_ATTEMPTS: usize = 100;
 
 impl Claim {
@@ -92,7 +92,7 @@ impl Claim {
         sibling(&self.temp_file.target, ending)
     }
 
-    /// Returns the file: empty, or with the content that an earlier process left.
+    /// Returns the open file, which is empty or has the content that an earlier process left.
     pub fn file(&mut self) -> &mut File {
         &mut self.temp_file.file
     }
@@ -119,7 +119,7 @@ impl Claim {
         Ok(())
     }
 
-    /// Keeps the file under its temporary name if the claim is dropped.
+    /// Makes a dropped claim leave the file under its temporary name, instead of removing it.
     pub fn keep(&mut self) {
         self.temp_file.is_kept = true;
     }

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Where an output path leads.
+/// The target of an output path: a file, which can be replaced, or a stream, which can only be written to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Destination {
     /// A regular file, existing or not, by its path after following links.
@@ -46,7 +46,7 @@ impl Destination {
     }
 }
 
-/// Checks that the folder of a new file exists.
+/// Checks that the folder in which a file is to be created exists.
 ///
 /// # Errors
 /// The folder does not exist, or is not a folder.
@@ -75,14 +75,14 @@ pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
     File::options().append(true).open(path)
 }
 
-/// Returns whether a path names an open file of a process, for which a replaced file would have no effect.
+/// Returns whether a path names an open file of a process, such as `/dev/stdout`, which cannot be replaced by a rename.
 fn is_open_file(path: &Path) -> bool {
     let named = ["/dev/stdout", "/dev/stderr"];
     let in_proc = || path.starts_with("/proc") && path.parent().is_some_and(|p| p.ends_with("fd"));
     named.iter().any(|name| path == Path::new(name)) || path.starts_with("/dev/fd") || in_proc()
 }
 
-/// Follows the links at the end of a path, even if the target does not exist.
+/// Returns the target of a path that is a symbolic link, also if the target does not exist.
 ///
 /// # Errors
 /// The links form a cycle.

@@ -6,19 +6,19 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A file under a temporary name beside its target, which it is renamed to when it is complete.
+/// A file under a temporary name in its target's folder; when it is complete, it is renamed to the target.
 #[derive(Debug)]
 pub(crate) struct TempFile {
     pub(crate) file: File,
-    /// The temporary path.
+    /// The temporary path, under which the file is written.
     pub(crate) path: PathBuf,
     pub(crate) target: PathBuf,
-    /// Whether the file is kept if it is dropped before it has its final name.
+    /// Whether the file stays on disk if this value is dropped before the file has its final name.
     pub(crate) is_kept: bool,
 }
 
 impl TempFile {
-    /// Creates a file beside the target with an unused name, because other threads and processes may write there too.
+    /// Creates an empty file in the target's folder, under a name that no other thread or process uses.
     pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
@@ -68,7 +68,7 @@ impl Drop for TempFile {
     }
 }
 
-/// Returns whether a path still leads to an open file.
+/// Returns whether a path still leads to a given open file, rather than to a newer file or to none.
 pub(crate) fn leads_to_file(file: &File, path: &Path) -> io::Result<bool> {
     match Handle::from_path(path) {
         Ok(there) => Ok(there == Handle::from_file(file.try_clone()?)?),

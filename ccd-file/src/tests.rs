@@ -112,7 +112,7 @@ fn a_claimed_file_is_given_to_one() {
     assert_eq!(text(&target), "all");
 }
 
-/// Tests a claimed file whose name was taken from it, by hand or by another machine.
+/// Tests that a claimed file is not renamed to its target if its temporary file was removed or replaced.
 #[test]
 fn a_replaced_file_is_not_placed() {
     let folder = Folder::new("replaced");
@@ -130,7 +130,7 @@ fn a_replaced_file_is_not_placed() {
     assert_eq!(folder.names(), ["table.partial"]);
 }
 
-/// Tests that threads that claim, write and place one file do so one at a time.
+/// Tests that of several threads only one at a time claims, writes and places the same file.
 #[test]
 fn threads_have_a_claimed_file_one_after_the_other() {
     let folder = Folder::new("in-turn");

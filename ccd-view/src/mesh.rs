@@ -14,7 +14,7 @@ pub struct DrawnMesh {
     pub faces: Vec<[u32; 3]>,
 }
 
-/// The meshes of a page, of which equal ones are stored once.
+/// The meshes of a page; equal meshes are stored only once.
 #[derive(Clone, Debug, Default)]
 pub struct Meshes(Vec<Stored>);
 

@@ -12,14 +12,14 @@ pub const VIEW_HTML: &str = include_str!("page/view.html");
 /// The style sheet for the element in [`VIEW_HTML`].
 pub const VIEW_CSS: &str = include_str!("page/view.css");
 
-/// The content of a page.
+/// The content of a page: a title, and groups of views with the meshes that they draw.
 #[derive(Clone, Debug)]
 pub struct Page<'a> {
-    /// The title of the page.
+    /// The title of the page, as plain text.
     pub title: &'a str,
     /// The meshes of all bodies on the page.
     pub meshes: Meshes,
-    /// The groups of views among which the reader chooses. Several groups get a list to choose from.
+    /// The groups of views, among which the page's reader chooses. Several groups get a list to choose from.
     pub groups: Vec<Group>,
 }
 
@@ -74,7 +74,8 @@ impl Page<'_> {
     }
 }
 
-/// Returns the scripts that fill [`VIEW_HTML`] from the [`data`] in an earlier element with the id `views`.
+/// Returns the scripts that fill [`VIEW_HTML`] with the views of [`data`], which an earlier element with the id `views`
+/// holds.
 pub fn scripts() -> String {
     let views = [
         include_str!("page/coarse.js"),
@@ -102,7 +103,7 @@ fn elements(scripts: &[&str]) -> String {
     elements.collect()
 }
 
-/// Returns views as JSON for an element `<script type="application/json" id="views">`.
+/// Returns meshes and groups of views as JSON for an element `<script type="application/json" id="views">`.
 ///
 /// # Errors
 /// The value cannot be serialised.
@@ -116,8 +117,8 @@ pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Err
     json(&Data { meshes, groups })
 }
 
-/// Returns a value as JSON that is safe in an element `script`: it does not end the element, and strings have no
-/// control characters except line ends and tabs.
+/// Returns a value as JSON that cannot end the element `script` that it stands in, without control characters except
+/// line ends and tabs.
 ///
 /// # Errors
 /// The value cannot be serialised.
@@ -165,7 +166,7 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
-/// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
+/// Returns the template with every `{{name}}` replaced by the part of that name. Inserted text is not searched again.
 pub fn fill_template(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_owned();

@@ -21,11 +21,11 @@ pub enum ShownMotion {
         /// The rotation matrix at time 0, row by row.
         rotation: [f64; 9],
     },
-    /// The body moves from pose to pose: its centre in straight lines, its rotation as the keys say.
+    /// The body moves from pose to pose: its centre in straight lines, and its rotation by each key's rotation vector.
     Keyframes {
         /// The point that moves along straight lines, in the body's frame.
         centre: [f64; 3],
-        /// The poses, by increasing times.
+        /// The poses, in order of time.
         keys: Vec<Keyframe>,
     },
 }
@@ -38,7 +38,8 @@ pub struct Keyframe {
     place: [f64; 3],
     /// The rotation matrix, row by row.
     rotation: [f64; 9],
-    /// The rotation vector to the next key, in the world frame, because the poses alone are ambiguous at half a turn.
+    /// The rotation vector to the next key, in the world frame; without it, a rotation by half a turn would be
+    /// ambiguous.
     turn: [f64; 3],
 }
 

@@ -13,7 +13,7 @@ pub struct Group {
     pub views: Vec<View>,
 }
 
-/// What is shown at a time: one query, or one scene.
+/// The content that the page shows at once: one query, or one scene.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct View {
     /// The name of the view in its group's list.
@@ -22,9 +22,9 @@ pub struct View {
     pub verdict: String,
     /// The duration of the motions, from time 0.
     pub duration: f64,
-    /// The time that the page displays for time 0.
+    /// The time that the page displays when the motions are at time 0.
     pub start: f64,
-    /// The time at which the animation is shown first.
+    /// The time that the animation shows when the view is opened.
     pub time: f64,
     /// The point of the world that is the centre of the drawing.
     pub origin: [f64; 3],
@@ -56,7 +56,7 @@ pub struct ShownBody {
 pub struct Gap {
     /// The measured distances, in order of time.
     pub points: Vec<GapPoint>,
-    /// A proven lower bound of the gap over time: pairs of time and gap, by time.
+    /// A proven lower bound of the distance, as pairs of time and bound, in order of time.
     pub proven: Vec<[f64; 2]>,
 }
 
@@ -65,9 +65,9 @@ pub struct Gap {
 pub struct GapPoint {
     /// The time of the measurement.
     pub time: f64,
-    /// The lower bound of the distance.
+    /// The lower bound of the distance at the time of the measurement.
     pub lower: f64,
-    /// The upper bound of the distance.
+    /// The upper bound of the distance at the time of the measurement.
     pub upper: f64,
 }
 
@@ -82,9 +82,10 @@ pub struct ShownContact {
     pub witnesses: Option<[DVec3; 2]>,
     /// The unit vector from the first body to the second, in the world frame.
     pub normal: Option<DVec3>,
-    /// The corners of the first body's feature: one of a vertex, two of an edge, three of each triangle of a face.
+    /// The corners of the first body's highlighted feature: one of a vertex, two of an edge, three of each triangle of
+    /// a face.
     pub lit_a: Vec<DVec3>,
-    /// The corners of the second body's feature.
+    /// The corners of the second body's highlighted feature, as in `lit_a`.
     pub lit_b: Vec<DVec3>,
 }
 

@@ -1,4 +1,4 @@
-//! Computes answers on this machine, with which the page compares its own in the browser.
+//! Computes answers natively, so that the page can compare them with the answers that it computes in the browser.
 
 use ccd_web::{Part, Throw, WebError};
 use rand::{RngExt, SeedableRng};
@@ -6,12 +6,12 @@ use rand_pcg::Pcg64Mcg;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
-/// The number of random throws.
+/// The number of random throws whose answers the page checks.
 const THROW_COUNT: u32 = 400;
-/// The number of steps in time of each throw.
+/// The number of equal time steps into which each throw is divided.
 const STEPS: u32 = 60;
 
-/// Returns random throws as JSON, with certified and stepped results.
+/// Returns random throws as JSON, each with its certified first contact and with tests at discrete time steps.
 pub(crate) fn random_throw_results() -> Result<Value, WebError> {
     let mut random = Pcg64Mcg::seed_from_u64(7);
     let (parts, targets) = Part::NAMES.split_at(5);

@@ -1,4 +1,5 @@
-//! Throws parts at each other, in a browser or natively: the certified first contact beside discrete stepping.
+//! Throws parts at each other, in a browser or natively, to compare the certified first contact with discrete time
+//! steps.
 //!
 //! | to … | use |
 //! |---|---|

@@ -57,7 +57,7 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         .with_context(|| format!("cannot write {}", out.display()))
 }
 
-/// Compresses the WebAssembly module, which halves the page.
+/// Compresses the WebAssembly module, which halves the size of the page.
 fn gzip(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;

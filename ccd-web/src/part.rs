@@ -35,10 +35,10 @@ pub enum WebError {
     /// A number of the part or the throw is out of range.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The throw makes no valid query.
+    /// The engine refuses the query that the throw makes.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),
-    /// The numbers of a throw are not nine.
+    /// A throw is given by a list that has more or fewer than nine numbers.
     #[error("a throw is nine numbers, not {0}")]
     WrongNumberCount(usize),
 }
@@ -99,7 +99,7 @@ impl Part {
         self.surface.faces().concat()
     }
 
-    /// Returns the greatest distance of the drawing from the part's origin, in metres.
+    /// Returns the greatest distance of a drawn vertex from the part's origin, in metres.
     pub fn reach(&self) -> f64 {
         let lengths = self.surface.vertices().iter().map(|v| v.length());
         lengths.max_by(f64::total_cmp).unwrap_or(0.0)

@@ -5,7 +5,7 @@ use rigid_ccd::glam::{DVec3, dvec3};
 use rigid_ccd::mesh::{MeshError, TriangleMesh};
 use std::f64::consts::{PI, TAU};
 
-/// Returns the faces of a body without rounded pieces.
+/// Returns the faces of a body as triangles; the body must not have rounded pieces.
 pub(crate) fn faces(body: &Body) -> Result<TriangleMesh, MeshError> {
     let pieces = body.pieces().iter();
     let corners = pieces.flat_map(|piece| {
@@ -55,7 +55,7 @@ pub(crate) fn knot(size: f64, radius: f64) -> Result<TriangleMesh, MeshError> {
     })
 }
 
-/// Returns a plate across x with a slot, whose half extents are along y and z.
+/// Returns a plate across x with a slot through it; `hole` has the half extents of the slot along y and z.
 pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Result<TriangleMesh, MeshError> {
     let ring =
         |x: f64, y: f64, z: f64| [(-y, -z), (y, -z), (y, z), (-y, z)].map(|(y, z)| dvec3(x, y, z));

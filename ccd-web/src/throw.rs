@@ -1,4 +1,4 @@
-//! Throws a part at another one: the certified first contact, and tests at equal steps.
+//! Throws a part at another part, and finds the certified first contact or tests for contact at equal time steps.
 
 use crate::{Part, WebError};
 use rigid_ccd::{Hit, Motion, Outcome, Pose, Settings, Solver};
@@ -26,7 +26,7 @@ pub struct Throw {
 pub struct ThrowResult {
     /// The kind of the result: contact, free, touching, overlapping or unresolved.
     pub verdict: String,
-    /// The time in seconds before which nothing touches.
+    /// The time in seconds before which the parts are proven not to touch.
     pub time: f64,
     /// The nearest points of both parts and the normal, nine numbers; six if one part is inside the other, none without
     /// a contact.
@@ -83,7 +83,7 @@ impl Throw {
         })
     }
 
-    /// Tests whether the parts touch at evenly spaced instants, from the start to the end: 1 where they do, else 0.
+    /// Returns for evenly spaced times, from the start to the end, whether the parts touch: 1 if they do, 0 if not.
     ///
     /// # Errors
     /// [`WebError`] for numbers out of range.

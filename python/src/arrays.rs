@@ -43,7 +43,7 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     .collect()
 }
 
-/// Reads `N` finite numbers.
+/// Reads exactly `N` finite numbers; the error names the first number that is NaN or infinite.
 pub(crate) fn finite_numbers<const N: usize>(
     values: &Bound<'_, PyAny>,
     what: &str,
@@ -59,7 +59,7 @@ pub(crate) fn finite_numbers<const N: usize>(
     }
 }
 
-/// Reads `N` numbers.
+/// Reads exactly `N` numbers, which may be NaN or infinite.
 pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; N]> {
     let found = any_numbers(values, what)?;
     let length = found.len();
@@ -68,12 +68,12 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
         .map_err(|_| input_error(format!("{what}: {N} numbers are needed, not {length}")))
 }
 
-/// Reads a list of numbers of any length.
+/// Reads all numbers of an array of any shape as one list.
 pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
     flat_list(&floats(values, what)?)?.extract()
 }
 
-/// Reads a list of whole numbers of any length.
+/// Reads all whole numbers of an array of any shape as one list.
 pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
     let given = numpy_array(values, what)?;
     let (kind, size) = (kind(&given)?, given.getattr("size")?.extract::<usize>()?);
@@ -88,7 +88,7 @@ fn flat_list<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     array.call_method0("ravel")?.call_method0("tolist")
 }
 
-/// Reads row indices, or a boolean array with one element per row.
+/// Reads row indices; a boolean array with one element per row stands for the indices of its true elements.
 pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
     let given = numpy_array(rows, "rows")?;
     if kind(&given)? != 'b' {
@@ -105,7 +105,7 @@ pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i
     }
 }
 
-/// Converts a number from Python to an index that is not negative.
+/// Converts an integer from Python to an index, or to an error if it is negative.
 pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
     usize::try_from(value)
         .map_err(|_| input_error(format!("{what} is {value}, but must be at least 0")))

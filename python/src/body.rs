@@ -203,7 +203,7 @@ impl PyBody {
         PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
 
-    /// Makes a capsule along z; half its height is from its middle to the centre of either cap.
+    /// Makes a capsule along z; `half_height` is the distance from its middle to the centre of either cap.
     #[classmethod]
     fn capsule(class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
         let report = format!("capsule of radius {radius} and half height {half_height}");
@@ -211,7 +211,7 @@ impl PyBody {
         PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
     }
 
-    /// Makes a cylinder along z, as a polytope around it: `excess` tells by how much it exceeds the cylinder.
+    /// Makes a cylinder along z, as a polytope around it that exceeds the cylinder by at most `excess`.
     ///
     /// Args:
     ///     radius: its radius.
@@ -253,14 +253,14 @@ impl PyBody {
         PyBody::round(class.py(), "cone", &round, [radius, half_height], excess)
     }
 
-    /// Whether the inside of the body is solid.
+    /// Whether the body fills its inside, so that another body inside it overlaps it.
     #[getter]
     fn is_solid(&self) -> bool {
         self.body.volume() == Volume::Solid
     }
 
-    /// How far the body may exceed what it was made of: contacts may be early by that, never late, and upper bounds of
-    /// distances are larger by that. 0 for exact bodies.
+    /// How far the body may exceed the shape that it was made of, as a length. Contacts may be early because of it, but
+    /// never late, and upper bounds of distances are larger by it. 0 for exact bodies.
     #[getter]
     fn excess(&self) -> f64 {
         self.body.excess()
@@ -272,7 +272,7 @@ impl PyBody {
         self.body.pieces().len()
     }
 
-    /// Writes the prepared body: `Body.from_file` reads it back much faster than a mesh.
+    /// Writes the prepared body to a file, which `Body.from_file` reads much faster than a mesh.
     ///
     /// Args:
     ///     path: by convention it ends in .ccd.

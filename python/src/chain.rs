@@ -284,8 +284,8 @@ struct Moves {
 
 #[pymethods]
 impl PyLink {
-    /// Returns the same link in the frame of another one, nearer to the base: query it against that link's body at
-    /// rest.
+    /// Returns the motion of this link in the frame of another link that is nearer to the base. Query it against that
+    /// link's body at rest.
     ///
     /// Witnesses and normals are in that frame, too: `chain.pose(other, ...)` takes them to the world.
     fn seen_from(&self, py: Python<'_>, link: i64) -> PyResult<Self> {
@@ -302,7 +302,7 @@ impl PyLink {
         Ok(matrix_of(py, &pose.map_err(input_error)?))
     }
 
-    /// The time at which the joints are at `end`.
+    /// The time at which the joints reach their positions in `end`.
     #[getter]
     pub(crate) fn duration(&self) -> f64 {
         self.moves.duration
@@ -334,7 +334,7 @@ impl PyLink {
 }
 
 impl PyLink {
-    /// Makes a link, or an error if a position is outside a joint's limits.
+    /// Makes a moving link, or an error if positions are missing or outside their joints' limits.
     fn new(chain: Py<PyChain>, moves: Moves) -> PyResult<Self> {
         let joints = chain.get().chain.joints().len();
         for (what, positions) in [("start", &moves.start), ("end", &moves.end)] {
@@ -349,7 +349,7 @@ impl PyLink {
         Ok(link)
     }
 
-    /// Returns the link's trajectory.
+    /// Returns the link's trajectory, in the world's frame or in that of the link `seen_from`.
     pub(crate) fn link(&self) -> PyResult<Link<'_>> {
         let chain = &self.chain.get().chain;
         let moves = &self.moves;

@@ -30,7 +30,7 @@ pyo3::create_exception!(
     "Ctrl-C ended a table. Attribute `results`: the rows answered by then, from the first on."
 );
 
-/// Adds the exceptions to the module, with the missing attributes of some.
+/// Adds the exceptions to the module, and gives their attributes the default value None.
 pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     let classes = [
@@ -64,7 +64,7 @@ pub(crate) fn catching_panics<T>(what: &str, work: impl FnOnce() -> PyResult<T>)
     })
 }
 
-/// Converts a panic with no known input as its cause to a `RuntimeError`.
+/// Converts a panic to a `RuntimeError` that asks the user to report it, because no known input causes it.
 pub(crate) fn panic_error(panic: &(dyn Any + Send)) -> PyErr {
     PyRuntimeError::new_err(format!(
         "a fault of rigid_ccd, please report it: {}",
@@ -84,7 +84,7 @@ pub(crate) fn input_error(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
 }
 
-/// Converts an error of a table to an exception.
+/// Converts an error of a table to an `InputError`, or to a `KeyboardInterrupt` if Ctrl-C caused it.
 ///
 /// A stream hands over the text of an exception, not the exception: that of Ctrl-C stays what it is.
 pub(crate) fn error_of_table(error: impl Display) -> PyErr {
@@ -98,8 +98,8 @@ pub(crate) fn error_of_table(error: impl Display) -> PyErr {
     }
 }
 
-/// Converts another exception to an `InputError`, with the exception as its cause. Those that are to end the program,
-/// such as that of Ctrl-C, stay what they are.
+/// Converts an exception to an `InputError` that has the exception as its cause. Exceptions that are to end the
+/// program, such as that of Ctrl-C, stay what they are.
 pub(crate) fn input_error_from(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) {
         return cause;
@@ -109,7 +109,7 @@ pub(crate) fn input_error_from(py: Python<'_>, what: &str, cause: PyErr) -> PyEr
     error
 }
 
-/// Converts an error of a file to an `OSError` of the same kind, with its number and the file.
+/// Converts an error of a file to an `OSError` of the same kind, with the error number and the path.
 pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyErr {
     match error.raw_os_error() {
         // OSError chooses the class by the number.
@@ -126,14 +126,14 @@ pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyEr
     }
 }
 
-/// Makes an `Unresolved` for a question about contacts.
+/// Makes an `Unresolved` for a question about contacts, with the time `safe_until` before which no contact happens.
 pub(crate) fn unresolved_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, safe_until) = (known.limit.advice(), known.safe_until);
     let error = Unresolved::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
-/// Makes an `Unresolved` for a question about a distance.
+/// Makes an `Unresolved` for a question about a distance, with the bounds `lower` and `upper`.
 pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
     let error = Unresolved::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
@@ -141,8 +141,8 @@ pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolv
     with_attribute(py, error, "upper", upper)
 }
 
-/// Turns the `KeyboardInterrupt` of a Ctrl-C into an `Interrupted`; any other exception, raised by a signal handler or
-/// a callback, stays as it is. Its attribute `results` has the rows answered by then.
+/// Turns the `KeyboardInterrupt` of a Ctrl-C into an `Interrupted`; an exception of a signal handler or a callback
+/// stays as it is. The attribute `results` of either has the rows answered by then.
 pub(crate) fn interruption_error<'py>(
     py: Python<'py>,
     cause: PyErr,
@@ -172,7 +172,7 @@ pub(crate) fn warn(
     Ok(())
 }
 
-/// Makes the error for an object of the wrong type.
+/// Makes a `TypeError` that says which type is needed and which was given.
 pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type();
     let name = kind
@@ -181,7 +181,7 @@ pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> 
     PyTypeError::new_err(format!("{what}: {needed} is needed, not {name}"))
 }
 
-/// Adds an attribute to an exception.
+/// Sets an attribute of a Python exception, and returns the exception.
 pub(crate) fn with_attribute<'py>(
     py: Python<'py>,
     error: PyErr,

@@ -12,7 +12,7 @@ use std::time::Duration;
 /// The interval between two checks for signals such as Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Runs work on its own thread, without the GIL, and returns the result.
+/// Runs `work` on a new thread, without the GIL, and returns its result.
 ///
 /// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
 /// soon; it comes back beside the result. Without a thread to spare, or after a panic, there is an exception alone.

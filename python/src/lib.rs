@@ -17,7 +17,7 @@ mod table_queries;
 
 use pyo3::prelude::*;
 
-/// Certified continuous collision detection.
+/// Certified continuous collision detection of rigid bodies.
 #[pymodule]
 fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<body::PyBody>()?;

@@ -8,8 +8,8 @@ use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose, Remark};
 
-/// The allowed deviation of a rotation matrix from an orthonormal one: a few products in float32 reach it. The rotation
-/// is that of the quaternion that fits it.
+/// The largest accepted entry of M·Mᵀ − I for a rotation matrix M: a few products in float32 reach it. The rotation
+/// that is used is that of the quaternion that fits the matrix.
 const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 
 /// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
@@ -53,7 +53,7 @@ impl PyMotion {
         PyMotion::moving(py, start, velocity, spin, center)
     }
 
-    /// Makes the motion of a body at rest; the pose has the forms of `Motion.between`.
+    /// Makes the motion of a body at rest; the pose takes the same forms as in `Motion.between`.
     #[classmethod]
     fn still(class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
         let start = given_pose(pose, "pose")?;
@@ -123,7 +123,7 @@ impl PyMotion {
     }
 }
 
-/// A position and an orientation as given, before normalisation, which may change even a normalised quaternion.
+/// A position and an orientation as the caller gave them: normalisation may change even a normalised quaternion.
 #[derive(Clone, Copy)]
 pub(crate) struct GivenPose([f64; 3], DQuat);
 

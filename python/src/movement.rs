@@ -96,7 +96,7 @@ impl Pair<'_> {
         Ok(duration)
     }
 
-    /// Returns remarks if a body seems to rotate in degrees per unit of time.
+    /// Returns a remark for each motion whose spin seems to be in degrees, not in radians.
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {

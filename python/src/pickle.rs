@@ -1,4 +1,4 @@
-//! How pickle makes an object again, to the same bits: by the constructor and the arguments of which it was made.
+//! Pickles an object as the constructor and the arguments that made it, so that it is unpickled to the same bits.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -29,7 +29,7 @@ impl Recipe {
         })
     }
 
-    /// Returns what `__reduce__` returns for an object of a class.
+    /// Returns the constructor and the arguments of an object of `class`, as its `__reduce__` returns them.
     pub(crate) fn reduced<'py>(&self, class: Bound<'py, PyType>) -> PyResult<Reduced<'py>> {
         let arguments = self.arguments.bind(class.py()).clone();
         let constructor = match self.constructor {

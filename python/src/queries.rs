@@ -44,7 +44,7 @@ impl Asked<'_> {
         solver.answer(self.question, &query)
     }
 
-    /// Returns the number that an unresolved answer proves, of which a larger one is the better bound.
+    /// Returns the lower bound of the time or the distance that an unresolved answer proves.
     fn proven(&self, known: &Unresolved) -> f64 {
         match self.question {
             question if question.is_for_a_distance() => known.lower,
@@ -107,7 +107,7 @@ impl Asked<'_> {
 /// A body and its motion, as a Python caller passes them.
 type Given<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
 
-/// Asks a question about two moving bodies.
+/// Checks the arguments of a question about two moving bodies, warns of likely mistakes, and answers the question.
 fn ask(
     py: Python<'_>,
     question: Question,

@@ -10,13 +10,13 @@ use std::time::Duration;
 /// The names of the settings of a query about contacts.
 pub(crate) const CONTACT_SETTINGS: &[&str] = &["tolerance", "margin", "budget", "deadline"];
 
-/// The names of the settings of a query about distances.
+/// The names of the settings of a query about the distance of bodies at rest.
 pub(crate) const DISTANCE_SETTINGS: &[&str] = &["tolerance", "budget", "deadline"];
 
-/// The names of the settings of a query about the least distance.
+/// The names of the settings of a query about the least distance of moving bodies.
 pub(crate) const APPROACH_SETTINGS: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
 
-/// The names of the further settings of a table query, which are in its signature.
+/// The names of the settings that only a table query has, which are parameters of its function.
 pub(crate) const TABLE_SETTINGS: &[&str] = &["threads", "progress", "micros"];
 
 /// The maximum number of threads, the same as in the command.
@@ -46,7 +46,7 @@ pub(crate) fn read(
     Ok(settings)
 }
 
-/// Reads a number of threads; `None` is one for each core.
+/// Reads the number of threads of a table query; `None` stands for one thread for each core.
 pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<u16>> {
     let in_range = |&threads: &u16| (1..=MAX_THREADS).contains(&threads);
     let threads = |given: i64| {
@@ -71,7 +71,7 @@ where
     })
 }
 
-/// Reads a time limit in seconds; infinity gives `None`.
+/// Reads a time limit in seconds; infinity gives `None`, which is no limit.
 fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let finite = seconds.filter(|&seconds| seconds != f64::INFINITY);
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();

@@ -23,7 +23,7 @@ use pyo3_arrow::ffi::{
 };
 use std::sync::Arc;
 
-/// A table in Arrow columns.
+/// A table whose columns are Arrow arrays.
 ///
 /// It speaks the Arrow PyCapsule protocol: `pyarrow.table(t)`, `polars.DataFrame(t)`, `pandas.DataFrame.from_arrow(t)`
 /// take it without a copy, and duckdb queries it by its variable's name. `t["time"]` is a column as a NumPy array: of
@@ -60,7 +60,8 @@ impl PyTable {
         self.column_names()
     }
 
-    /// Returns the rows with these indices, in that order, as a table; or those for which a boolean array is true.
+    /// Returns a table of the rows with the given indices, in their order, or of the rows at which a boolean array is
+    /// true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
         let rows = row_numbers(rows, all)?;
@@ -175,7 +176,7 @@ impl PyTable {
         (Arc::new(field.with_metadata(metadata)), columns)
     }
 
-    /// Describes in words how many rows have each status.
+    /// Returns a text that says how many rows have each status; empty for a table without statuses.
     fn counts(&self) -> String {
         let column = self.batch.column_by_name("status");
         let Some(column) = column.and_then(|column| column.as_string_opt::<i32>()) else {

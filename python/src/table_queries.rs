@@ -112,7 +112,7 @@ fn known_settings(question: Question) -> Vec<&'static str> {
     [of_query, TABLE_SETTINGS].concat()
 }
 
-/// Refuses settings that are invalid for every query.
+/// Returns an error for settings that would be invalid for every row of the table.
 fn check(asked: TableQuestion<'_>) -> PyResult<()> {
     match asked.settings.clearance {
         Some(_) if !asked.question.is_for_a_distance() => {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// A cache of the most recently used bodies, for shapes that no `Caster` holds.
 ///
-/// A body is found by its form, number by number: no other shape is ever taken for it.
+/// A body is found by its geometry, number by number: no other shape is ever taken for it.
 #[derive(Debug)]
 pub(crate) struct BodyCache {
     /// The cached bodies, the most recently used one last.
@@ -33,7 +33,7 @@ struct Entry {
 }
 
 impl BodyCache {
-    /// Returns the body of a form from the cache, or makes it.
+    /// Returns the body of a geometry from the cache, or makes the body and caches it.
     pub(crate) fn body(&mut self, form: ShapeGeometry) -> Result<Arc<Prepared>, ShapeError> {
         if let Some(at) = self.bodies.iter().rposition(|kept| kept.geometry == form) {
             self.bodies[at..].rotate_left(1);
@@ -53,7 +53,7 @@ impl BodyCache {
         Ok(body)
     }
 
-    /// Removes the least recently used bodies until `bytes` fit.
+    /// Removes the least recently used bodies until a body of `bytes` fits into the cache.
     fn evict_until_fits(&mut self, bytes: usize) {
         let mut held: usize = self.bodies.iter().map(|kept| kept.bytes).sum();
         let mut gone = 0;

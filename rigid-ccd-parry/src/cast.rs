@@ -16,7 +16,7 @@ use ccd_core::{DeviationBound, InputError, Motion, Settings, StartPolicy, Stretc
 use rigid_ccd::Solver;
 use std::sync::Arc;
 
-/// A cast, without its shapes.
+/// The arguments of a cast, except for the two shapes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cast {
     pub(crate) motions: [Motion; 2],
@@ -29,7 +29,7 @@ pub(crate) struct Cast {
     pub(crate) contact: f64,
 }
 
-/// A shape prepared for casts.
+/// A shape prepared for casts, as a body or as a half-space.
 #[derive(Clone, Debug)]
 pub(crate) enum PreparedShape {
     Body(Arc<Prepared>),
@@ -103,7 +103,8 @@ impl Cast {
         })
     }
 
-    /// Builds the engine's scene for a cast of a body against the half-space that is shape number `k`.
+    /// Builds the engine's scene for a cast of a body against a half-space, which is shape `index` (0 or 1) of the
+    /// cast.
     fn with_plane_scene<T>(
         &self,
         plane: &HalfSpace,
@@ -152,7 +153,8 @@ impl Cast {
         })
     }
 
-    /// Returns the first contact; overlapping bodies that begin to part are ignored until they are apart.
+    /// Returns the first contact; with [`StartPolicy::Leave`], pieces that overlap at the start and begin to part are
+    /// ignored.
     fn hit(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let found = scene.first_contact(solver)?;
         match found {
@@ -167,8 +169,8 @@ impl Cast {
         }
     }
 
-    /// Returns the motions from the start of the interval on, without the velocity of the second body: a common
-    /// velocity loses no digits.
+    /// Returns both motions from the start of the interval on, as seen by an observer who moves with the velocity of
+    /// the second body. A large common velocity then costs no digits.
     fn motions_from_start(&self) -> Result<[ShiftedMotion; 2], CastError> {
         let along = self.motions[1].velocity();
         let shifted = |motion: &Motion| ShiftedMotion::new(motion, self.interval.start, along);
@@ -184,7 +186,7 @@ impl Cast {
         }
     }
 
-    /// Returns the distance at which bodies without a margin are in contact.
+    /// Returns the tolerance of the cast: that of the options, or a default that is smaller for tiny bodies.
     fn tolerance(&self, bodies: &[&Prepared]) -> f64 {
         let sizes = bodies.iter().map(|body| body.ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
@@ -237,7 +239,7 @@ impl ShiftedMotion {
         })
     }
 
-    /// Returns the motion together with the extent of its body.
+    /// Returns the motion with a ball that contains the body, and whose centre moves in a straight line.
     fn motion_with_extent(&self, body: &Prepared) -> MotionWithExtent {
         let (middle, radius) = body.ball;
         let about = if self.motion.spin() == DVec3::ZERO {
@@ -252,7 +254,8 @@ impl ShiftedMotion {
         }
     }
 
-    /// Returns the motion of a half-space, about its point nearest to the other body.
+    /// Returns the motion of a half-space, about the other body's start position or, if the half-space rotates, about
+    /// the centre.
     fn plane_motion_with_extent(&self, other: &MotionWithExtent) -> MotionWithExtent {
         let start = self.motion.start();
         let about = if self.motion.spin() == DVec3::ZERO {
@@ -267,7 +270,7 @@ impl ShiftedMotion {
         }
     }
 
-    /// Returns the motion with the angular velocity removed if the body is a ball that rotates about its centre.
+    /// Returns the motion, without the angular velocity if the body is a ball that rotates about its centre.
     fn without_ball_rotation(self, body: &Prepared) -> Self {
         if body.point != Some(self.motion.centre()) {
             return self;
@@ -281,7 +284,7 @@ impl ShiftedMotion {
     }
 }
 
-/// Bounds the deviation of all points of a body, as a length.
+/// Returns a bound on the deviation of any point of a body, as a length.
 fn point_deviation(stray: DeviationBound, side: &MotionWithExtent) -> f64 {
     stray.at(side.reach + length(side.about - side.motion.centre()))
 }

@@ -31,7 +31,7 @@ pub enum CastError {
     InvalidNumber {
         /// The name of the argument in the function's signature.
         what: &'static str,
-        /// The given number.
+        /// The number that was given for the argument.
         value: f64,
         /// The accepted values, in words.
         allowed: &'static str,
@@ -48,7 +48,7 @@ pub enum CastError {
 }
 
 impl CastError {
-    /// Returns what was made of both motions; an error says which motion it is about.
+    /// Returns both results, or the first error, with the number of the motion that it is about.
     pub(crate) fn motions_or_error<T>(
         made: [Result<T, InputError>; 2],
     ) -> Result<[T; 2], CastError> {
@@ -62,7 +62,7 @@ impl CastError {
         Ok([a.map_err(named(1))?, b.map_err(named(2))?])
     }
 
-    /// Returns what was made of both shapes; an error says which shape it is about.
+    /// Returns both results, or the first error, with the number of the shape that it is about.
     pub(crate) fn shapes_or_error<T>(
         made: [Result<T, ShapeError>; 2],
     ) -> Result<[T; 2], CastError> {
@@ -92,7 +92,7 @@ pub enum ShapeError {
     InvalidSize {
         /// The name of the size, such as a radius.
         what: &'static str,
-        /// The given size.
+        /// The size that parry's shape has.
         value: f64,
     },
     /// A polytope around a round shape would need too many corners.
@@ -102,7 +102,7 @@ pub enum ShapeError {
     Excess {
         /// The excess that the options allow, in the scene's unit of length.
         requested: f64,
-        /// The least possible excess for this shape, in the same unit.
+        /// The least possible excess for this shape, in the scene's unit of length.
         least: f64,
     },
     /// The shape is a cylinder or a cone, which the [options](crate::Excess::NotAllowed) refuse.

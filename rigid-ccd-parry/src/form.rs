@@ -14,7 +14,7 @@ use std::iter::repeat;
 
 /// The geometry of a shape: triangles and convex parts.
 ///
-/// A body is made of this alone: equal forms make equal bodies.
+/// A body is made of this alone: equal geometries make equal bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ShapeGeometry {
     vertices: Vec<DVec3>,
@@ -22,18 +22,20 @@ pub(crate) struct ShapeGeometry {
     /// The sub-shape index of each triangle.
     triangle_sub_shapes: Vec<u32>,
     parts: Vec<Part>,
-    /// A cylinder or a cone, grown by a radius, if the form consists of it alone.
+    /// A cylinder or a cone, the radius by which it is grown, and the allowed excess, if the geometry is that shape
+    /// alone.
     round: Option<(SolidOfRevolution, f64, Excess)>,
     volume: Volume,
     /// A bound on the rounding error of points, as a length.
     pub(crate) slack: f64,
     /// A bound on how far polytopes extend beyond the round shapes that they enclose.
     pub(crate) excess: f64,
-    /// The boundary as triangles, and the triangles' sub-shape indices, if the form is one exact part.
+    /// The boundary as triangles with their sub-shape indices, for the polytope of a cylinder or a cone that is not
+    /// grown.
     surface: Option<(Vec<[u32; 3]>, Vec<u32>)>,
 }
 
-/// A convex part of a form: the hull of points, grown by a radius.
+/// A convex part of a geometry: the hull of points, grown by a radius.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     polytope: Polytope,
@@ -42,7 +44,7 @@ struct Part {
 }
 
 impl ShapeGeometry {
-    /// The form without any points.
+    /// The geometry without any points.
     pub(crate) const EMPTY: ShapeGeometry = ShapeGeometry {
         vertices: Vec::new(),
         triangles: Vec::new(),
@@ -55,7 +57,7 @@ impl ShapeGeometry {
         surface: None,
     };
 
-    /// Returns the form of a cylinder or a cone, grown by a radius; its polytope is made with the body.
+    /// Returns the geometry of a cylinder or a cone, grown by a radius; its polytope is made later, with the body.
     pub(crate) fn from_round(round: SolidOfRevolution, radius: f64, excess: Excess) -> Self {
         ShapeGeometry {
             round: Some((round, radius, excess)),
@@ -63,7 +65,7 @@ impl ShapeGeometry {
         }
     }
 
-    /// Returns the form with a polytope in place of a cylinder or a cone, if it is one.
+    /// Returns the geometry with a polytope in place of its cylinder or cone, or unchanged if it has neither.
     pub(crate) fn with_polytope(&self) -> Result<Cow<'_, ShapeGeometry>, ShapeError> {
         let Some((round, radius, excess)) = &self.round else {
             return Ok(Cow::Borrowed(self));
@@ -110,7 +112,7 @@ impl ShapeGeometry {
         self.parts.push(Part { polytope, number });
     }
 
-    /// Adds the hull of a few points without facets, grown by a radius, like [`Form::push_hull`].
+    /// Adds the hull of a few points without facets, grown by a radius, as a part with the sub-shape index `number`.
     pub(crate) fn push_hull_of_points<const N: usize>(
         &mut self,
         points: [DVec3; N],
@@ -147,7 +149,7 @@ impl ShapeGeometry {
         (self.triangle_sub_shapes).extend(numbers.into_iter().take(faces.len()));
     }
 
-    /// Returns the form in which the triangles are the surface of a solid.
+    /// Returns the geometry of the solid whose surface the triangles are.
     ///
     /// # Errors
     /// [`ShapeError::Open`] unless they are closed.
@@ -161,7 +163,7 @@ impl ShapeGeometry {
         }
     }
 
-    /// Adds another form at a pose, with the sub-shape index `number`.
+    /// Adds another geometry at a pose, with `number` as the sub-shape index of all its parts.
     pub(crate) fn push_at_pose(
         &mut self,
         pose: &Pose,
@@ -220,7 +222,7 @@ impl ShapeGeometry {
         )
     }
 
-    /// Returns the centre if the form is a single ball; `None` for other forms.
+    /// Returns the centre if the geometry is a single ball; `None` for other geometries.
     pub(crate) fn point(&self) -> Option<DVec3> {
         match &self.parts[..] {
             [part] if self.triangles.is_empty() => match part.polytope.points[..] {
@@ -276,7 +278,7 @@ impl ShapeGeometry {
         Body::new(&pieces, Volume::Surface)
     }
 
-    /// Returns the given parts followed by each triangle as a part of its own.
+    /// Returns the given parts, followed by the triangles, each as a part of its own.
     fn parts_and_triangles(&self, parts: &[Part]) -> Vec<Part> {
         // A vertex that does not exist is refused as a point that is not finite.
         let corner = |v: &u32| *self.vertices.get(*v as usize).unwrap_or(&DVec3::NAN);
@@ -312,7 +314,7 @@ impl ShapeGeometry {
         }
     }
 
-    /// Returns the error with the sub-shape index in place of the index of the body's piece.
+    /// Converts an error of the engine, which has the index of a piece, to an error with the sub-shape index.
     fn with_sub_shape(&self, error: InputError) -> ShapeError {
         let piece = match error {
             InputError::BadPoint { piece, .. }

@@ -32,7 +32,8 @@ impl HalfSpace {
         unit.map(|normal| HalfSpace { normal }).ok_or(size)
     }
 
-    /// Returns the duration that decides the cast of a body with contact distance `within`, for the time `wanted`.
+    /// Returns the duration of the engine's query for a cast over the time `wanted`, with the contact distance
+    /// `within`.
     ///
     /// `plane` is the half-space's motion, about any point of it.
     pub(crate) fn horizon(
@@ -56,7 +57,8 @@ impl HalfSpace {
         }
     }
 
-    /// Returns a time after which the body stays inside, stays outside or repeats its motion; `None` without one.
+    /// Returns a time after which the body stays inside or outside of the half-space or repeats its motion; `None` if
+    /// there is no such time.
     fn time_when_decided(
         &self,
         plane: MotionWithExtent,
@@ -93,7 +95,7 @@ impl HalfSpace {
         (rate > 0.0).then(|| greater(0.0, needed) / rate * INTERVAL_END_ROUNDING_FACTOR)
     }
 
-    /// Bounds the distance from `plane.about` of all points of the half-space that the body may touch.
+    /// Returns a bound on the distance from `plane.about` to any point of the half-space that the body may touch.
     pub(crate) fn reach(
         &self,
         plane: MotionWithExtent,

@@ -35,7 +35,8 @@ impl MotionWithExtent {
 /// The duration of the query that stands for a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Horizon {
-    /// The duration decides the whole cast: bodies that are apart for so long stay apart for the whole requested time.
+    /// The duration decides the whole cast: bodies that stay apart for this duration stay apart for the whole requested
+    /// time.
     Whole(f64),
     /// The duration is a part of the cast: the longest that the engine accepts.
     Part(f64),
@@ -48,13 +49,14 @@ impl Horizon {
         }
     }
 
-    /// Returns the duration for a cast of two bodies with contact distance `within`, for the time `wanted`.
+    /// Returns the duration of the engine's query for a cast of two bodies over the time `wanted`, with the contact
+    /// distance `within`.
     pub(crate) fn new(bodies: [MotionWithExtent; 2], within: f64, wanted: f64) -> Self {
         let needed = [time_when_passed(bodies, within), repetition_time(bodies)];
         Horizon::for_duration(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
 
-    /// Returns the duration for a cast that is known to be decided at the time `needed`.
+    /// Returns the duration of the engine's query for a cast that is known to be decided at the time `needed`.
     pub(crate) fn for_duration(bodies: [MotionWithExtent; 2], needed: f64) -> Self {
         let possible = longest_duration(bodies);
         if needed <= possible {
@@ -73,14 +75,15 @@ fn time_when_passed(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
         .then(|| relative_displacement(&bodies, within) / speed * INTERVAL_END_ROUNDING_FACTOR)
 }
 
-/// Bounds the relative displacement of the bodies while they may be in contact.
+/// Returns a bound on the relative displacement of the bodies, from the start until contact is no longer possible.
 pub(crate) fn relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
     let rounding =
         (INTERVAL_END_ROUNDING_FACTOR - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
     length(b.start_position() - a.start_position()) + rounding + a.reach + b.reach + within
 }
 
-/// Returns a time after which the bodies repeat their relative poses, if they do not move on.
+/// Returns a time after which the relative poses repeat; `None` if the velocities differ, or the bodies rotate
+/// differently.
 pub(crate) fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion);
     let still = a.spin() == DVec3::ZERO || b.spin() == DVec3::ZERO;
@@ -89,7 +92,7 @@ pub(crate) fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
     repeats.then(|| greater(rotation_period(a.spin()), rotation_period(b.spin())))
 }
 
-/// Returns the time of a whole turn; 0 without one.
+/// Returns the time of a whole turn, rounded up; 0 without rotation.
 pub(crate) fn rotation_period(spin: DVec3) -> f64 {
     if spin == DVec3::ZERO {
         0.0

@@ -39,7 +39,7 @@ impl Interval {
         }
     }
 
-    /// Returns the time that is `after` past the start, rounded down.
+    /// Returns the sum of the start and `after`, rounded down and clamped to the interval.
     pub(crate) fn time_after(self, after: f64) -> f64 {
         let time = if self.start == 0.0 {
             after

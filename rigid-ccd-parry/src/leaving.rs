@@ -1,4 +1,4 @@
-//! Ignores bodies that overlap at the start of a linear cast as long as they part, as parry does.
+//! Ignores the overlap of pieces at the start of a linear cast if they begin to part, as parry does.
 //!
 //! Two convex pieces that move straight overlap for one stretch of time. Once they part they never meet again: a pair
 //! that begins to part is left out, and all other pairs are asked about. parry, too, looks at each pair by itself.
@@ -19,7 +19,8 @@ use rigid_ccd::Solver;
 /// start.
 const MAX_PARTING_PAIRS: usize = 256;
 
-/// Returns the first contact of all pairs of pieces that do not begin to part; `overlap` is the hit at the start.
+/// Returns the first contact of all pairs of pieces that do not begin to part; `overlap`, the hit at the start, if one
+/// of these overlaps.
 pub(crate) fn first_contact_unless_parting(
     scene: &Scene<'_>,
     overlap: CastHit,
@@ -90,7 +91,7 @@ fn body_of_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Sh
     Prepared::new(&form)
 }
 
-/// Returns the indices of the pieces of body `k` that the other body may reach.
+/// Returns the indices of the pieces of body `k` that the other body may reach during the cast.
 fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
@@ -133,7 +134,7 @@ fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
     (first, reach.fold(0.0, greater) + piece.radius)
 }
 
-/// Returns whether two pieces that overlap at the start begin to move apart.
+/// Returns whether two pieces that overlap at the start begin to move apart, or slide along each other.
 fn pieces_begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());

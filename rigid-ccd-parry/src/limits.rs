@@ -3,7 +3,7 @@
 /// The maximum nesting depth of compounds.
 pub const MAX_NESTING_DEPTH: usize = 16;
 
-/// The maximum coordinate of a voxel, in voxels: parry rounds their positions.
+/// The maximum grid coordinate of a voxel, in voxels, because parry rounds the positions of voxels.
 pub const MAX_VOXEL_COORDINATE: i64 = 1 << 20;
 
 /// The maximum memory of cached bodies per thread, in bytes, for the functions with parry's signatures.

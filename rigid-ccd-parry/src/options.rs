@@ -12,7 +12,7 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The distance added to the target distance at which a contact may be reported, in the scene's unit of length.
+    /// The distance above the target distance up to which a contact may be reported, in the scene's unit of length.
     ///
     /// None is 1e-6 in single and 1e-9 in double precision, and at most a millionth of the smaller body's radius.
     pub tolerance: Option<f64>,
@@ -40,8 +40,8 @@ impl Default for Options {
     }
 }
 
-/// The allowed excess of a polytope over its cylinder or cone: contacts are never late, and early by at most the time
-/// in which the bodies approach by the excess.
+/// How far the polytope that stands for a cylinder or a cone may exceed it. Contacts are never late because of it, and
+/// early by at most the time in which the bodies approach by the excess.
 ///
 /// The polytope touches its shape along the axes, so that a cylinder that stands, or lies along an axis, is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

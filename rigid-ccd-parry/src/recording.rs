@@ -51,9 +51,9 @@ impl Recording {
         }
     }
 
-    /// Writes `a.ccd`, `b.ccd` and `motions.csv` to a folder, creates the folder if necessary, and returns the command
-    /// that answers them. Time 0 of the table is the start of the cast, and both bodies are seen as by one who moves
-    /// along with the second.
+    /// Writes `a.ccd`, `b.ccd` and `motions.csv` to a folder, and returns the command that repeats the cast. The folder
+    /// is created if necessary. Time 0 of the table is the start of the cast, and both bodies are seen as by one who
+    /// moves along with the second.
     ///
     /// # Errors
     /// [`RecordError`].

@@ -1,4 +1,4 @@
-//! A query of the engine for two bodies, from the start of a cast on, and its answer in parry's terms.
+//! The engine's query that stands for a cast, and the conversion of its answer to parry's terms.
 
 use crate::horizon::Horizon;
 use crate::interval::Interval;
@@ -15,7 +15,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) bodies: [&'a Prepared; 2],
     /// The motions from the start of the interval on, without rotations that have no effect.
     pub(crate) motions: [Motion; 2],
-    /// The full motions, rotation included, in whose frames hits are reported. Hits are reported in these frames.
+    /// The full motions, with all rotations; the points and normals of a hit are in the frames that these motions move.
     pub(crate) frames: [Motion; 2],
     pub(crate) horizon: Horizon,
     pub(crate) interval: Interval,
@@ -30,7 +30,7 @@ pub(crate) struct CastHit {
     pub(crate) time: f64,
     /// The nearest points of the shapes, each in its body's frame.
     pub(crate) witnesses: [DVec3; 2],
-    /// The unit vectors towards the other body, each in its body's frame.
+    /// Two unit normals: each points from its own body towards the other, and is in its own body's frame.
     pub(crate) normals: [DVec3; 2],
     /// The indices of the nearest sub-shapes.
     pub(crate) numbers: [u32; 2],
@@ -102,7 +102,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns a contact at the time `after` as a hit in the bodies' frames.
+    /// Converts a contact at the time `after` the start to a hit, with points and normals in the bodies' frames.
     fn hit_of(&self, after: f64, contact: &Contact, ending: CastStatus) -> CastHit {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
@@ -120,7 +120,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns a hit of one body inside the other at the start, with a common point.
+    /// Returns the hit for one body inside the other at the start; `point` is a common point in the world frame.
     fn inside(&self, point: DVec3) -> CastHit {
         let witnesses = self
             .poses(0.0)
@@ -131,7 +131,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns the hit for a limit reached at the time `after`, with the nearest points if they can be found.
+    /// Returns the hit for a limit reached at the time `after` the start, with the nearest points if they can be found.
     fn hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
             budget: lesser(self.settings.budget, BUDGET_AT_LIMIT),
@@ -160,7 +160,7 @@ impl Scene<'_> {
 }
 
 impl CastHit {
-    /// Returns a hit without nearest points, for which parry's placeholders stand.
+    /// Returns a hit without nearest points: parry's placeholders stand in their place.
     fn without_points(time: f64, ending: CastStatus) -> Self {
         CastHit {
             time,

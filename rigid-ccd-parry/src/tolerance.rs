@@ -29,38 +29,38 @@ pub(crate) const MAX_TOLERANCE_SHARE: f64 = 1.0 / (1 << 20) as f64;
 /// are taken.
 pub(crate) const POSE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
-/// A bound on the rounding error of a voxel's corner, relative to its coordinates: one product, and two of it in sums
-/// that bound it.
+/// A bound on the rounding error of a voxel's corner, relative to its coordinates. The corner is one rounded product;
+/// the sums that bound its error add two more.
 pub(crate) const VOXEL_ROUNDING: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 
-/// A bound on two rounding errors: the distance of a half-space's box corners from the plane, relative to the corners'
-/// distances, and that of heights, relative to their summands.
+/// A bound on the relative rounding error of heights above a half-space's plane. It is relative to the summands of a
+/// height, and, for the corners of the half-space's box, to the corners' distances.
 ///
 /// In units of `u`: a normal made a unit is off by 3, an axis across it by 6 and not at a right angle by 6, the other one
 /// by 10; products and sums add 8. That is 33; 64 are taken.
 pub(crate) const PLANE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
-/// The maximum extent of the box that stands for a half-space, in units of the body's size and of its distance at the
-/// start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
+/// The maximum extent of the box that stands for a half-space, in units of the sum of the body's size and its distance
+/// at the start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
 pub(crate) const LARGEST_PLANE_EXTENT: f64 = (1 << 26) as f64;
 
 /// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of
 /// that displacement. The subtraction is one operation; the displacement's own rounding adds as much.
 pub(crate) const VELOCITY_DIFFERENCE_ROUNDING: f64 = 2.0 * UNIT_ROUNDOFF_F64;
 
-/// The factor on lengths and times at the end of an interval that covers their rounding: the sums and quotients that
+/// The factor by which lengths and durations are enlarged to cover their rounding errors. The sums and quotients that
 /// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
 pub(crate) const INTERVAL_END_ROUNDING_FACTOR: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
 
 /// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
 pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;
 
-/// The longest duration of a cast: products with it stay finite.
+/// The longest duration of a cast, for which products of a duration and a speed stay finite.
 pub(crate) const LONGEST_DURATION: f64 = 1e250;
 
 /// The work limit of the search for the nearest points of a cast that reached a limit.
 pub(crate) const BUDGET_AT_LIMIT: u64 = 1 << 16;
 
-/// The largest approach rate of overlapping bodies that counts as sliding, relative to their speed: the direction of
-/// least overlap is known to some thousand `u`.
+/// The largest approach rate of overlapping bodies that counts as sliding, relative to their speed. The direction of
+/// least overlap has an error of some thousand `u`.
 pub(crate) const LARGEST_SLIDING_RATE: f64 = 1.0 / (1u64 << 40) as f64;

@@ -1,12 +1,12 @@
-//! Errors of robots: a tree that is none, and positions that do not fit.
+//! Errors of robots: links and joints that form no tree, and positions that do not fit a robot.
 
 use rigid_ccd::InputError;
 
-/// The reason why links and joints are no robot, or why a configuration does not fit it.
+/// The reason why links and joints form no robot, or why a configuration does not fit a robot.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotError {
-    /// A robot has no links.
+    /// The robot has no links.
     #[error("the robot has no links")]
     NoLinks,
     /// Two links have the same name.
@@ -21,7 +21,7 @@ pub enum RobotError {
         /// The name of both joints.
         joint: String,
     },
-    /// There is no link of a name.
+    /// No link of the robot has the given name.
     #[error("there is no link `{link}`")]
     NoSuchLink {
         /// The name that no link has.
@@ -30,9 +30,9 @@ pub enum RobotError {
     /// A link is the child of two joints.
     #[error("link `{link}` is the child of joint `{joint}` and of another one")]
     TwoParents {
-        /// The name of the link.
+        /// The name of the link with two parents.
         link: String,
-        /// The name of the second joint.
+        /// The name of the second joint that has the link as its child.
         joint: String,
     },
     /// Several links are the child of no joint, so that the tree has several parts.
@@ -49,30 +49,30 @@ pub enum RobotError {
         /// The name of a link in the loop.
         link: String,
     },
-    /// A joint follows a joint that does not exist, has no position, or follows it in turn.
+    /// A joint follows another joint that does not exist, has no position, or follows the first joint in turn.
     #[error("joint `{joint}` follows `{followed}`, which has no position of its own")]
     FollowsNothing {
-        /// The name of the joint.
+        /// The name of the joint that was to follow another joint.
         joint: String,
-        /// The name of the joint that it was to follow.
+        /// The name of the joint that was to be followed.
         followed: String,
     },
-    /// The number of positions is not that of the joints that have one.
+    /// A configuration does not have exactly one position for each joint with a position of its own.
     #[error("{given} positions for {expected} joints: {names}")]
     PositionCount {
-        /// The number of positions.
+        /// The number of positions in the configuration.
         given: usize,
         /// The number of joints with a position of their own.
         expected: usize,
-        /// The names of these joints.
+        /// The names of the joints with a position of their own, separated by commas.
         names: String,
     },
     /// A position is outside of its joint's limits, or not finite.
     #[error("joint `{joint}`: {error}")]
     Position {
-        /// The name of the joint.
+        /// The name of the joint whose position is refused.
         joint: String,
-        /// The reason.
+        /// The reason why the position is refused.
         error: InputError,
     },
     /// A pose or a motion is not valid.

@@ -1,16 +1,17 @@
-//! The pairs of links that are checked for collision, and why others are not.
+//! The pairs of links that are checked for collision, and the reasons why other pairs are not.
 
 use crate::robot::Robot;
 use std::collections::BTreeMap;
 
-/// The pairs of a robot's links with the reason for each that is not checked. Links go by their numbers.
+/// The pairs of a robot's links that are checked for collision, with the reason for each pair that is not. Links go by
+/// their numbers.
 ///
 /// At first all pairs of links with bodies are checked, except for neighbours and for links that no joint moves against
 /// each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkPairs {
     skipped: BTreeMap<[usize; 2], SkipReason>,
-    /// The links that have bodies.
+    /// The numbers of the links that have bodies.
     links: Vec<usize>,
 }
 
@@ -18,16 +19,16 @@ pub struct LinkPairs {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SkipReason {
-    /// One link holds the other by a joint.
+    /// A joint connects the two links directly.
     Adjacent,
-    /// No joint with a position moves one link against the other.
+    /// No joint moves one link relative to the other.
     NoMotion,
-    /// The caller or a file says so, such as an SRDF, with its reason.
+    /// The caller or a file, such as an SRDF, excludes the pair, for the reason given here.
     Disabled(String),
 }
 
 impl LinkPairs {
-    /// Creates the pairs of a robot without those of neighbours and of links that never move against each other.
+    /// Creates the pairs of a robot; adjacent links, and links that never move relative to each other, are not checked.
     pub fn of_robot(robot: &Robot) -> Self {
         let has_bodies = |&link: &usize| !robot.links()[link].bodies.is_empty();
         let links: Vec<usize> = (0..robot.links().len()).filter(has_bodies).collect();
@@ -50,12 +51,12 @@ impl LinkPairs {
         pairs
     }
 
-    /// Leaves out a pair for a reason. A pair that is left out already keeps its reason.
+    /// Excludes a pair from the check for a reason. A pair that is excluded already keeps its reason.
     pub fn skip(&mut self, one: usize, other: usize, reason: SkipReason) {
         self.skipped.entry(ordered(one, other)).or_insert(reason);
     }
 
-    /// Checks a pair again that was left out.
+    /// Includes a pair in the check again that was excluded before.
     pub fn check(&mut self, one: usize, other: usize) {
         self.skipped.remove(&ordered(one, other));
     }

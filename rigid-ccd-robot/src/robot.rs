@@ -21,9 +21,9 @@ pub struct Robot {
     links: Vec<Link>,
     joints: Vec<Joint>,
     tree: Tree,
-    /// For each joint, how its position comes from the configuration; `None` for a fixed one.
+    /// For each joint, the rule by which its position is computed from a configuration; `None` for a fixed joint.
     sources: Vec<Option<Source>>,
-    /// The joints with a position of their own, in order.
+    /// The numbers of the joints with a position of their own, in the order of a configuration.
     free_joints: Vec<usize>,
 }
 
@@ -32,20 +32,20 @@ pub struct Robot {
 pub struct Link {
     /// The name of the link, which no other link of the robot has.
     pub name: String,
-    /// The bodies of the link.
+    /// The bodies that are fixed in the link's frame.
     pub bodies: Vec<LinkBody>,
 }
 
 /// A body that is fixed in the frame of a link.
 #[derive(Clone, Debug)]
 pub struct LinkBody {
-    /// The body.
+    /// The body, which clones of the link share.
     pub body: Arc<Body>,
     /// The pose of the body in the link's frame.
     pub pose: Pose,
 }
 
-/// A joint of a robot, which holds a link on another one.
+/// A joint of a robot, which connects a child link to its parent link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// The name of the joint, which no other joint of the robot has.
@@ -56,31 +56,31 @@ pub struct Joint {
     pub child: String,
     /// The axis and the limits of the joint, in the frame of the parent.
     pub joint: trajectory::Joint,
-    /// Where the joint's position comes from.
+    /// The source of the joint's position: the configuration, or another joint.
     pub position: Position,
 }
 
-/// Where the position of a joint comes from.
+/// The source of a joint's position: the configuration, or another joint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Position {
-    /// The configuration has a position for the joint, unless it is fixed.
+    /// The configuration has a position for the joint, unless the joint is fixed.
     Free,
-    /// The joint follows another one, as `mimic` of URDF. Its position is `multiplier · position + offset`; limits of its
-    /// own do not count.
+    /// The joint follows another joint, as `mimic` of URDF. Its position is `multiplier · position + offset`; limits of
+    /// its own do not count.
     Follows {
-        /// The name of the joint that it follows.
+        /// The name of the followed joint.
         joint: String,
-        /// The factor of the other joint's position.
+        /// The factor on the followed joint's position.
         multiplier: f64,
-        /// The position where the other joint's is 0.
+        /// The position of the joint when the followed joint is at 0.
         offset: f64,
     },
 }
 
-/// How the position of a joint comes from a configuration.
+/// The rule by which a joint's position is computed from a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Source {
-    /// The number of the position in the configuration.
+    /// The index of a position in the configuration, from which the joint's position is computed.
     number: usize,
     multiplier: f64,
     offset: f64,
@@ -139,7 +139,7 @@ impl Robot {
         &self.joints
     }
 
-    /// Returns the names of the joints that have a position, in the order of a configuration.
+    /// Returns the names of the joints that have a position of their own, in the order of a configuration.
     pub fn joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
         let free = self.free_joints.iter();
         free.map(|&joint| self.joints[joint].name.as_str())
@@ -153,12 +153,12 @@ impl Robot {
         })
     }
 
-    /// Returns the number of the base, the link that no joint moves.
+    /// Returns the number of the base, which is the link that no joint moves.
     pub fn base(&self) -> usize {
         self.tree.base()
     }
 
-    /// Returns the number of the link with a name.
+    /// Returns the number of the link that has the given name.
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`].
@@ -179,7 +179,7 @@ impl Robot {
             .pose(chain.chain().joints().len(), &positions)?)
     }
 
-    /// Returns the chain of joints by which a link moves in the frame of another one, both by their numbers. It leads up to
+    /// Returns the chain of joints by which link number `to` moves in the frame of link number `from`. It leads up to
     /// their common ancestor, through reversed joints, and down again.
     pub fn chain_between(&self, from: usize, to: usize) -> ChainBetween {
         let steps = self.tree.steps_between(from, to);
@@ -191,18 +191,18 @@ impl Robot {
         ChainBetween::new(chain, steps.iter().map(|step| step.joint).collect())
     }
 
-    /// Returns whether no joint with a position moves one link in the frame of another one.
+    /// Returns whether only fixed joints are between two links, so that neither moves in the frame of the other.
     pub(crate) fn is_rigid_between(&self, one: usize, other: usize) -> bool {
         let steps = self.tree.steps_between(one, other);
         steps.iter().all(|step| self.sources[step.joint].is_none())
     }
 
-    /// Returns the number of the link that holds the joint of a link; `None` for the base.
+    /// Returns the number of a link's parent link; `None` for the base.
     pub(crate) fn parent_link(&self, link: usize) -> Option<usize> {
         self.tree.parent(link)
     }
 
-    /// Refuses a configuration with a wrong number of positions, or with one outside of its joint's limits.
+    /// Refuses a configuration with a wrong number of positions, or with a position outside of its joint's limits.
     fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let expected = self.free_joints.len();
         if configuration.len() != expected {
@@ -222,7 +222,7 @@ impl Robot {
         Ok(())
     }
 
-    /// Returns the position of a joint in a configuration; 0 for a fixed one.
+    /// Returns the position of a joint in a configuration; 0 for a fixed joint.
     fn position(&self, joint: usize, configuration: &[f64]) -> f64 {
         self.sources[joint].map_or(0.0, |source| {
             source.multiplier * configuration[source.number] + source.offset
@@ -230,7 +230,7 @@ impl Robot {
     }
 }
 
-/// Finds how the position of each joint comes from a configuration, and which joints have a position of their own.
+/// Finds the rule for the position of each joint, and the joints that have a position of their own.
 fn sources(joints: &[Joint]) -> Result<(Vec<Option<Source>>, Vec<usize>), RobotError> {
     let is_free = |joint: &Joint| joint.position == Position::Free && !joint.joint.is_fixed();
     let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();

@@ -3,7 +3,7 @@
 use quick_xml::de::from_str;
 use serde::Deserialize;
 
-/// The pairs that an SRDF file disables. Groups, states and other elements are passed over.
+/// The pairs that an SRDF file disables. Groups, states and other elements are ignored.
 #[derive(Debug, Deserialize)]
 struct Document {
     #[serde(rename = "disable_collisions", default)]

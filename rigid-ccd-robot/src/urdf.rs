@@ -1,4 +1,4 @@
-//! Reads a robot from a URDF file, with the meshes that it names.
+//! Reads a robot from a URDF file and from the mesh files that the URDF names.
 
 mod bodies;
 mod error;
@@ -18,7 +18,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use urdf_rs::JointType;
 
-/// A URDF file, and how its links become bodies.
+/// A URDF file to read, with the choice of how its links become bodies.
 ///
 /// ```
 /// use rigid_ccd_robot::{MeshModel, Urdf};
@@ -44,19 +44,19 @@ pub struct Urdf {
     meshes: MeshModel,
 }
 
-/// The elements of a URDF's links that become bodies.
+/// The kind of XML elements of a URDF's links that become bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Geometry {
-    /// The elements `collision`.
+    /// The elements `collision` of each link: the shapes for collision checks.
     #[default]
     Collision,
-    /// The elements `visual`.
+    /// The elements `visual` of each link: the shapes for drawing.
     Visual,
 }
 
 impl Urdf {
-    /// Names a URDF file. Its links become exact bodies of the elements `collision`. Packages are looked for in the folders
-    /// of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, and around the file.
+    /// Names the URDF file to read. Its links become exact bodies of the elements `collision`. Packages are searched
+    /// for in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then in the folders above the file.
     pub fn at(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Urdf {
@@ -67,26 +67,26 @@ impl Urdf {
         }
     }
 
-    /// Looks for the packages of `package://` in a folder before all others. It is a package, or holds packages.
+    /// Adds a folder that is searched first for `package://` names. The folder is a package, or holds packages.
     #[must_use]
     pub fn with_packages(mut self, folder: impl Into<PathBuf>) -> Self {
         self.packages.look_first_in(folder.into());
         self
     }
 
-    /// Sets which elements of links become bodies.
+    /// Sets whether the `collision` or the `visual` elements of links become bodies.
     #[must_use]
     pub fn with_geometry(self, geometry: Geometry) -> Self {
         Urdf { geometry, ..self }
     }
 
-    /// Sets what meshes become.
+    /// Sets whether a mesh becomes exact pieces or its convex hull.
     #[must_use]
     pub fn with_meshes(self, meshes: MeshModel) -> Self {
         Urdf { meshes, ..self }
     }
 
-    /// Reads the robot.
+    /// Reads the URDF file and its meshes, and builds the robot.
     ///
     /// A cylinder becomes a polytope that encloses it; see [`Body::excess`](rigid_ccd::Body::excess). A floating, planar or
     /// spherical joint is refused.
@@ -112,8 +112,8 @@ impl Urdf {
         Ok(Robot::new(links, joints)?)
     }
 
-    /// Returns the pairs of links that are checked: all but neighbours, links that never move against each other, and those
-    /// that the SRDF file disables.
+    /// Returns which pairs of links are checked: all pairs except neighbours, links that never move relative to each
+    /// other, and pairs that the SRDF file disables.
     ///
     /// # Errors
     /// [`UrdfError`] if the file cannot be read, or names a link that the robot does not have.
@@ -196,7 +196,7 @@ fn joint_of(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
     })
 }
 
-/// Converts a pose of a URDF, which turns about fixed axes: first x, then y, then z.
+/// Converts a pose of a URDF, whose roll, pitch and yaw are rotations about fixed axes: first x, then y, then z.
 fn pose_of(origin: &urdf_rs::Pose) -> Result<Pose, InputError> {
     let [roll, pitch, yaw] = origin.rpy.0;
     let turned = DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll);

@@ -1,8 +1,8 @@
-//! A thousand queries on all cores, answered in order.
+//! Answers a thousand queries on all cores; the answers come in the order of the queries.
 
 use rigid_ccd::{Body, Error, Motion, Pose, first_contacts};
 
-/// Returns the motion of a capsule past a box or into it, from another side for each `k`.
+/// Returns the motion of a capsule towards a box, which it hits or misses, from a direction that depends on `k`.
 fn motion(k: u32) -> Result<Motion, Error> {
     let angle = f64::from(k) * 0.01;
     let from = Pose::at([4.0 * angle.cos(), 4.0 * angle.sin(), 0.3])?;

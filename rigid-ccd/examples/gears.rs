@@ -15,7 +15,7 @@ use std::io::Write;
 struct Gear {
     teeth: u32,
     module: f64,
-    /// The difference of the widths of gaps and teeth at the pitch circle.
+    /// The width of a gap minus the width of a tooth, at the pitch circle.
     backlash: f64,
 }
 
@@ -93,7 +93,7 @@ struct WindowClearance {
     upper: f64,
 }
 
-/// Returns the least clearance in each interval of a full turn of the first gear.
+/// Returns bounds on the least clearance in each interval of a full turn of the first gear.
 fn clearances(gears: [&Gear; 2]) -> Result<Vec<WindowClearance>, Box<dyn std::error::Error>> {
     let [a, b] = gears;
     let bodies = [a.body()?, b.body()?];

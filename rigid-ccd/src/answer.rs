@@ -1,5 +1,5 @@
-//! What an [`Answer`](crate::Answer) is made of, and the features that [`Query::contacts_at`](crate::Query::contacts_at)
-//! lists.
+//! The types within an [`Answer`](crate::Answer), and the pairs of features that
+//! [`Query::contacts_at`](crate::Query::contacts_at) lists.
 
 pub use crate::parallel::QueryError;
 pub use ccd_core::{

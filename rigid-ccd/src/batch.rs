@@ -1,4 +1,4 @@
-//! Many queries on one pair of bodies, each timed alone.
+//! Answers many queries on one pair of bodies, and times each query.
 //!
 //! Public only because `ccd-bench` and the Python package share it; no stable interface. Use
 //! [`Solver`](crate::Solver) instead.
@@ -24,7 +24,7 @@ use crate::table::results::{ClearanceComparison, ResultRow};
 use ccd_core::{Answer, Body, InputError, Query, Settings};
 use std::num::NonZeroUsize;
 
-/// The two bodies of a query; both may be the same.
+/// The two bodies of a query; both may be the same body.
 #[derive(Clone, Copy, Debug)]
 pub struct Bodies<'a> {
     /// The body that the first motion of a row moves.
@@ -34,7 +34,8 @@ pub struct Bodies<'a> {
 }
 
 impl<'q> Bodies<'q> {
-    /// Builds the query of both bodies on the motions or paths of a row. The distance is asked for at the start.
+    /// Builds the query about both bodies for the motions or paths of a row. For a distance question, the bodies rest
+    /// at their start poses.
     ///
     /// # Errors
     /// Those of [`Query::new`].
@@ -68,7 +69,7 @@ impl<'q> Bodies<'q> {
         }
     }
 
-    /// Returns the clearance and the bodies' excess, against which the table of results compares distances.
+    /// Returns the clearance that distances are compared with, together with the sum of both bodies' excess.
     pub fn clearance_comparison(self, clearance: Option<f64>) -> ClearanceComparison {
         ClearanceComparison {
             clearance,
@@ -82,11 +83,11 @@ impl<'q> Bodies<'q> {
 pub struct TimedAnswer {
     /// The answer to the question about one row.
     pub answer: Answer,
-    /// The time to pose and solve the query, in microseconds.
+    /// The time to build and solve the query, in microseconds.
     pub micros: f64,
 }
 
-/// Creates one solver for each of `threads`, by default one for each core.
+/// Creates a parallel solver with `threads` threads; `None` means one thread for each core.
 pub fn parallel_solver<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> ParallelSolver<S> {
     match threads.and_then(|threads| NonZeroUsize::new(threads.into())) {
         Some(threads) => ParallelSolver::with_threads(threads, solver),

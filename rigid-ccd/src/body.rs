@@ -1,4 +1,4 @@
-//! What a [`Body`](crate::Body) is made of and what it tells of itself, beyond the simple shapes.
+//! The types that a [`Body`](crate::Body) is made of, such as convex pieces, and those that its methods take or return.
 
 pub use ccd_core::{
     Combination, Enclosure, Face, Facet, FacetOrigin, Hierarchy, HierarchyNode, Piece, Pieces,

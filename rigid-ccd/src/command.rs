@@ -67,7 +67,6 @@ See `ccd help COMMAND` for the options, tables and exit codes of a command.";
 enum Command {
     /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
     Query(Box<QueryArgs>),
-    /// Certify motions that another checker has called free, and list those that are not
     /// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
     View(Box<ViewArgs>),
     /// List which bodies of a scene touch: when, where, with which features
@@ -85,13 +84,13 @@ enum Command {
 pub enum Exit {
     /// Every row has an answer.
     AllAnswered,
-    /// Some rows are bad; the others have an answer.
+    /// Some rows could not be read, answered or drawn; all others are done.
     SomeRowsBad,
-    /// Every row has an answer, and a check found rows that are not free or kept.
+    /// Every row has an answer, and `--check` found rows that are not proven `free` or `kept`.
     SomeRowsNotFree,
 }
 
-/// Runs the command line of this process.
+/// Parses the command line of this process, and runs the subcommand.
 pub fn main() -> ExitCode {
     let given = Cli::command().get_matches();
     let cli = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
@@ -106,8 +105,8 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for bad input, 3
-/// for a check that finds something.
+/// Returns the exit code of a run, and prints its error, if there is one. The code is 0 for success, 1 for results that
+/// cannot be written, 2 for bad input, and 3 for rows that fail `--check`.
 pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,
@@ -131,14 +130,14 @@ pub fn print_error(message: &str) {
     print_line(&format!("{}: {message}", program_name()));
 }
 
-/// Writes a line to standard error. Cells and names of files in it may hold anything: nothing of it moves the cursor,
-/// changes colours or ends the line.
+/// Writes a line to standard error, with control characters escaped. So a cell or a file name in the line cannot move
+/// the cursor, change colours or end the line.
 pub(crate) fn print_line(line: &str) {
     // A message that cannot be written is not a failure.
     let _ = writeln!(io::stderr(), "{}", PrintableText(line));
 }
 
-/// Prints the remarks about a question, one line for each.
+/// Prints remarks about the input, one line for each.
 fn print_remarks(remarks: impl IntoIterator<Item = Remark>) {
     for remark in remarks {
         print_error(&remark.to_string());

@@ -41,18 +41,18 @@ where
     ParallelSolver::new(Solver::new).first_contacts(queries)
 }
 
-/// The error of one query of many.
+/// The error of one of many queries, with the index of the query.
 #[derive(Debug, thiserror::Error)]
 #[error("query {query}: {error}")]
 pub struct QueryError {
-    /// The index of the query among the given ones, counted from 0.
+    /// The index of the query among the given queries, counted from 0.
     pub query: usize,
-    /// The invalid input of the query.
+    /// The reason why the input of the query is not valid.
     #[source]
     pub error: InputError,
 }
 
-/// Solvers for many queries side by side, one on each thread. Keep it between calls: it reuses its memory.
+/// Solvers that answer many queries in parallel, one on each thread. Keep it between calls: it reuses its memory.
 ///
 /// Each thread takes the next query when it has answered one, so that a few slow queries do not hold up the
 /// others. Answers are in the order of the queries. They are the same bits on any number of threads, unless a
@@ -144,7 +144,7 @@ where
 }
 
 impl<S: Send> ParallelSolver<S> {
-    /// Calls a function with a solver and each query, and returns the results in the order of the queries.
+    /// Calls `answer` with a solver and each query, in parallel, and returns the results in the order of the queries.
     ///
     /// Queries and results may be of any type. All results are in memory at one time; pass very many queries in
     /// parts.
@@ -182,7 +182,7 @@ impl<S: Send> ParallelSolver<S> {
         self.call_on_each(queries.len(), next, answer)
     }
 
-    /// Calls a function with a solver and each query of an iterator, and returns the results in the order of
+    /// Calls `answer` with a solver and each query of an iterator, in parallel, and returns the results in the order of
     /// the queries.
     ///
     /// It is [`map`](ParallelSolver::map) for queries that are read or made while others are answered. A lock
@@ -217,7 +217,8 @@ impl<S: Send> ParallelSolver<S> {
         self.call_on_each(most, next, answer)
     }
 
-    /// Calls a function on each query, on up to `most` threads, and returns the results in the order of their indices.
+    /// Calls `answer` on each query that `next` returns, on at most `most` threads, and returns the results in the
+    /// order of the queries' indices.
     fn call_on_each<Q, R: Send>(
         &mut self,
         most: usize,

@@ -1,4 +1,4 @@
-//! Draws answers as views of a page; see `ccd-view`.
+//! Converts answers to the views of an HTML page, which `ccd-view` writes.
 //!
 //! Public only because the pages of `ccd-bench` share it; no stable interface.
 
@@ -31,7 +31,7 @@ use drawn::feature_corners;
 /// The colours of body A and body B, in CSS.
 pub const BODY_COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 
-/// Draws answers about two bodies as views.
+/// Makes views of a page from answers about two bodies.
 pub struct Painter<'a> {
     bodies: Bodies<'a>,
     asked: Asked,
@@ -46,7 +46,7 @@ pub enum ViewError {
     /// The motions of the row are out of range.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The bodies are farther apart than the row says, so that the row must be about others.
+    /// The bodies are farther apart than the row says, so the row is about other bodies or other motions.
     #[error(
         "at {time} the bodies are at least {measured_distance} apart, but the row says at most {reported}: it is the answer about \
          other bodies, or other motions"
@@ -54,7 +54,7 @@ pub enum ViewError {
     BodiesMismatch {
         /// The time at which the distances are compared.
         time: f64,
-        /// The distance of the given bodies at that time.
+        /// A lower bound of the distance of the given bodies at that time.
         measured_distance: f64,
         /// The upper bound of the distance according to the row.
         reported: f64,
@@ -62,7 +62,7 @@ pub enum ViewError {
 }
 
 impl<'a> Painter<'a> {
-    /// Creates a painter of two bodies, for answers to a question.
+    /// Creates a painter for answers about two bodies; `asked` describes the query of the answers.
     pub fn new(bodies: Bodies<'a>, asked: Asked) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn_mesh(body)));
@@ -75,7 +75,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Makes a page of the given views.
+    /// Makes a page of the given views, with the meshes of both bodies.
     pub fn page<'t>(&self, title: &'t str, views: Vec<View>) -> Page<'t> {
         let name = String::new();
         Page {
@@ -85,7 +85,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Draws the motions and the answer of a row.
+    /// Makes the view of a row: its motions, its contact, and the distance over time.
     ///
     /// # Errors
     /// [`ViewError`].
@@ -143,7 +143,7 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// Checks that the bodies are no farther apart than the row of a table of results says.
+    /// Returns an error if the bodies are farther apart than the row of a table of results says.
     fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
         let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
             return Ok(());

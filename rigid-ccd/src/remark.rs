@@ -7,7 +7,7 @@ use ccd_core::vector::length;
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// A remark about a question that is valid, but probably a mistake. It changes no answer.
+/// A remark about input that is valid, but probably a mistake. It changes no answer.
 ///
 /// The command prints it, and the Python package warns of it, each kind once. Who asks through the library decides
 /// for himself what to do with it.
@@ -25,7 +25,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Remark {
-    /// The tolerance is more than a tenth of the smaller body.
+    /// The tolerance is more than a tenth of the smaller body's size.
     CoarseTolerance {
         /// The tolerance of the query, in the scene's unit of length.
         tolerance: f64,
@@ -64,19 +64,19 @@ const MIN_SUSPICIOUS_ROTATION: f64 = 4.0 * TAU;
 /// The largest angle, in degrees, that a mistaken input is assumed to mean: two turns. More is a shaft that spins.
 const MAX_SUSPICIOUS_DEGREES: f64 = 720.0;
 
-/// The angle in degrees of which typical angles are multiples. In radians, 50, 100, 200, 500 and multiples of π are
-/// none of them.
+/// The step in degrees whose multiples count as round angles. None of 50, 100, 200, 500 and the multiples of π, which
+/// are typical of radians, is a multiple of it.
 const DEGREE_STEP: f64 = 15.0;
 
-/// The relative deviation from a multiple of that angle that is attributed to rounding.
+/// The largest relative deviation from a round angle that is attributed to rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The deviation of a quaternion's length from 1 above which a remark is made. One that is printed with two digits is
-/// nearer.
+/// The deviation of a quaternion's length from 1 above which a remark is made. A quaternion that is printed with two
+/// digits deviates less.
 const MAX_UNIT_LENGTH_DEVIATION: f64 = 0.1;
 
 impl Remark {
-    /// Returns the largest side of the box about a body, in its frame.
+    /// Returns the largest side of a body's axis-aligned bounding box in the body's frame.
     ///
     /// # Complexity
     /// Linear in the body's points.
@@ -95,7 +95,7 @@ impl Remark {
         is_coarse.then_some(Remark::CoarseTolerance { tolerance, size })
     }
 
-    /// Returns a remark if an angular velocity rotates a body many times in the duration and is a round number of
+    /// Returns a remark if an angular velocity rotates a body by many turns in the duration, and is a round number of
     /// degrees.
     pub fn of_spin(spin: impl Into<[f64; 3]>, duration: f64) -> Option<Self> {
         let spin = DVec3::from_array(spin.into());
@@ -140,14 +140,15 @@ impl Remark {
         }
     }
 
-    /// Returns whether a body rotates so often that its angular velocity may be meant in degrees, round or not.
+    /// Returns whether a body rotates by more than four turns in the duration, as if its angular velocity were in
+    /// degrees.
     #[cfg(feature = "tables")]
     pub(crate) fn is_fast_rotation(spin: DVec3, duration: f64) -> bool {
         length(spin) * duration > MIN_SUSPICIOUS_ROTATION
     }
 }
 
-/// Returns the corners of boxes about the points of a body, grown by their pieces' radii.
+/// Returns two opposite corners of a box about each point of a body. The box holds the ball of the piece's radius.
 pub(crate) fn corners(body: &Body) -> impl Iterator<Item = DVec3> {
     body.pieces().iter().flat_map(|piece| {
         let radius = DVec3::splat(piece.radius);

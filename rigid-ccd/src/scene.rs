@@ -25,11 +25,11 @@ pub use stops::Stop;
 /// Many bodies, each with a [motion](ccd_core::Motion) or a [trajectory](crate::trajectory); finds which of them touch,
 /// and when.
 ///
-/// Only bodies whose ways meet are examined, and the pair that is proven least far goes on next: no pair is proven
-/// much further than the answer needs. Keep a scene from step to step: it reuses its memory.
+/// Only pairs whose swept boxes meet are examined, the pair with the earliest proven time first: no pair is proven much
+/// further than the answer needs. Keep a scene from step to step: it reuses its memory.
 ///
 /// # Guarantee
-/// That of [`first_contact`](crate::first_contact), for all pairs together. The answers are those of the pairs
+/// The guarantee of [`first_contact`](crate::first_contact), for all pairs together. The answers are those of the pairs
 /// asked one by one, the same bits on any number of threads, unless a [deadline](Settings::deadline) or a stop flag
 /// ends a search. Pairs that boxes tell apart are free, also where one by one they would reach a limit, or be refused
 /// for their distance.
@@ -80,8 +80,7 @@ pub struct FixedBodyError {
     pub index: usize,
 }
 
-/// The number of pairs for which it pays to start one more thread. To start one takes as long as a few tens of pairs
-/// do.
+/// The number of pairs for each thread that is started: starting a thread takes as long as a few tens of pairs.
 const PAIRS_PER_THREAD: usize = 32;
 
 /// A box that meets the box of every valid motion: coordinates and displacements are at most 1e12.
@@ -119,7 +118,7 @@ impl<'a> Scene<'a> {
         self
     }
 
-    /// Restricts the queries to pairs accepted by a function of both indices, the lower one first.
+    /// Restricts the queries to the pairs that a function accepts, given both indices, the lower index first.
     ///
     /// Most filters are [`Groups`]; a function suits a list of parts that are fitted to each other.
     #[must_use]
@@ -154,7 +153,7 @@ impl<'a> Scene<'a> {
     /// elsewhere.
     ///
     /// # Errors
-    /// [`FixedBodyError`] for a fixed body that would move: pairs of two fixed bodies are not looked at.
+    /// [`FixedBodyError`] for a fixed body that would move: pairs of two fixed bodies are never checked.
     ///
     /// # Panics
     /// No body has the index.
@@ -250,7 +249,7 @@ impl<'a> Scene<'a> {
         events.iter().map(Event::impact).collect()
     }
 
-    /// Returns the contacts and errors of the pairs in any order, as far as `goal` needs them.
+    /// Finds the contacts and errors of the pairs, as far as `goal` needs them, and returns them in arbitrary order.
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = TimeLimits::new(duration, &self.settings);
         let pairs = self.pairs(duration);

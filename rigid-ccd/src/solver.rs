@@ -1,4 +1,4 @@
-//! Solvers for single queries.
+//! Answers single queries about two bodies, with a solver that reuses its memory.
 
 use crate::Error;
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
@@ -152,7 +152,7 @@ impl<O: DistanceOracle> Solver<O> {
         Ok(self.any_contact(a, b, duration)?.hit()?.is_none())
     }
 
-    /// Returns any contact of two moving bodies: perhaps not the first one.
+    /// Finds some contact of two moving bodies, perhaps not the first one, or proves that there is none.
     ///
     /// # Errors
     /// Those of [`Solver::first_contact`].
@@ -193,11 +193,10 @@ impl<O: DistanceOracle> Solver<O> {
         self.best_first.contact_interval(&query, &mut self.oracle)
     }
 
-    /// Brackets the least distance of two moving bodies, to within the tolerance, with its time and the nearest
-    /// pieces; or answers whether they keep a required [clearance](Settings::clearance), which costs about as much
-    /// as [`Solver::is_free`] with that margin.
+    /// Brackets the least distance of two moving bodies to within the tolerance, with its time and the nearest pieces.
     ///
-    /// The margin and the start policy play no role.
+    /// With a required [clearance](Settings::clearance), it only answers whether the bodies keep it, which costs about
+    /// as much as [`Solver::is_free`] with that margin. The margin and the start policy play no role.
     ///
     /// # Guarantee
     /// The bodies are never nearer than the lower bound, and at that time at most the upper bound apart; so are the shapes
@@ -248,7 +247,7 @@ impl<O: DistanceOracle> Solver<O> {
         self.closest_approach(a, b, 0.0)
     }
 
-    /// Answers a question with the settings of the query.
+    /// Answers a question about the bodies of a query, with the settings of the query instead of the solver's.
     ///
     /// # Errors
     /// Those of trajectories.

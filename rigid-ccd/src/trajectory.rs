@@ -1,4 +1,4 @@
-//! Trajectories beyond constant velocities, and the parts to build others.
+//! Trajectories other than motions at constant velocities, and the types and traits to build your own.
 //!
 //! Anything that implements [`Trajectory`] can carry a body. Queries along trajectories are as certain as those
 //! along motions: every stretch of a trajectory knows how far it strays from a [`Motion`].
@@ -45,7 +45,7 @@ pub use spline::Spline;
 pub use turns::OrientationCurve;
 pub use worst_deviation::{Worst, worst_deviation};
 
-/// The unit roundoff: the relative error of one operation.
+/// The unit roundoff of f64: the largest relative error of one operation.
 const U: f64 = f64::EPSILON / 2.0;
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use ccd_core::{Body, InputError, Motion, MovingBody, Pieces, Pose, Settings};
 
 const NON_FINITE_NUMBERS: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// Invalid times and lengths, each with its text in messages.
+/// Invalid times and lengths, each with its text in error messages.
 const OUT_OF_RANGE_NUMBERS: [(f64, &str); 5] = [
     (-1.0, "-1"),
     (-1e-300, "-1e-300"),
@@ -98,8 +98,8 @@ fn faces_have_as_many_numbers() {
     assert_eq!(unnumbered, Err(InputError::FaceIds { faces: 1, ids: 0 }));
 }
 
-/// Tests that invalid lengths of shapes are rejected by name. Boxes with a negative side would be inside out, and
-/// capsules would have another height.
+/// Tests that an invalid length of a shape gives an error with the name of that length. Boxes with a negative side
+/// would be inside out, and capsules would have another height.
 #[test]
 fn shapes_name_the_bad_length() {
     type Shape = fn(f64) -> Result<Body, InputError>;

@@ -1,4 +1,4 @@
-//! Tests that no files of a crate import each other in a circle.
+//! Tests that no source files of a crate import each other in a circle.
 //!
 //! A file may use its own ancestors. All other imports count, also those inside of macros. Tests do not count.
 
@@ -10,7 +10,7 @@ use syn::visit::{self, Visit};
 /// The path of a module within its crate. The crate's root is empty.
 type Module = Vec<String>;
 
-/// The set of modules that each module of a crate imports.
+/// The modules of the same crate that each module of a crate imports.
 type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
 const CRATES: [&str; 12] = [
@@ -42,7 +42,7 @@ fn no_files_import_each_other_in_a_circle() {
     assert!(files > 500, "{files}");
 }
 
-/// Tests that the check sees imports by `use`, by a path in an expression and in a macro, and across folders.
+/// Tests that a circle is found by imports in `use`, in a path of an expression and in a macro, also between folders.
 #[test]
 fn a_circle_is_found() {
     let found = |end: &str, below: &str| {
@@ -113,7 +113,7 @@ fn imports_by_module(texts: &BTreeMap<Module, syn::File>) -> Imports {
     imports.collect()
 }
 
-/// Returns the module of the crate that a path leads into; `None` if it leads out of the crate.
+/// Returns the module that a path in a module leads to; `None` if it leads out of the crate.
 fn module_of_path(
     texts: &BTreeMap<Module, syn::File>,
     module: &[String],
@@ -138,7 +138,7 @@ fn module_of_path(
     Some(at)
 }
 
-/// The collected paths of a file that may lead to another module.
+/// The paths in a file that may lead to another module of the crate.
 #[derive(Default)]
 struct Paths(Vec<Module>);
 
@@ -179,8 +179,7 @@ impl<'f> Visit<'f> for Paths {
         visit::visit_path(self, path);
     }
 
-    /// Collects the paths in a macro call. They are found as text, because the arguments of a macro are no syntax
-    /// tree.
+    /// Collects the paths in a macro call. They are found as text, because a macro's arguments have no syntax tree.
     fn visit_macro(&mut self, called: &'f syn::Macro) {
         let text = called.tokens.to_string().replace(' ', "");
         let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
@@ -193,8 +192,8 @@ impl<'f> Visit<'f> for Paths {
     }
 }
 
-/// Returns the modules in circles, and the modules that use these. Removes modules that use no other one until none
-/// is left.
+/// Returns the modules in import circles, and the modules that import these. Removes modules without imports until no
+/// such module is left.
 fn import_cycles(imports: &Imports) -> Imports {
     let mut left = imports.clone();
     loop {

@@ -11,14 +11,14 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// The allowed angle from the normal cone due to rounding, in radians, for coordinates near 1 and faces of 0.3 and
-/// more.
+/// The allowed angle between a contact's normal and the normal cone, in radians, for coordinates near 1 and faces of at
+/// least 0.3.
 const ANGLE_ROUNDING: f64 = 1e-12;
 
 /// The rounding error of the direction between two points, multiplied by their distance.
 const DIRECTION_ROUNDING: f64 = 4e-15;
 
-/// The distance of witnesses above which the direction between them may be the normal.
+/// The distance between witnesses above which the direction between them is accurate enough for a normal.
 const MIN_WITNESS_DISTANCE: f64 = 1e-8;
 
 const GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
@@ -49,7 +49,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
     );
 }
 
-/// Tests that every backend finds the normal of the surfaces, whatever axis its claim has.
+/// Tests that the normals of all backends are in the normal cones of both surfaces, whatever axis the oracle claims.
 #[test]
 fn answers_of_all_backends_have_a_common_normal() {
     let rng = &mut Pcg64::seed_from_u64(46);
@@ -61,11 +61,11 @@ fn answers_of_all_backends_have_a_common_normal() {
     }
 }
 
-/// Two bodies with a gap along a direction that is in the normal cones of a feature of each body.
+/// Two bodies a small gap apart along a direction that is in the normal cone of a feature of each body.
 struct FeatureContact {
     query: Query,
     gap: f64,
-    /// The dimension of the larger feature: 0 for vertices, 1 for edges, 2 for faces.
+    /// The larger dimension of both features: 0 for a vertex, 1 for an edge, 2 for a face.
     feature_dimension: usize,
 }
 
@@ -122,8 +122,8 @@ impl FeatureContact {
         );
     }
 
-    /// Checks the normal at the nearest points of the bodies, and returns their distance. Features that are farther
-    /// apart have a normal of their own.
+    /// Checks the normal of two nearest points, and returns their distance; `None` for points that are not the nearest.
+    /// Features that are farther apart have a normal of their own.
     fn check(&self, separation: &Separation) -> Option<f64> {
         let Separation {
             normal,
@@ -153,8 +153,8 @@ impl FeatureContact {
     }
 }
 
-/// Returns the sine of the angle between a direction and the normal cone of a surface at a point. It is at most 0
-/// within the cone.
+/// Returns the sine of the angle by which a direction is outside the normal cone of a surface at a point; 0 within the
+/// cone.
 fn angle_from_normal_cone(actor: &MovingShape, at: DVec3, n: DVec3) -> f64 {
     let mesh = &actor.shape.mesh;
     let pose = actor.motion.start();
@@ -184,7 +184,7 @@ fn angle_from_normal_cone(actor: &MovingShape, at: DVec3, n: DVec3) -> f64 {
     largest(&mut ends.collect::<Vec<_>>().into_iter())
 }
 
-/// A feature of a shape that is extreme along a direction, with a point on it.
+/// A random feature of a shape that is extreme along a direction, with a point on it.
 struct Support {
     normal: DVec3,
     point: DVec3,
@@ -244,7 +244,7 @@ impl Support {
         }
     }
 
-    /// Returns the rotation that takes x to the edge and z to the normal.
+    /// Returns the rotation that takes x to the edge direction and z to the normal.
     fn rotation_to_frame(&self) -> DQuat {
         let aside = self.normal.cross(self.along);
         DQuat::from_mat3(&ccd_core::glam::DMat3::from_cols(

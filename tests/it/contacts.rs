@@ -1,4 +1,4 @@
-//! Tests the list of all features in contact at the time of an answer.
+//! Tests the list of all pairs of features that are in contact at the time of an answer.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -14,7 +14,7 @@ use ccd_tests::strategies::{cases, check_cases, remote_cases};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns the time and the distance of the first contact, if there is one.
+/// Returns the time and the upper bound of the distance of the first contact, if there is one.
 fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
     match Backend::DEFAULT.solve(problem).outcome {
         Outcome::Contact { time, contact } => Some((time, contact.separation.upper)),
@@ -23,7 +23,7 @@ fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
     }
 }
 
-/// Returns the contacts of a scene by name, for every kind of pieces.
+/// Returns the contacts of the scene with a given name, for every kind of pieces.
 fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     let scenes = scenes_named(name);
     let query = &scenes[0].query;
@@ -36,7 +36,7 @@ fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     bodies.iter().map(of_kind).collect()
 }
 
-/// Tests a peg that passes through a plate: each of its upright edges meets both rims of one wall of the hole.
+/// Tests that each upright edge of a peg in a square hole touches both rims of one wall of the hole.
 #[test]
 fn t12_a_peg_touches_four_walls_at_once() {
     for (kinds, pairs) in contacts_of("T12 ") {
@@ -68,7 +68,7 @@ fn t12_a_peg_touches_four_walls_at_once() {
     }
 }
 
-/// Tests two combs: four corners of every tooth of each comb meet the other comb's base.
+/// Tests that the four corners of every tooth of two combs touch the other comb's base.
 #[test]
 fn t19_all_tips_of_two_combs_touch() {
     for (kinds, pairs) in contacts_of("T19 combs of 4") {
@@ -95,7 +95,7 @@ fn t1_a_cube_rests_on_its_corners() {
     }
 }
 
-/// Tests two plates of 512 triangles that cover each other and whose vertices coincide.
+/// Tests that two equal plates of 512 triangles, one on the other, touch at each pair of coinciding vertices.
 #[test]
 fn plates_meet_vertex_by_vertex() {
     for (kinds, pairs) in contacts_of("plates") {
@@ -111,8 +111,8 @@ fn plates_meet_vertex_by_vertex() {
     }
 }
 
-/// Tests that the touching features are among the contacts for all kinds of pieces, and that each contact is as
-/// described.
+/// Tests that the listed contacts of random cases include one as near as the first contact, and name the same features
+/// for all kinds of pieces.
 #[test]
 fn contacts_of_random_cases_hold() {
     let (reported, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
@@ -159,8 +159,8 @@ fn contacts_of_random_cases_hold() {
 
 type Names = [Feature; 2];
 
-/// Returns true if the names of the contacts are those of the mesh. A corner or an edge without a number in a patch
-/// may have the name of an adjacent face.
+/// Returns true if `names` and `exact`, the names for triangles, name the same features. A corner or an edge without a
+/// number in a patch may have the name of an adjacent face.
 fn same_feature_names(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
     let meshes = [&query.a, &query.b].map(|actor| &actor.shape.mesh);
     let fits = |name: &Names, exact: &Names| {

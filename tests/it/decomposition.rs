@@ -1,4 +1,5 @@
-//! Tests that convex patches lie exactly within the solid and exactly on its surface, or that there is a typed error.
+//! Tests that convex patches are exactly within the solid and on its surface, or that decomposition gives a typed
+//! error.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::{DecomposeError, Decomposition, PatchOrder, decompose};
@@ -33,7 +34,8 @@ fn claimed_patches(decomposition: &Decomposition) -> Vec<Claim<'_>> {
         .collect()
 }
 
-/// Checks all properties of a decomposition. Returns the number of points checked.
+/// Checks that the patches cover the mesh, and that their polytopes are valid and inside the solid. Returns the number
+/// of sampled points.
 fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<usize, String> {
     let solid = Solid::new(mesh);
     let claims = claimed_patches(decomposition);
@@ -46,8 +48,8 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
     Ok(points)
 }
 
-/// Checks the decomposition of a model in every order: with the given effort in the default order, quickly in the
-/// others.
+/// Checks the decomposition of a model in every order of patches: the default order with the given effort, the others
+/// quickly.
 fn check_model(model: &Model, effort: Effort) {
     check_order(PatchOrder::Cresting, model, effort);
     for order in [PatchOrder::BreadthFirst, PatchOrder::DepthFirst] {
@@ -90,7 +92,8 @@ fn patches_of_thousands_of_faces() {
     }
 }
 
-/// Tests the patches of random solids on a coarse grid, where many features are coplanar, collinear, or folded over.
+/// Tests the patches of random solids, some of them on a coarse grid, where many features are coplanar, collinear or
+/// folded over.
 #[test]
 fn patches_of_random_solids() {
     // Solids as they are; and some whose cavity may reach through their surface.

@@ -1,5 +1,4 @@
-//! Tests convex solids with many corners. One piece, its triangles, and one piece against triangles give the same
-//! answer.
+//! Tests that convex solids with many corners give the same answers as one piece and as triangles.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
@@ -78,7 +77,7 @@ fn a_dense_solid_answers_like_its_triangles() {
     assert!(contacts >= 9, "{contacts}");
 }
 
-/// Tests that a convex piece near a mesh is measured against few of the mesh's triangles.
+/// Tests that a dense convex piece needs at most twice as many oracle calls near a mesh as its triangles do.
 #[test]
 fn a_solid_against_many_triangles_costs_as_much_as_triangles() {
     let ball = icosphere(1.0, 4).mesh;

@@ -1,4 +1,4 @@
-//! Tests that the same query gives the same bits with a fresh schedule and with a used one.
+//! Tests that the same query gives the same bits again, with a fresh schedule and with one that answered other queries.
 
 use ccd_core::schedule::{BestFirst, Naive};
 use ccd_core::{DistanceOracle, OrElse, Schedule};
@@ -30,7 +30,7 @@ fn every_setup_repeats_itself() {
     });
 }
 
-/// Compares every oracle, reused with its schedule from query to query, with a fresh oracle and schedule.
+/// Defines one test for each schedule and oracle: reused from query to query, they give the same answers as new ones.
 macro_rules! used_as_fresh {
     ($($test:ident: $schedule:ident, $oracle:ty;)*) => {$(
         #[test]

@@ -46,7 +46,7 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
     }
 }
 
-/// Tests that points a last bit off the surface are located inside or outside.
+/// Tests that points off the surface by one unit in the last place are located inside or outside.
 #[test]
 fn points_a_rounding_off_the_surface_are_not_on_it() {
     let mesh = cuboid(DVec3::ONE).mesh;
@@ -62,7 +62,7 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
     }
 }
 
-/// Tests that the mean of three points, which is not exact in binary, is located exactly.
+/// Tests that the mean of three points, which is not exact in binary, is located exactly in their plane.
 #[test]
 fn thirds_are_exact() {
     let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1.0)];
@@ -89,7 +89,7 @@ fn triangles_without_an_area_hold_their_segment() {
     ));
 }
 
-/// Tests points on the same grid as the mesh, whose vertical rays pass through edges and vertices.
+/// Tests that points are located correctly if vertical rays from them pass through edges and vertices of the mesh.
 #[test]
 fn rays_through_edges_and_vertices_count_once() {
     let mesh = l_prism().mesh;
@@ -141,7 +141,7 @@ fn cavities_are_outside_and_windings_add_up() {
     }
 }
 
-/// Compares locations with winding numbers from solid angles in floating point, which differ only next to the
+/// Compares exact locations with winding numbers from solid angles in floating point: both agree except next to the
 /// surface.
 #[test]
 fn solid_angles_give_the_same_locations() {
@@ -181,12 +181,12 @@ fn solid_angles_give_the_same_locations() {
     assert!(all_outside > 1_000, "{all_outside}");
 }
 
-/// Returns true if a point is so near to a triangle that rounding might move it to the other side.
+/// Returns true if a point is so near to a triangle that rounding may decide on which side it is.
 fn is_within_rounding(p: DVec3, triangle: [DVec3; 3]) -> bool {
     nearest_on_triangle(p, triangle).distance(p) <= 1e-9
 }
 
-/// Tests that rounded points of a slanted face are off the face, some inside and some outside.
+/// Tests that rounded points of a slanted face are located on the side of the face's plane on which rounding puts them.
 #[test]
 fn rounded_points_of_a_face_are_located_by_its_plane() {
     let inputs = (direction(), 1..64u32, 1..64u32);

@@ -1,5 +1,4 @@
-//! Tests that bodies that slide on triangulated flat ground have no contacts with its inner edges, only with bodies
-//! on it.
+//! Tests that bodies that slide on flat ground touch no inner edges of its triangles, only other bodies on the ground.
 
 use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -16,7 +15,8 @@ use std::f64::consts::PI;
 /// Half of the ground's length and width, in units of length.
 const HALF: f64 = 8.0;
 
-/// The time by which a contact may be early, because the search ignores contacts up to the least tolerance.
+/// The time by which a contact may be early, because a search after a start in contact uses the least tolerance instead
+/// of the given one.
 const ALLOWED_EARLINESS: f64 = 1e-9;
 
 fn settings_with_leave() -> Settings {
@@ -26,7 +26,7 @@ fn settings_with_leave() -> Settings {
     }
 }
 
-/// Returns level ground at height 0, cut along `cuts` random lines each way, with a diagonal in each cell.
+/// Returns flat ground at height 0, cut along `cuts` random lines in x and in y, with a diagonal in each cell.
 fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
     let mut lines = || {
         let mut lines: Vec<f64> = (0..cuts).map(|_| rng.random_range(-HALF..HALF)).collect();
@@ -59,7 +59,7 @@ fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
     Mesh { vertices, faces }
 }
 
-/// Returns the closed solid of a sheet with walls, and a bottom one unit below.
+/// Returns the closed solid between a sheet and its copy one unit below.
 fn slab(top: Mesh) -> Mesh {
     let count = top.vertices.len() as u32;
     let Mesh {
@@ -111,7 +111,7 @@ fn random_solid(rng: &mut Pcg64) -> Shape {
     shape.placed(DQuat::IDENTITY, -least * DVec3::Z)
 }
 
-/// Returns a pose for the whole scene: the identity, or a random one.
+/// Returns a pose in which to see the whole scene: the identity or a random pose.
 fn random_frame(rng: &mut Pcg64) -> Pose {
     let mut unit = || rng.random_range(-1.0..1.0);
     let any = DQuat::from_xyzw(unit(), unit(), unit(), unit()).normalize();
@@ -129,7 +129,7 @@ fn for_random_cases(cases: u32, law: impl Fn(&mut Pcg64, u64)) {
     }
 }
 
-/// Tests that a body that slides and rotates on cut ground is as free as on a single face.
+/// Tests that a body that slides and rotates on ground of several triangles is free.
 #[test]
 fn bodies_that_slide_on_cut_ground_are_free() {
     for_random_cases(24, |rng, seed| {
@@ -160,7 +160,7 @@ fn bodies_that_slide_on_cut_ground_are_free() {
     });
 }
 
-/// Tests that a body hits a block on the ground, however low, at the right time.
+/// Tests that a body that slides on the ground hits a block on it at the right time, however low the block is.
 #[test]
 fn a_block_on_cut_ground_is_hit_at_the_right_time() {
     for_random_cases(16, |rng, seed| {
@@ -203,7 +203,7 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
     });
 }
 
-/// Tests ground of a thousand triangles, of which few are visited.
+/// Tests that a body that slides on ground of a thousand triangles is free.
 #[test]
 fn ground_of_a_thousand_triangles_is_as_one() {
     for_random_cases(4, |rng, seed| {
@@ -231,7 +231,7 @@ fn ground_of_a_thousand_triangles_is_as_one() {
     });
 }
 
-/// Tests a ball that rolls over the cuts, up to the wall.
+/// Tests that a ball that rolls over the cuts of the ground is free, and hits a wall at the right time.
 #[test]
 fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     for_random_cases(16, |rng, seed| {
@@ -271,8 +271,8 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     });
 }
 
-/// Tests open surfaces, which have no inner side. Two that meet edge to edge, or in the same plane, are in contact at
-/// the right time.
+/// Tests that open sheets that meet edge to edge in one plane are in contact at the right time. Open surfaces have no
+/// inner side.
 #[test]
 fn sheets_within_one_plane_meet() {
     let sheet = |from: f64, to: f64| {

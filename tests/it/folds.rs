@@ -1,5 +1,4 @@
-//! Tests that a fold with the least or the greatest of two numbers loses no element, whatever the compiler does with
-//! it.
+//! Tests that a fold with `lesser` or `greater` loses no element, whatever the compiler makes of it.
 //!
 //! Some compilers lose the last elements of a fold with `f64::min`: those that are left over when the
 //! loop is cut into vectors and its length is known and small. These are two affected loops: one over
@@ -9,7 +8,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::hint::black_box;
 
-/// Tests arrays of up to 16 elements, in which each element is once the least or the greatest.
+/// Tests folds over arrays of up to 16 elements, in which each element in turn is the least or the greatest.
 #[test]
 fn no_element_is_lost() {
     macro_rules! at_lengths {
@@ -21,7 +20,7 @@ fn no_element_is_lost() {
     assert!(lost.is_empty(), "lost, as (length, position): {lost:?}");
 }
 
-/// Returns the array lengths and positions for which the fold lost the element.
+/// Returns the array lengths and positions at which the fold lost an element.
 fn lost_positions<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
     (0..N).filter(|&at| lost(at)).map(|at| (N, at)).collect()
 }
@@ -60,7 +59,7 @@ fn fold_numbers<const N: usize>(
         .fold(start, |best, &x| better(best, long_computation(x)))
 }
 
-/// Computes a value with so much code that the compiler does not unroll the loop around it.
+/// Computes a value with so many instructions that the compiler does not unroll the loop around it.
 #[inline(always)]
 fn long_computation(x: f64) -> f64 {
     let root = |x: f64| x.sqrt().sqrt().sqrt().sqrt();

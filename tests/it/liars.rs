@@ -26,7 +26,8 @@ fn lies_about_overlapping_bodies_never_set_them_free() {
     check_cases_with_every_breach(crowded_cases());
 }
 
-/// Tests cases with every kind of lie: some queries are answered in spite of it, and others are not.
+/// Checks the answers of an oracle that breaks its contract in every way: some queries are answered correctly, the
+/// others stay unresolved.
 fn check_cases_with_every_breach(cases: impl Strategy<Value = Case>) {
     let (answered, unresolved) = (Cell::new(0), Cell::new(0));
     check_cases(100, cases, |case| {

@@ -1,4 +1,4 @@
-//! Tests that every query ends: an exhausted budget leaves it unresolved, up to a certified time.
+//! Tests that every query ends: an exhausted budget or a stop leaves it unresolved, with a certified time.
 
 use ccd_core::Unresolved;
 use ccd_core::schedule::BestFirst;
@@ -78,7 +78,7 @@ fn the_certified_time_grows_with_the_budget() {
     assert!(grown.get() > 40, "grew {} times", grown.get());
 }
 
-/// An oracle that answers some calls, then stops the query, and answers further calls.
+/// An oracle that requests a stop of the query after `calls` calls, and goes on answering.
 struct StoppingOracle {
     calls: u32,
     stop: Arc<AtomicBool>,

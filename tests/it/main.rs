@@ -1,4 +1,4 @@
-//! Tests the same properties over every backend, schedule and kind of piece.
+//! Tests the same properties for every backend, schedule and kind of piece.
 //!
 //! `CCD_TEST_CASES` multiplies the number of random cases, and `CCD_TEST_SEED` picks other ones: the default is a
 //! sample, and ten times as many a search before a release. `CCD_TEST_SLOW` adds the scenes that take minutes.

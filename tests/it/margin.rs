@@ -1,4 +1,4 @@
-//! Tests the margin, a distance to keep: a contact is where the distance falls to it.
+//! Tests the margin, a distance that the bodies must keep: a contact is where the distance falls to the margin.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Outcome, Settings};

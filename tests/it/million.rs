@@ -1,4 +1,4 @@
-//! Tests more than a million pairs of pieces at once, and tens of millions of pairs of which few may be visited.
+//! Tests queries that keep more than a million pairs of pieces, or that must visit few of tens of millions of pairs.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Outcome, Settings};
@@ -50,7 +50,8 @@ fn sixty_million_pairs_touching_at_once() {
     }
 }
 
-/// Tests T19, two combs: the queue holds thousands of pairs of teeth.
+/// Tests that two combs of many teeth, T19, are in contact at the right time, although thousands of pairs of teeth are
+/// in the queue.
 #[test]
 fn combs_of_many_teeth() {
     let teeth = if is_slow_run() { 512 } else { 96 };
@@ -69,8 +70,8 @@ fn combs_of_many_teeth() {
     );
 }
 
-/// Tests T18, a fine thread that stays near its nut everywhere and at all times. A million pairs are in the queue at
-/// once.
+/// Tests that a fine screw in its nut, T18, is free, although it is near the nut everywhere at all times. A million
+/// pairs are in the queue at once.
 #[test]
 fn a_fine_screw() {
     let scene = screw_in_nut("T18 fine screw", PITCH, if is_slow_run() { 4 } else { 2 });

@@ -53,7 +53,7 @@ fn parts_have_their_points_below_their_facets() {
     }
 }
 
-/// Tests the Euler characteristic of gears: for a solid with one shell, it is 2 minus two for each hole.
+/// Tests that the Euler characteristic of a gear, a closed surface with six holes, is 2 − 2 · 6.
 #[test]
 fn gears_have_a_bore_and_holes() {
     let mesh = gear(5).mesh;

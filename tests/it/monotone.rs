@@ -30,7 +30,7 @@ fn a_smaller_tolerance_is_never_earlier() {
     assert!(later.get() > 400, "{later:?}");
 }
 
-/// Returns the time of the reported contact, or infinity for bodies that stay free.
+/// Returns the time of the reported contact; infinity for bodies that stay free, 0 for bodies in contact at the start.
 fn contact_time(answer: &Answer) -> Result<f64, String> {
     match answer.outcome {
         Outcome::Contact { time, .. } => Ok(time),

@@ -10,9 +10,9 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-/// Tests that a witness lies on the named feature, and that no smaller feature of the mesh contains it. A vertex is
-/// smaller than an edge, an edge than a face. For an edge between facets of several faces, a patch names a face with
-/// it. On a virtual facet, inside the surface, no feature of the mesh is named.
+/// Tests that a contact of patches names the smallest mesh feature that contains the witness, or in a few cases an
+/// adjacent face. A vertex is smaller than an edge, an edge than a face. For an edge between facets of several faces, a
+/// patch names a face with it. On a virtual facet, inside the surface, no feature of the mesh is named.
 #[test]
 fn contacts_of_patches_name_the_mesh() {
     let counts: [Cell<u32>; 3] = Default::default();
@@ -51,19 +51,19 @@ fn contacts_of_patches_name_the_mesh() {
     );
 }
 
-/// The relation of a feature name to the mesh features that contain a witness.
+/// The relation of a contact's feature name to the mesh features that contain the witness.
 #[derive(Clone, Copy)]
 enum NameKind {
-    /// The name is that of the smallest feature at the witness: a vertex rather than an edge, an edge rather than a
+    /// The name is that of the smallest feature that contains the witness: a vertex before an edge, an edge before a
     /// face.
     Least,
     /// The smallest feature at the witness is an edge, and the name is that of an adjacent face.
     LargerFeature,
-    /// The name is none of the mesh, because no feature of the mesh contains the witness.
+    /// The name is no feature of the mesh, because no mesh feature contains the witness.
     None,
 }
 
-/// Returns how a feature relates to the features that contain the witness; `None` for a wrong name.
+/// Returns how a feature name relates to the mesh features that contain the witness; `None` for a wrong name.
 fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NameKind> {
     match (feature, holding.first()) {
         (Feature::Piece(_), None) => Some(NameKind::None),

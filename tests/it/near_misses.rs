@@ -9,8 +9,8 @@ use rigid_ccd::Solver;
 use rigid_ccd::trajectory::{Ballistic, Chain, Curve, Joint, OrientationCurve, Spline, Trajectory};
 use std::f64::consts::PI;
 
-/// Tests T6, a rod that rotates past a wall that its corners just do not reach. When a corner is nearest, the whole
-/// gap is left to advance by; what the other corners do then must not matter.
+/// Tests that a rod that rotates past a wall at a small distance, T6, takes at most two steps. When a corner is
+/// nearest, the whole gap is left to advance by. What the other corners do then must not matter.
 #[test]
 fn a_rod_that_turns_past_a_wall_takes_few_steps() {
     let (thin, long) = (0.05, 2.0f64);
@@ -34,8 +34,8 @@ fn a_rod_that_turns_past_a_wall_takes_few_steps() {
     }
 }
 
-/// Tests a ball that passes a box: straight along a face, on curves that come down to it, and as the hand of an arm.
-/// A straight path and a parabola take as many steps at any gap. Other curves are cut into segments with an allowed
+/// Tests that a ball passes a box in few steps at any gap: on a straight line, on curves, and in the hand of an arm. A
+/// straight path and a parabola take as many steps at any gap. Other curves are cut into segments with an allowed
 /// deviation. Near the face these are short, and each is a multiple of the one before.
 #[test]
 fn a_ball_past_a_box_takes_few_steps() {
@@ -66,8 +66,8 @@ fn a_ball_past_a_box_takes_few_steps() {
     }
 }
 
-/// Answers all questions about a ball that passes a box at a gap, or touches it. Returns the largest number of
-/// visited pairs.
+/// Answers three questions about a ball that passes a box at a gap, or touches it if the gap is 0. Returns the largest
+/// number of visited pairs.
 fn max_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     let radius = 0.25;
     let (ball, cube) = (
@@ -110,7 +110,7 @@ fn max_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     visits.into_iter().max().unwrap()
 }
 
-/// Returns the least height of a trajectory that has a single low point.
+/// Returns the least height of a trajectory whose height has a single minimum.
 fn least_height(trajectory: &dyn Trajectory) -> f64 {
     let height = |time: f64| trajectory.pose(time).unwrap().translation().z;
     let (mut low, mut high) = (0.0, 1.0);

@@ -1,4 +1,4 @@
-//! Compares answers to random cases with the independent referee: they are never late, never false, and tight.
+//! Tests that answers to random cases are never late, never false, and tight, compared with the independent referee.
 
 use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::case::Case;

@@ -1,4 +1,4 @@
-//! Tests that the checks of patches detect wrong patches: each kind of fault is found by the check for it.
+//! Tests that the checks of patches detect wrong patches: each kind of fault is found by the check made for it.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -94,7 +94,7 @@ fn an_invalid_cover_is_found() {
     }
 }
 
-/// Returns two faces as one patch: the hull of their corners.
+/// Returns a patch of two faces: the convex hull of their corners.
 fn pair_as_patch(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     let mut vertex_ids: Vec<u32> = faces.iter().flat_map(|&f| mesh.faces[f as usize]).collect();
     vertex_ids.sort_unstable();
@@ -109,8 +109,8 @@ fn pair_as_patch(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     }
 }
 
-/// Returns the number of pairs of faces whose hull is found to leave the solid, and compares each with the exact
-/// predicate.
+/// Counts the pairs of faces whose hull is found to leave the solid, and checks each finding against `leaves` where
+/// that is known.
 fn count_leaving_hulls(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     let solid = Solid::new(mesh);
     let mut found = 0;
@@ -130,7 +130,7 @@ fn count_leaving_hulls(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -
     found
 }
 
-/// Tests the L, a union of two boxes. A hull that leaves it passes over the inner corner at (1, 1).
+/// Tests that hulls of two faces that cross the inner corner of an L-shaped solid are found to leave it.
 #[test]
 fn a_hull_across_the_inner_corner_of_an_l_is_found() {
     let mesh = l_prism().mesh;
@@ -163,7 +163,7 @@ fn a_hull_across_the_hole_of_a_torus_is_found() {
     assert!(found > 500, "{found}");
 }
 
-/// Tests that the smallest excess is found: a facet lies below the bottom of a dent by a rounding error.
+/// Tests that a hull is found to leave the solid by one unit in the last place, below the bottom of a dent.
 #[test]
 fn a_hull_a_rounding_out_of_the_solid_is_found() {
     let mut mesh = cuboid(DVec3::ONE).mesh;

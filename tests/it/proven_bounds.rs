@@ -1,5 +1,5 @@
-//! Compares every bound that an answer along a trajectory proves with sampled distances. Knots are among the samples.
-//! All questions, kinds of trajectory and tolerances are tested.
+//! Tests that the bounds that answers prove do not contradict sampled distances along trajectories. Knots are among the
+//! samples. All questions, kinds of trajectory and tolerances are tested.
 
 mod samples;
 
@@ -25,7 +25,8 @@ struct Tally {
     start: u64,
     measured: u64,
     unresolved: u64,
-    /// The number of scenes that are free for one question, and in contact within the tolerance for another.
+    /// The number of scenes in which one question reports a contact within the tolerance, and another question reports
+    /// none.
     grazes: u64,
 }
 
@@ -37,7 +38,7 @@ struct Case<'s> {
 }
 
 impl<'s> Case<'s> {
-    /// Draws the tolerance and the margin; in most cases the least distance decides about a contact.
+    /// Draws the tolerance and the margin, in most cases near the least distance of the scene.
     fn draw(rng: &mut Pcg64, scene: &'s Scene) -> Self {
         let samples = scene.samples();
         let least = samples.least();
@@ -62,7 +63,7 @@ impl<'s> Case<'s> {
         }
     }
 
-    /// Checks the distance at a reported contact, and the contact's bounds.
+    /// Checks the bounds of a reported contact, and that its distance is within the margin and the tolerance.
     fn check_contact(&self, time: f64, contact: &Contact, tolerance: f64) -> CheckResult {
         let distance = self.scene.distance(time);
         let (lower, upper) = (contact.separation.lower, contact.separation.upper);
@@ -75,7 +76,8 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks the proven gap of free bodies. It is a true lower bound, at least half the tolerance beyond the margin.
+    /// Checks that the proven gap of free bodies is a lower bound of the distance, at least half the tolerance beyond
+    /// the margin.
     fn check_proven_gap(&self, proven_gap: f64) -> CheckResult {
         let Settings {
             margin, tolerance, ..
@@ -89,7 +91,7 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks that the bodies are not in contact before a time.
+    /// Checks that no sampled distance before a time is less than the margin.
     fn check_no_contact_before(&self, until: f64) -> CheckResult {
         let margin = self.config.margin;
         (self.samples).check_lower_bound(margin, |time| time < until, "before a contact")
@@ -242,7 +244,7 @@ impl<'s> Case<'s> {
         }
     }
 
-    /// Checks the answers for motions, which are not trajectories, by the same rules.
+    /// Checks the answers of the questions for single motions, which have code of their own, by the same rules.
     fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> CheckResult {
         let motion = |k: usize| -> Motion {
             let way = self.scene.trajectories[k].stretch(0.0, 1.0);
@@ -304,7 +306,7 @@ fn no_bound_is_above_a_sampled_distance() {
     assert!(grazes < many && unresolved < count / 50, "{tally:?}");
 }
 
-/// Tests a ball that approaches a box to within the tolerance at a knot.
+/// Tests that a ball that comes within the tolerance of a box at a knot is a contact for all questions.
 #[test]
 fn an_approach_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
     let (ball, wall) = (

@@ -1,5 +1,5 @@
-//! Tests the paper's bound, which uses only the current pose: it is late for rotating arms, and the sound bound is
-//! not.
+//! Tests that answers with the paper's velocity bound, which uses only the current pose, are late for rotating arms,
+//! and that answers with the sound bound are not.
 
 use ccd_core::VelocityBound;
 use ccd_core::glam::{DQuat, DVec3};
@@ -13,7 +13,7 @@ use ccd_tests::referee::{Finding, Referee};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Returns the two schedules that divide a distance by a bound on the rate, with the given bound.
+/// Returns the two schedules of the paper, `Fast` and `Naive`, with the given velocity bound.
 fn schedules(bound: VelocityBound) -> [Box<dyn Schedule<Gjk>>; 2] {
     [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
 }
@@ -22,7 +22,7 @@ fn answers(problem: &ccd_core::Query<'_>, bound: VelocityBound) -> [Answer; 2] {
     schedules(bound).map(|mut schedule| schedule.first_contact(problem, &mut Gjk).unwrap())
 }
 
-/// Returns how long after the true contact an answer is; infinity if it misses the contact.
+/// Returns how late an answer is after the true contact; infinity if it misses the contact.
 fn delay_after_contact(answer: &Answer, contact: f64) -> f64 {
     match answer.outcome {
         Outcome::Contact { time, .. } => time - contact,
@@ -59,7 +59,7 @@ fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_on
     }
 }
 
-/// Returns a query of two rods of 1 : 20 in random orientations. One of them flies at the other and rotates.
+/// Returns a query of two thin rods in random orientations, of which one flies at the other and rotates.
 fn random_rods(rng: &mut Pcg64) -> Query {
     let mut vector = |size: f64| {
         let mut coordinate = || rng.random_range(-size..size);

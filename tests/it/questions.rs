@@ -54,7 +54,7 @@ fn check_every_question(case: &Case) -> CheckResult {
     law
 }
 
-/// Checks that the bounds of the least distance do not contradict the first contact.
+/// Checks that the bounds of the least distance do not contradict the answer about the first contact.
 fn check_agreement(first: &Outcome, closest: &Outcome) -> CheckResult {
     let upper = closest.upper();
     match first {

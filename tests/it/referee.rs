@@ -1,4 +1,4 @@
-//! Compares the referee, which judges all answers, with closed forms. `scenes.rs` does so for every scene.
+//! Tests the referee, which judges all other answers, against closed forms. `scenes.rs` does so for every scene.
 
 use ccd_core::glam::DVec3;
 use ccd_tests::analytic::scenes;

@@ -17,7 +17,7 @@ fn without_shared_vertices(mesh: &Mesh) -> Mesh {
     }
 }
 
-/// A body made of triangles, and the same body made of patches.
+/// A mesh, and the same body made of its triangles and of patches.
 struct Body {
     mesh: Mesh,
     made: [PreparedBody; 2],
@@ -35,7 +35,7 @@ impl Body {
         self.mesh.vertices.iter().map(|p| p.z)
     }
 
-    /// Returns a pose on top of another body, at a small gap, shifted, and rotated about the upright axis.
+    /// Returns a pose of the body on top of another one, at a small gap, shifted in x and y, and rotated about z.
     fn pose_resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
         let top = other.heights().fold(f64::NEG_INFINITY, greater);
         let bottom = self.heights().fold(f64::INFINITY, lesser);
@@ -55,8 +55,8 @@ fn contact_names([a, b]: [&PreparedBody; 2], pose: Pose) -> Vec<[Feature; 2]> {
     names
 }
 
-/// Tests meshes with vertices on edges and within sides, which are no corners of a patch, and with vertices at equal
-/// positions.
+/// Tests that triangles and patches give the same feature names, also for vertices inside an edge or a side of a patch,
+/// and for vertices at equal positions.
 #[test]
 fn triangles_and_patches_have_the_same_names() {
     let shapes = [divided_cube(1), divided_cube(3), l_block(2)];

@@ -1,4 +1,4 @@
-//! Tests every scene with a closed-form answer, for every setup and tolerance, and with the bodies swapped.
+//! Tests every scene with an answer in closed form, for every setup and tolerance, and with the bodies swapped.
 
 use ccd_core::order::lesser;
 use ccd_core::{Answer, Outcome, Settings};
@@ -11,7 +11,7 @@ use ccd_tests::referee::Finding;
 use ccd_tests::tolerance::CLOSED_FORM_LATENESS;
 use std::fmt::Debug;
 
-/// Defines one test for each group of scenes. A group is the scenes whose names have a common beginning.
+/// Defines one test for each group of scenes, whose names begin alike.
 macro_rules! groups {
     ($($test:ident: $prefix:literal,)*) => {$(
         #[test]
@@ -78,7 +78,7 @@ fn check_group(prefix: &str) {
     }
 }
 
-/// Returns the size of a scene to which tolerances are proportional, at most 1.
+/// Returns the length to which a scene's tolerances are proportional: its size, but at most 1.
 fn tolerance_scale(scene: &Scene) -> f64 {
     lesser(1.0, scene.query.a.reach(0.0))
 }
@@ -184,7 +184,7 @@ fn check_answer(
     Ok(())
 }
 
-/// Checks the answers about a scene whose motions are given as user-defined trajectories.
+/// Checks the answers about a scene whose motions are given as user-defined trajectories against its closed form.
 fn check_trajectory_answers(
     judge: &Judge<'_>,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! Tests whether points are inside, for shells next to and within each other, with random orientations.
+//! Tests whether points are found inside, for shells beside and within each other, with random orientations.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
@@ -27,7 +27,7 @@ fn random_shell(rng: &mut Pcg64) -> Shape {
     }
 }
 
-/// Returns nested shells, each with the number of shells around it.
+/// Returns groups of nested shells, each shell with the number of shells around it.
 fn nested_shells(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
     let mut shells = Vec::new();
     for k in 0..rng.random_range(1..4) {
@@ -81,7 +81,7 @@ fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
         .outcome
 }
 
-/// Tests that a body is inside if an odd number of shells contain it, checked exactly and shell by shell.
+/// Tests that a small body overlaps a solid of shells exactly if an odd number of the shells contain it.
 #[test]
 fn a_body_inside_overlaps_for_any_winding_of_shells() {
     let mut rng = Pcg64::seed_from_u64(1);
@@ -118,8 +118,8 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
     assert!(counts[0] > 200 && counts[1] > 200, "{counts:?}");
 }
 
-/// Tests a triangle that rests on a face: it is released only on the outer side. A thick body on the inner side
-/// overlaps.
+/// Tests that a triangle that rests on a face may leave on the outer side only. A body of some thickness on the inner
+/// side overlaps.
 #[test]
 fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     let mut rng = Pcg64::seed_from_u64(2);
@@ -187,7 +187,7 @@ fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, detail: Detail) -> Body {
     body(&mesh, detail)
 }
 
-/// Tests equal bodies at one pose: every corner is on the other body's surface.
+/// Tests that two equal solids at the same pose overlap, although every corner is on the other body's surface.
 #[test]
 fn equal_bodies_overlap() {
     for shape in [
@@ -206,7 +206,7 @@ fn equal_bodies_overlap() {
     }
 }
 
-/// Tests that a single tooth of many inside a body is found, though it is far from every other piece of that body.
+/// Tests that one of many separate parts of a body is found inside another body, although the other parts are outside.
 #[test]
 fn one_part_of_many_that_is_inside_is_found() {
     let outer = cuboid(DVec3::ONE);

@@ -48,7 +48,8 @@ fn is_touching(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Touching { .. })
 }
 
-/// Tests T10, a slide within the tolerance along the diagonal on which the slab's two triangles meet. No triangle
+/// Tests T10: a body that slides at a gap within the tolerance is touching at the start, and free under
+/// `StartPolicy::Leave`. It slides along the diagonal on which the slab's two triangles meet, so that no triangle
 /// passes onto another.
 #[test]
 fn sliding_within_the_tolerance_is_free() {
@@ -69,7 +70,8 @@ fn sliding_within_the_tolerance_is_free() {
     );
 }
 
-/// Tests T10, a slide onto another piece. The edge of the next triangle is flat ground as well.
+/// Tests T10: a body that slides from one triangle of the slab onto another is free under `StartPolicy::Leave`. The
+/// edge of the next triangle is flat ground as well.
 #[test]
 fn sliding_onto_another_piece_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
@@ -81,7 +83,7 @@ fn sliding_onto_another_piece_is_free() {
     }
 }
 
-/// Tests T11, bodies that touch at the start and then separate.
+/// Tests T11: bodies that touch at the start and then separate are free under `StartPolicy::Leave`.
 #[test]
 fn touching_and_parting_is_free() {
     for gap in [1e-6, 0.0] {
@@ -103,7 +105,7 @@ fn touching_and_parting_is_free() {
     }
 }
 
-/// Tests T11, bodies that touch at the start and then approach.
+/// Tests T11: bodies that touch at the start and then approach are in contact at once under `StartPolicy::Leave`.
 #[test]
 fn touching_and_approaching_is_a_contact_at_once() {
     for gap in [1e-6, 0.0] {
@@ -119,7 +121,8 @@ fn touching_and_approaching_is_a_contact_at_once() {
     }
 }
 
-/// Tests that a plane separates coplanar triangles on either side, but solids only on the outside.
+/// Tests that two solids with a common face that move into each other are in contact at once under
+/// `StartPolicy::Leave`.
 #[test]
 fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     let cube = || cuboid(DVec3::splat(0.5));
@@ -142,7 +145,8 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     }
 }
 
-/// Tests that the allowance of a resting contact is used up in a few steps, not in one step for each bit.
+/// Tests that a very slow approach from touching is a contact within the allowance for rounding, after few distance
+/// computations.
 #[test]
 fn a_very_slow_approach_takes_few_steps() {
     for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
@@ -159,8 +163,9 @@ fn a_very_slow_approach_takes_few_steps() {
     }
 }
 
-/// Tests a box within the margin of a floor eighty times its size. Across so small a gap, the direction of the
-/// nearest points is not exact enough to separate sliding from approaching; the features' normals are.
+/// Tests that a box within the margin of a large floor is in contact at once if it approaches the floor, and has an
+/// answer if it slides. Across so small a gap, the direction of the nearest points is not exact enough to distinguish
+/// sliding from approaching. The features' normals are.
 #[test]
 fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     let floor = cuboid(DVec3::new(8.0, 8.0, 0.5)).moved(-0.5 * DVec3::Z);
@@ -201,7 +206,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     }
 }
 
-/// Tests that a backend's claim about a pair at the start does not release the pair without proof.
+/// Tests that bodies that touch and approach are not reported free if the oracle claims a wrong axis.
 #[test]
 fn a_liar_cannot_release_a_pair() {
     let spike = Shape::open(Mesh {
@@ -312,8 +317,8 @@ fn without_contact_at_the_start_both_policies_agree() {
     );
 }
 
-/// Creates two triangles that are in contact at the poses of
-/// [`a_contact_that_came_back_is_within_the_tolerance_of_its_answer`].
+/// Creates two triangles for [`a_contact_that_came_back_is_within_the_tolerance_of_its_answer`], in contact at its
+/// poses.
 fn two_triangles() -> [Body; 2] {
     let triangle = |corners: [DVec3; 3]| {
         let pieces = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
@@ -344,8 +349,8 @@ fn two_triangles() -> [Body; 2] {
     [triangle(a), triangle(b)]
 }
 
-/// Tests two triangles that start in contact, up to rounding, and approach. The accuracy of their distance depends on
-/// the last digits of their positions.
+/// Tests that two triangles that start in contact and approach have a contact within the answer's tolerance. The
+/// accuracy of their distance depends on the last digits of their positions.
 #[test]
 fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
     let [a, b] = two_triangles();

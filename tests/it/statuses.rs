@@ -1,4 +1,4 @@
-//! Tests the state at the start that is reported: touching, overlapping, or one body inside the other.
+//! Tests the state that is reported at the start: touching, overlapping, or one body inside the other.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
@@ -24,7 +24,8 @@ fn check_outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> b
     });
 }
 
-/// Returns true if a body is reported inside the other. If pieces may fill the inside, overlapping is also right.
+/// Returns true if `check` accepts the reported overlap. If pieces may fill the inside of a body, an overlap of pieces
+/// is also right.
 fn is_nested_as(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
     match outcome {
         Outcome::Overlapping {
@@ -83,7 +84,7 @@ fn is_any_overlap(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Overlapping { .. })
 }
 
-/// Tests flush solids: no triangle crosses another one.
+/// Tests that solids with coplanar faces overlap, although no triangle crosses another one.
 #[test]
 fn flush_solids_overlap() {
     let inscribed = octahedron(0.5);
@@ -98,8 +99,8 @@ fn flush_solids_overlap() {
     }
 }
 
-/// Tests that the oracle's claim is used for polytopes with more edge pairs than are tried as axes. All pairs would
-/// take a thousand times as long.
+/// Tests that polytopes overlap if they have too many edge pairs to try all as separating axes. The oracle's claim is
+/// used instead, because all pairs would take a thousand times as long.
 #[test]
 fn polytopes_of_many_facets_overlap() {
     let ball = || icosphere(1.0, 3);
@@ -125,7 +126,8 @@ fn octahedron(radius: f64) -> Shape {
     })
 }
 
-/// Tests needles that cross at their middles, where an oracle's common point is accurate to 1e-12 at best.
+/// Tests that thin triangles that cross at their middles overlap, although an oracle's common point is accurate to
+/// 1e-12 at best.
 #[test]
 fn needles_that_cross_overlap() {
     let needle = |thickness: f64| {
@@ -157,7 +159,7 @@ fn needles_that_cross_overlap() {
     }
 }
 
-/// Tests that bodies far smaller than the tolerance are examined once, not repeatedly.
+/// Tests that bodies far smaller than the tolerance are answered as touching or in contact.
 #[test]
 fn bodies_far_smaller_than_the_tolerance_are_answered() {
     for (size, tolerance) in [(3e-5, 1e-3), (1e-6, 1e-3), (1.0, 1e6)] {
@@ -232,7 +234,8 @@ fn the_second_of_two_shells_is_found_inside() {
     check_outcomes_by_kind(&query(big, two, DVec3::ZERO), is_b_in_a);
 }
 
-/// Tests a body in the middle of a solid whose patches do not fill it, because its surface is rough.
+/// Tests that a body in the middle of a solid is reported inside it, although the solid's patches do not fill its
+/// middle.
 #[test]
 fn a_body_inside_a_solid_that_its_patches_do_not_fill_overlaps() {
     let found = Cell::new(0);

@@ -43,7 +43,7 @@ fn both_may_be_seen_from_any_frame() {
     }
 }
 
-/// Tests that the reverse of a free motion is free. It may rarely be a contact if the bodies passed each other within
+/// Tests that the reverse of a free motion is free, except for rare contacts of bodies that passed each other within
 /// the tolerance.
 #[test]
 fn a_free_motion_in_reverse_is_free() {

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// The files that may normalise vectors otherwise, each with the reason why the result is no axis of a proof.
+/// The files that may normalise vectors by themselves, each with the reason why no proof uses the result as an axis.
 const ALLOWED_FILES: [(&str, &str); 2] = [
     ("ccd-core/src/motion/pose.rs", "a quaternion, scaled first"),
     ("ccd-core/src/motion/interop.rs", "a quaternion of nalgebra"),

@@ -1,4 +1,4 @@
-//! Scenes with a known outcome: a first contact or a least distance in closed form.
+//! Scenes with a known outcome: a first contact or a least distance, in closed form.
 
 mod linear;
 mod rounded;
@@ -16,7 +16,7 @@ pub struct Scene {
     pub name: String,
     /// The bodies and their motions.
     pub query: Query,
-    /// The outcome in closed form.
+    /// The known outcome of the query.
     pub expected: Expect,
 }
 
@@ -24,12 +24,12 @@ pub struct Scene {
 pub enum Expect {
     /// The bodies touch, at a known time or within known bounds.
     Hit {
-        /// The first time at which the distance falls to the argument. It bounds the time of contact from below.
+        /// The first time at which the distance falls to a given value. It bounds the time of contact from below.
         earliest: Distance,
         /// An upper bound of the time of contact.
         latest: f64,
     },
-    /// The bodies stay at least a distance apart, and attain it.
+    /// The bodies stay apart, and their least distance is known.
     Free {
         /// The least distance of the bodies, in units of length.
         gap: f64,
@@ -40,7 +40,7 @@ pub enum Expect {
     Unknown,
 }
 
-/// A function of a distance: the first time at which the bodies are as near as that.
+/// A function that returns the first time at which the bodies are within a given distance.
 pub type Distance = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Returns the scenes of all groups.
@@ -76,8 +76,8 @@ impl Scene {
 }
 
 impl Expect {
-    /// Returns the outcome of a contact at an exactly known time. `distance` maps a distance to the first time at
-    /// which the bodies are that near.
+    /// Returns the outcome of a contact at an exactly known time. `distance` returns the first time at which the bodies
+    /// are within a given distance.
     fn hit_at(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Expect::Hit {
             latest: distance(0.0),

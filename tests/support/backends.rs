@@ -1,4 +1,4 @@
-//! Runs one property over every backend, schedule, kind of piece and order of the bodies.
+//! Calls a check for every backend, schedule and kind of piece.
 
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
@@ -7,27 +7,27 @@ use ccd_core::{Answer, Body, DistanceOracle, Schedule, Settings};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
-/// The schedule of a backend.
+/// The schedule of a backend, which orders the pairs of pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScheduleKind {
-    /// Takes pairs from a queue that is ordered by proven time.
+    /// Takes pairs from a queue in the order of the times until which they are proven apart.
     BestFirst,
-    /// Advances all pairs in one step, over the front of a descent through hull trees.
+    /// Advances all pairs together in each step, over the front of a descent through hull trees.
     Fast,
-    /// Advances all pairs in one step, without trees.
+    /// Advances all pairs of pieces together in each step, without trees.
     Naive,
 }
 
-/// The algorithm with which a backend measures the distance of two pieces.
+/// The algorithm by which a backend computes the distance of two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oracle {
-    /// Uses closed forms, for pieces up to triangles.
+    /// Uses closed forms, for pieces of at most three points.
     ClosedForm,
     /// Uses GJK in f64.
     Gjk,
-    /// Uses closed forms, and GJK for other pieces.
+    /// Uses closed forms where there are any, and GJK for the other pairs of pieces.
     Direct,
-    /// Uses Voronoi marching, and GJK if it gives up.
+    /// Uses Voronoi marching, and GJK if the marching gives up.
     Vmarch,
 }
 
@@ -48,7 +48,7 @@ pub struct Backend {
     pub oracle: Oracle,
 }
 
-/// The backend and the kinds of pieces of an answer. It is printed if an assertion fails.
+/// The backend and the kinds of pieces that gave an answer. It is printed if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
     /// The backend that gave the answer.
@@ -81,7 +81,7 @@ impl Backend {
             .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
     }
 
-    /// Returns true if the backend supports the bodies and is fast enough for a test.
+    /// Returns true if the backend supports the bodies and is fast enough for them in a test.
     pub fn suits_bodies(self, bodies: &Bodies) -> bool {
         let fit = match self.order {
             ScheduleKind::BestFirst => true,
@@ -126,7 +126,7 @@ fn has_tree(body: &&Body) -> bool {
     body.pieces().len() == 1 || body.hull_tree().is_some()
 }
 
-/// Calls `check` with the answer of every backend and kind of pieces that suits the query.
+/// Calls `check` with the answer of every suitable backend, for all kinds of pieces of the query's shapes.
 pub fn for_each_setup(
     query: &Query,
     config: &Settings,

@@ -1,4 +1,4 @@
-//! Queries as plain data, for generators, the corpus and failure messages.
+//! Queries as plain data, for generators, the corpus and messages about failures.
 
 use crate::models::{self, Mesh, Shape};
 use crate::query::{MovingShape, Query};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// The name of the case.
+    /// The name of the case, for messages.
     #[serde(default)]
     pub name: String,
     /// The fault that the case revealed, or might reveal.
@@ -33,7 +33,7 @@ pub struct Case {
     pub b: Part,
 }
 
-/// The form of a [`StartPolicy`] in a file.
+/// The text form of a [`StartPolicy`] in a file.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Start {
@@ -48,9 +48,9 @@ pub enum Start {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// The shape of the body, by name and numbers.
+    /// The shape of the body, as a model with its parameters.
     pub shape: Model,
-    /// The factor by which every coordinate is multiplied.
+    /// The factor by which every coordinate of the shape is multiplied.
     #[serde(default = "default_scale")]
     pub scale: f64,
     /// The position of the body's origin in the world at the start.
@@ -70,7 +70,7 @@ pub struct Part {
     pub centre: [f64; 3],
 }
 
-/// The description of a shape by name and numbers.
+/// A shape, given by the name and the arguments of a function in `models`.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(tag = "model", rename_all = "kebab-case")]
 #[allow(missing_docs)] // Named as the functions of `models` and their arguments.
@@ -127,7 +127,7 @@ pub enum Model {
 }
 
 impl Case {
-    /// Returns the query of the case, with shapes and motions.
+    /// Returns the query of the case, with its shapes and motions built.
     pub fn query(&self) -> Query {
         Query {
             a: self.a.moving_shape(),
@@ -156,7 +156,7 @@ impl Case {
 }
 
 impl Part {
-    /// Returns a body with a shape, at rest at the origin.
+    /// Returns a body with the given shape, at rest at the origin.
     pub fn new(shape: Model) -> Self {
         Part {
             shape,

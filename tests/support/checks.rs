@@ -1,4 +1,4 @@
-//! Checks every answer against the referee and against the bodies.
+//! Checks every answer against the referee's findings and against the bodies.
 
 mod questions;
 
@@ -19,14 +19,14 @@ pub struct Judge<'a> {
     referee: Referee<'a>,
     finding: Finding,
     nested: bool,
-    /// Pairs of a sampled time and the least distance then.
+    /// Pairs of a time and the distance of the bodies at that time, at 17 even times.
     samples: Vec<(f64, f64)>,
 }
 
 /// The result of a check: `Ok`, or the reason why the answer is wrong.
 pub type CheckResult = Result<(), String>;
 
-/// Returns an error with the reason unless the condition holds; comparisons with NaN do not hold.
+/// Returns an error with the given reason unless the condition holds; a comparison with NaN does not hold.
 #[macro_export]
 macro_rules! law {
     ($holds:expr, $($why:tt)*) => {{
@@ -76,8 +76,8 @@ impl<'a> Judge<'a> {
         self.nested
     }
 
-    /// Checks an answer under the start policy `Report`: it is never late, never false, tight and resolved, with a
-    /// contact as claimed.
+    /// Checks an answer under `StartPolicy::Report`: it is resolved, not late and not false, and its contact is as
+    /// claimed.
     ///
     /// # Errors
     /// Describes how the answer is wrong.
@@ -96,8 +96,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Checks only the time of an answer. The answer may be to an equivalent query that rounds by `more` than this
-    /// one.
+    /// Checks that the time of an answer is neither late nor false. The answer may be to an equivalent query that
+    /// rounds by `more` than this one.
     ///
     /// # Errors
     /// Describes how the answer is wrong.
@@ -138,7 +138,7 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Checks that a time is not after a contact that the referee has proven.
+    /// Checks that a time is within the duration, and not after a contact that the referee has proven.
     ///
     /// # Errors
     /// If the time is after a proven contact.
@@ -153,8 +153,8 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Returns true if a point of a piece at the start is in the solid of its body, or on the mesh. The body is A (0)
-    /// or B (1). Parts are not checked, because they need not be closed together.
+    /// Returns true if a point of a piece at the start is inside its body's solid or on its mesh. The body is A (0) or
+    /// B (1). Parts are not checked, because they need not be closed together.
     fn is_in_solid(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let placements = Placement::pair(self.query);
         let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();
@@ -275,7 +275,7 @@ fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Che
     Ok(())
 }
 
-/// One of the two bodies of a contact.
+/// One of the two bodies of a contact, with the piece in contact.
 struct Side<'a> {
     moving_shape: &'a MovingShape,
     body: &'a Body,
@@ -294,7 +294,7 @@ impl Side<'_> {
         Ok(self.body.pieces().get(self.piece as usize))
     }
 
-    /// Returns the largest coordinate of the touched piece along an axis.
+    /// Returns the support function of the piece in contact: its largest coordinate along an axis, in the world.
     fn support(&self, axis: DVec3) -> Result<f64, String> {
         let piece = self.piece()?;
         let along = piece.points.iter().map(|&p| (self.to_world)(p).dot(axis));

@@ -3,7 +3,7 @@
 use crate::case::Case;
 use std::path::PathBuf;
 
-/// Returns every case of the corpus; its name is that of its file.
+/// Returns every case of the corpus, in the order of the file names.
 ///
 /// # Panics
 /// If a file cannot be read or is not a [`Case`].

@@ -26,13 +26,13 @@ pub const KINDS: [&str; 11] = [
     "zigzag",
 ];
 
-/// Returns a random trajectory of a kind, given by its index in [`KINDS`]. Its length is about `reach`, and it stays
+/// Returns a random trajectory of a kind, given by its index in [`KINDS`]. Its lengths are about `reach`, and it stays
 /// within about `reach` of the origin.
 pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
     random_trajectory(rng, KINDS[kind], reach).expect("finite numbers")
 }
 
-/// Returns whether trajectories of a kind are a single motion.
+/// Returns true if the trajectories of a kind are single motions.
 pub fn is_motion_kind(kind: usize) -> bool {
     ["motion", "still", "screw", "joint"].contains(&KINDS[kind])
 }
@@ -93,7 +93,7 @@ fn random_trajectory(
     })
 }
 
-/// Returns a path through a few poses.
+/// Returns a path through one to eight random poses.
 fn poses(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
     let mut time = rng.random_range(-0.3..0.3);
     let mut stops = Vec::new();
@@ -107,7 +107,7 @@ fn poses(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError>
     ))
 }
 
-/// Returns a Bézier curve whose orientations are interpolated by slerp.
+/// Returns a body whose centre follows a Bézier curve, and whose orientation follows a slerp.
 fn bezier_curve(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
     let count = rng.random_range(1..6);
     let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
@@ -117,7 +117,7 @@ fn bezier_curve(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, Inpu
     ))
 }
 
-/// Returns the last link of a chain whose joints move.
+/// Returns the trajectory of the last link of a random chain, all of whose joints move.
 fn last_link(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
     let count = rng.random_range(1..6);
     let joints: Result<_, InputError> = (0..count).map(|_| joint(rng, reach)).collect();
@@ -149,7 +149,7 @@ fn points(rng: &mut Pcg64, count: usize, reach: f64) -> Vec<[f64; 3]> {
     (0..count).map(|_| vector(rng, reach).to_array()).collect()
 }
 
-/// Returns random orientations at times, with rotations of less than 1 radian from one to the next.
+/// Returns random orientations at even times from 0 to 1, with rotations of less than 1 radian from one to the next.
 fn random_orientations(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
     let count = rng.random_range(2..6);
     let mut at = DQuat::from_scaled_axis(vector(rng, 3.0));
@@ -170,7 +170,7 @@ fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
     }
 }
 
-/// A trajectory of the last link of a kinematic chain, which it owns.
+/// The trajectory of the last link of a kinematic chain, which owns the chain.
 struct LastLink {
     chain: Chain,
     positions: [Vec<f64>; 2],
@@ -183,7 +183,7 @@ impl Trajectory for LastLink {
     }
 }
 
-/// A user-defined trajectory that oscillates as a sine of the time, and whose accelerations are not known.
+/// A user-defined trajectory that oscillates as a sine of the time, with known bounds on its accelerations.
 struct Oscillation {
     place: DVec3,
     along: DVec3,
@@ -210,7 +210,7 @@ impl SmoothTrajectory for Oscillation {
     }
 }
 
-/// A trajectory that moves straight from corner to corner, by chords, and optionally hides its corners.
+/// A trajectory that moves straight from corner to corner, and that may not report its corners as knots.
 struct Zigzag {
     corners: Vec<DVec3>,
     reveals_corners: bool,

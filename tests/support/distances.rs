@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{FacetOrigin, Feature, Piece, Polytope};
 
-/// Returns the distance from a point to a piece; 0 inside.
+/// Returns the distance from a point to a piece in the world; 0 inside the piece.
 pub(crate) fn distance_to_piece(
     p: DVec3,
     piece: &Piece<'_>,
@@ -114,7 +114,7 @@ pub(crate) fn distance_to_part_feature(
     }
 }
 
-/// Returns the corners of the face of a part with the number `face`.
+/// Returns the corners of the face numbered `face` of a part; `None` if the part has no such face.
 fn face_corners(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
     let mut facets = part.facets.iter();
     let whole = facets.find(|facet| facet.origin == FacetOrigin::Face(face));

@@ -1,4 +1,4 @@
-//! Locates points relative to closed meshes without rounding, to judge decompositions.
+//! Locates points relative to closed meshes in exact arithmetic, to judge decompositions.
 //!
 //! It shares no code with the code under test.
 
@@ -23,28 +23,28 @@ pub enum Location {
     Outside,
     /// The point is on a face of the mesh.
     Surface,
-    /// The point is inside, with a winding number that is negative for a mesh that is inside out.
+    /// The point is inside, with this winding number, which is negative for a mesh that is inside out.
     Inside(i32),
 }
 
-/// A closed mesh with a search structure for locating points.
+/// A closed mesh with a search structure for locating points in it.
 pub struct Solid<'a> {
     mesh: &'a Mesh,
     columns: Columns,
 }
 
-/// Returns, exactly, whether a point is above (greater), below (less) or in the plane of a triangle that is
-/// counter-clockwise seen from above.
+/// Returns the exact side of a triangle on which a point is: above (greater), below (less) or in its plane. The
+/// triangle is counter-clockwise seen from above.
 pub fn side_of(triangle: [DVec3; 3], point: &ConvexCombination) -> Ordering {
     side(triangle, &LazyPoint::new(point))
 }
 
-/// Returns, exactly, whether a closed triangle contains a point.
+/// Returns true, by exact arithmetic, if a triangle with its boundary contains a point.
 pub fn triangle_contains_point(triangle: [DVec3; 3], point: &ConvexCombination) -> bool {
     triangle_contains(triangle, &LazyPoint::new(point))
 }
 
-/// Returns, exactly, whether a triangle has no area.
+/// Returns true, by exact arithmetic, if a triangle has no area.
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     let point = ConvexCombination::mean([c]);
     let spot = LazyPoint::new(&point);
@@ -52,8 +52,8 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     PROJECTION_AXES.iter().all(in_line)
 }
 
-/// Returns, exactly, whether a loop of coplanar points is a convex polygon of either orientation. Corners may be
-/// collinear.
+/// Returns true, by exact arithmetic, if a loop of coplanar points is a convex polygon, of either orientation. Corners
+/// may be collinear.
 pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
     let spots: Vec<ConvexCombination> = corners
         .iter()
@@ -80,7 +80,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Locates a point exactly, by the faces that an upward ray from it crosses.
+    /// Returns the exact location of a point, from the faces that an upward ray from it crosses.
     ///
     /// The ray is moved sideways by (ε, ε²), with ε smaller than any number. It therefore meets no
     /// edge and no upright face, and there are no special cases.
@@ -105,7 +105,7 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// Returns true if a point is certainly outside a triangle in the view from above.
+/// Returns true if the projection of a point onto the xy-plane is certainly outside that of a triangle.
 fn is_outside_projection([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
@@ -144,7 +144,7 @@ fn compare_finite(x: f64, y: f64) -> Ordering {
     x.partial_cmp(&y).expect("finite coordinates")
 }
 
-/// A grid in the xy-plane, with the faces of a mesh over each of its cells.
+/// A grid in the xy-plane, with the mesh faces whose projections overlap each cell.
 struct Columns {
     lo: DVec2,
     cell: DVec2,
@@ -188,7 +188,7 @@ impl Columns {
         cell.to_array().map(|x| (x as usize).min(self.count - 1))
     }
 
-    /// Returns a superset of the faces that a point could be over, under or on.
+    /// Returns all faces whose projections may contain that of a point, and possibly others.
     fn candidate_faces(&self, p: &LazyPoint<'_>) -> &[u32] {
         let [x, y] = self.cell_of(p.near.truncate());
         &self.faces[x * self.count + y]

@@ -1,4 +1,4 @@
-//! Oracles that break their contract in every way. None of them may make an answer late.
+//! Oracles that break their contract, each in a way of its own. None of them may make an answer late.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUpReason, PiecePair};
@@ -6,17 +6,17 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUpReason, PiecePair};
 /// A way in which an oracle breaks its contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContractBreach {
-    /// Returns any axis and any points.
+    /// Returns a random axis and random points of the pieces.
     Random,
-    /// Returns an axis that is NaN.
+    /// Returns an axis with a component that is NaN.
     NanAxis,
     /// Returns an axis of length zero, and no points.
     Nothing,
-    /// Returns an infinite axis.
+    /// Returns an axis of infinite components.
     InfiniteAxis,
     /// Returns indices of points that the pieces do not have.
     OutOfRange,
-    /// Returns the axis from B to A.
+    /// Returns an axis that points from B to A.
     ReversedAxis,
     /// Always reports that it gives up.
     GivesUp,
@@ -35,7 +35,7 @@ impl ContractBreach {
     ];
 }
 
-/// An oracle that breaks its contract in one way, reproducibly.
+/// An oracle that breaks its contract in one way, always with the same pseudo-random numbers.
 #[derive(Clone, Debug)]
 pub struct FaultyOracle {
     breach: ContractBreach,
@@ -51,8 +51,7 @@ impl FaultyOracle {
         }
     }
 
-    /// Returns a pseudo-random number from −1 to 1: a linear congruential generator's upper bits `[Knuth TAOCP
-    /// 3.3.4]`.
+    /// Returns a pseudo-random number from −1 to 1, by a linear congruential generator `[Knuth TAOCP 3.3.4]`.
     fn number(&mut self) -> f64 {
         self.state = self
             .state

@@ -1,5 +1,5 @@
-//! The parts of the property suite. They are generated models, an independent referee, scenes with closed-form
-//! answers, and the code that runs one property over every backend, schedule and kind of piece.
+//! The parts of the property suite: generated models, an independent referee, scenes with closed-form answers, and the
+//! code that runs one property over every backend, schedule and kind of piece.
 
 pub mod analytic;
 pub mod backends;
@@ -20,7 +20,7 @@ pub mod solids;
 pub mod strategies;
 pub mod tolerance;
 
-/// A holder of the README's code, which runs as doctests.
+/// An item whose documentation is the README, so that the README's code runs as doctests.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct Readme;

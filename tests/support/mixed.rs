@@ -1,5 +1,5 @@
-//! Queries of many kinds: bodies from balls to knots, motions from none to many turns. Each query is determined by a
-//! number.
+//! Random queries of many kinds: bodies from balls to knots, motions from none to many turns. Each query is determined
+//! by a number.
 
 use crate::models::{
     Kind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
@@ -9,12 +9,12 @@ use ccd_core::{Body, Motion, MovingBody, Pose, Settings, StartPolicy};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The bodies that the queries share.
+/// The bodies to which all queries refer.
 pub struct Mixed {
     bodies: Vec<Body>,
 }
 
-/// A query that refers to shared bodies by index.
+/// A query that refers to the bodies of a [`Mixed`] by index.
 #[derive(Clone, Debug)]
 pub struct MixedQuery {
     /// The indices of bodies A and B.
@@ -26,7 +26,7 @@ pub struct MixedQuery {
 }
 
 impl Mixed {
-    /// Creates the bodies that the queries share.
+    /// Creates the bodies to which all queries refer.
     pub fn new() -> Self {
         let cube = || cuboid(DVec3::splat(0.5));
         let shapes = vec![
@@ -49,7 +49,7 @@ impl Mixed {
         }
     }
 
-    /// Returns the query that `number` determines.
+    /// Returns the query that `number` determines, as a random seed.
     pub fn query(&self, number: u64) -> MixedQuery {
         let mut rng = Pcg64::seed_from_u64(number);
         let mut body = || rng.random_range(0..self.bodies.len());
@@ -72,7 +72,7 @@ impl Mixed {
         }
     }
 
-    /// Returns body A (0) or B (1) of a query with its motion.
+    /// Returns body A (`which` is 0) or B (1) of a query, with its motion.
     pub fn moving_body(&self, query: &MixedQuery, which: usize) -> MovingBody<'_> {
         (&self.bodies[query.bodies[which]], query.motions[which]).into()
     }
@@ -84,7 +84,7 @@ impl Default for Mixed {
     }
 }
 
-/// Returns a motion that starts at distance `apart` along x, and in most cases flies towards the origin.
+/// Returns a random motion that starts near `apart` on the x axis, and in most cases flies towards the origin.
 fn motion(rng: &mut Pcg64, apart: f64) -> Motion {
     let mut vector = |size: f64| DVec3::from_array([0; 3].map(|_| rng.random_range(-size..=size)));
     let (place, axis) = (apart * DVec3::X + vector(0.8), vector(1.0));

@@ -26,7 +26,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Facet, FacetOrigin, InputError, Pieces, Polytope, Volume};
 use ccd_decomp::{Detail, PatchOrder, TriangleMesh, build_hull_tree, prepare};
 
-/// A triangle mesh, the input of the referee and of the engine.
+/// A triangle mesh, the common input of the referee and of the engine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// The vertices in the body's frame.
@@ -46,7 +46,7 @@ pub struct Shape {
     pub volume: Volume,
 }
 
-/// The kind of pieces that a body is made of.
+/// The kind of pieces of which a body is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Makes one piece of each triangle.
@@ -55,7 +55,7 @@ pub enum Kind {
     Parts,
     /// Makes one piece of each convex patch of the surface.
     Patches,
-    /// Makes one piece, the convex hull.
+    /// Makes one piece of the whole shape, its convex hull.
     Hull,
 }
 
@@ -63,7 +63,7 @@ impl Kind {
     /// All kinds of pieces.
     pub const ALL: [Kind; 4] = [Kind::Triangles, Kind::Parts, Kind::Patches, Kind::Hull];
 
-    /// Returns true if pieces of this kind may extend into the inside of the mesh.
+    /// Returns true if pieces of this kind may extend into the interior of the mesh.
     pub fn is_filled(self) -> bool {
         self != Kind::Triangles
     }
@@ -79,7 +79,7 @@ impl Shape {
         }
     }
 
-    /// Creates the shape of a mesh without an inside.
+    /// Creates the shape of a mesh that encloses no solid.
     pub fn open(mesh: Mesh) -> Self {
         Shape {
             volume: Volume::Surface,
@@ -87,7 +87,7 @@ impl Shape {
         }
     }
 
-    /// Creates the solid of a closed convex mesh, which is its only part.
+    /// Creates the solid of a closed convex mesh, with the whole solid as its only part.
     pub fn convex(mesh: Mesh) -> Self {
         let facets = mesh.faces.iter().enumerate();
         let part = Polytope {
@@ -106,7 +106,7 @@ impl Shape {
         }
     }
 
-    /// Returns the union of shapes as one surface. Vertices and faces are numbered consecutively.
+    /// Returns several shapes as one shape, a surface. Vertices and faces are numbered consecutively.
     pub fn union(shapes: impl IntoIterator<Item = Shape>) -> Self {
         let mut out = Shape::open(Mesh {
             vertices: Vec::new(),
@@ -184,7 +184,7 @@ impl Shape {
         self.kinds().any(|known| known == kind)
     }
 
-    /// Builds the engine's body of the shape. Parts are filled, so only the other kinds can be hollow.
+    /// Builds the engine's body of the shape. A body of parts is a surface, because its parts are filled anyway.
     ///
     /// # Panics
     /// If the shape cannot be built of these pieces.
@@ -220,7 +220,7 @@ impl Shape {
 }
 
 impl Mesh {
-    /// Appends the vertices and faces of another mesh, numbered consecutively.
+    /// Appends the vertices and faces of another mesh, with its vertex numbers shifted.
     pub fn append(&mut self, other: &Mesh) {
         let base = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
@@ -274,8 +274,8 @@ fn core_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
     Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
 }
 
-/// Returns the faces of a grid of `rows × columns` vertices, row by row. A closed direction wraps around. Faces are
-/// counter-clockwise seen from where rows run to the right and columns upwards.
+/// Returns two triangles for each cell of a grid of `rows × columns` vertices, row by row. A closed direction wraps
+/// around. Faces are counter-clockwise seen from where rows run to the right and columns upwards.
 fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
     let vertex =
         |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;
@@ -294,7 +294,7 @@ fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
     faces
 }
 
-/// One direction of a grid, with its number of vertices.
+/// The number of vertices of a grid in one direction, which may wrap around.
 #[derive(Clone, Copy)]
 enum Line {
     Open(usize),

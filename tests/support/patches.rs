@@ -1,5 +1,5 @@
-//! Checks convex patches of a closed surface exactly. The hull is in the solid, the faces are on the hull, and the
-//! names are right.
+//! Checks convex patches of a closed surface, by exact arithmetic. The hull is in the solid, the faces are on the hull,
+//! and the names are right.
 
 use crate::checks::CheckResult;
 use crate::exact::{
@@ -12,12 +12,12 @@ use ccd_core::{Facet, FacetOrigin, Polytope};
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-/// A convex patch: faces of a mesh, and the polytope that represents them.
+/// A convex patch to check: faces of a mesh, and the polytope that represents them.
 #[derive(Clone, Debug)]
 pub struct Claim<'a> {
     /// The numbers of the mesh faces in the patch.
     pub faces: &'a [u32],
-    /// The polytope that is to be the hull of the faces.
+    /// The polytope that should be the convex hull of the faces.
     pub polytope: &'a Polytope,
 }
 
@@ -58,7 +58,8 @@ pub fn check_inside(
     }
 }
 
-/// Checks that a patch's points, facets and faces are those of the mesh and of its hull.
+/// Checks that a patch's points are vertices of the mesh, that its facets bound its hull, and that its face numbers are
+/// right.
 ///
 /// # Errors
 /// Names the point, facet or face that is not.
@@ -83,7 +84,7 @@ fn check_points(mesh: &Mesh, polytope: &Polytope) -> CheckResult {
     Ok(())
 }
 
-/// Checks that facets are convex polygons with every point below them, and that together they are closed.
+/// Checks that the facets are convex polygons with no point in front of them, and together form a closed surface.
 fn check_hull(polytope: &Polytope) -> CheckResult {
     let points = &polytope.points;
     let spots: Vec<ConvexCombination> = points
@@ -117,7 +118,7 @@ fn check_hull(polytope: &Polytope) -> CheckResult {
     }
 }
 
-/// Returns triangles that make up a convex polygon, without degenerate ones.
+/// Returns triangles that make up a convex polygon, without those of no area.
 fn triangles<'a>(
     polytope: &'a Polytope,
     corners: &'a [u32],
@@ -127,7 +128,7 @@ fn triangles<'a>(
     fan.filter(|triangle| !is_degenerate(*triangle))
 }
 
-/// Checks that every face of the patch is named once: by a facet that equals or contains it, with the outward
+/// Checks that every face of the patch is named exactly once, by a facet that equals or contains the face, with outward
 /// orientation.
 fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     let polytope = claim.polytope;
@@ -173,7 +174,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     }
 }
 
-/// Checks that every point of a merged facet is on one of its faces.
+/// Checks that a facet merged from several faces is covered by them, at sampled points.
 fn check_merged_facets(polytope: &Polytope) -> CheckResult {
     let merged = |facet: &&Facet| facet.origin == FacetOrigin::Faces;
     for facet in polytope.facets.iter().filter(merged) {
@@ -207,14 +208,14 @@ fn outward_corners(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3],
     Ok(if inside_out { [a, c, b] } else { [a, b, c] })
 }
 
-/// Returns true if a loop of vertices is the triangle `a b c`, with any start.
+/// Returns true if a loop of three vertices is the triangle `a b c`, from any start.
 fn is_same_cycle(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
     [[a, b, c], [b, c, a], [c, a, b]]
         .iter()
         .any(|it| corners == it)
 }
 
-/// Returns true if a convex polygon of the polytope contains a point.
+/// Returns true if a convex polygon of the polytope contains a point, by exact arithmetic.
 fn polygon_contains_point(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
     let spot = ConvexCombination::mean([p]);
     triangles(polytope, corners).any(|triangle| triangle_contains_point(triangle, &spot))

@@ -1,4 +1,4 @@
-//! Queries in a form for both the engine and the referee.
+//! Queries that both the engine and the referee can answer.
 
 use crate::models::{Kind, Shape};
 use crate::tolerance::rounding;
@@ -36,13 +36,13 @@ pub struct Bodies {
 }
 
 impl Query {
-    /// Returns the query of two actors over a duration of 1.
+    /// Returns the query of two moving shapes over a duration of 1.
     pub fn new(a: MovingShape, b: MovingShape) -> Self {
         let duration = 1.0;
         Query { a, b, duration }
     }
 
-    /// Returns the query with the bodies' roles exchanged.
+    /// Returns the query with bodies A and B exchanged.
     pub fn swapped(&self) -> Query {
         Query {
             a: self.b.clone(),
@@ -51,7 +51,7 @@ impl Query {
         }
     }
 
-    /// Returns the query with all motions seen in another frame.
+    /// Returns the query with shapes and motions transformed into another frame.
     pub fn seen_from(&self, frame: &Pose) -> Query {
         Query {
             a: self.a.seen_from(frame),
@@ -60,7 +60,7 @@ impl Query {
         }
     }
 
-    /// Returns the query with time reversed.
+    /// Returns the query with both motions reversed in time.
     pub fn reversed(&self) -> Query {
         Query {
             a: self.a.reversed(self.duration),
@@ -74,8 +74,8 @@ impl Query {
         rounding(self.a.reach(self.duration) + self.b.reach(self.duration))
     }
 
-    /// Returns the bodies for combinations of kinds of pieces. They are each kind with itself and with triangles, and
-    /// among the other kinds those with the fewest pieces.
+    /// Returns the bodies for several combinations of kinds of pieces: each kind with itself and with triangles, and
+    /// the two kinds with the fewest pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
         let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
@@ -118,7 +118,7 @@ impl Query {
 }
 
 impl Bodies {
-    /// Returns the number of pairs of pieces, one of each body.
+    /// Returns the number of pairs of pieces, one piece of each body.
     pub fn pairs(&self) -> usize {
         self.a.pieces().len() * self.b.pieces().len()
     }
@@ -140,12 +140,12 @@ impl MovingShape {
         MovingShape::moving(shape, at, DVec3::ZERO, DVec3::ZERO)
     }
 
-    /// Returns a shape that moves from a position without rotation.
+    /// Returns a shape that starts unrotated at a position and moves at a constant velocity, without rotation.
     pub fn straight(shape: Shape, at: DVec3, velocity: DVec3) -> Self {
         MovingShape::moving(shape, at, velocity, DVec3::ZERO)
     }
 
-    /// Returns a shape that rotates about its position.
+    /// Returns a shape that starts unrotated at a position and rotates about it.
     pub fn turning(shape: Shape, at: DVec3, spin: DVec3) -> Self {
         MovingShape::moving(shape, at, DVec3::ZERO, spin)
     }
@@ -162,8 +162,8 @@ impl MovingShape {
         }
     }
 
-    /// Returns a length from which rounding is bounded. It is an upper bound on the coordinates of the shape's
-    /// points, in which the radius counts once more for every radian of rotation.
+    /// Returns a bound on the coordinates of the shape's points, in proportion to which they are rounded. The radius
+    /// counts once more for every radian of rotation.
     pub fn reach(&self, duration: f64) -> f64 {
         let motion = &self.motion;
         let points = self.shape.parts.iter().flat_map(|part| &part.points);
@@ -182,7 +182,7 @@ impl MovingShape {
         motion.start().translation().length() + travel + turn * (radius + radii)
     }
 
-    /// Returns the engine's body of the shape for every kind of pieces.
+    /// Returns the engine's bodies of the shape, one for every kind of pieces that it can be made of.
     fn bodies(&self) -> Vec<(Kind, Rc<Body>)> {
         let built = |kind| (kind, Rc::new(self.shape.body(kind)));
         self.shape.kinds().map(built).collect()

@@ -1,5 +1,5 @@
-//! Asks all questions except the first contact, over every backend and kind of piece, and for user-defined
-//! trajectories.
+//! Asks the questions other than the first contact, by every oracle and for every kind of piece. For user-defined
+//! trajectories, it asks all questions.
 
 use crate::backends::Oracle;
 use crate::models::Kind;
@@ -12,7 +12,7 @@ use ccd_core::{
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
-/// A motion as a user-defined trajectory, with its tangents and without accelerations.
+/// A motion in the form of a user-defined trajectory, by its tangent motions and accelerations of zero.
 #[derive(Clone, Copy, Debug)]
 pub struct UserTrajectory(pub Motion);
 
@@ -37,7 +37,7 @@ pub struct OracleSetup {
     pub kinds: [Kind; 2],
 }
 
-/// The answers to every question about two motions.
+/// The answers to all questions but the first contact, about two motions.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
     /// The answer to whether the bodies touch at all.
@@ -48,7 +48,7 @@ pub struct Answers {
     pub clearance_check: (f64, Answer),
 }
 
-/// The answers to every question about the same motions, given as user-defined trajectories.
+/// The answers to all questions about two motions, given as user-defined trajectories.
 #[derive(Clone, Copy, Debug)]
 pub struct TrajectoryAnswers {
     /// The answer about the first contact.
@@ -73,7 +73,7 @@ impl Oracle {
     ];
 }
 
-/// Calls `check` with the answers of every oracle that supports the bodies, for all bodies of the query.
+/// Calls `check` with the answers by every oracle that supports the bodies, for all kinds of pieces of the query.
 pub fn for_each_answer_set(
     query: &Query,
     config: &Settings,
@@ -90,7 +90,7 @@ pub fn for_each_answer_set(
     });
 }
 
-/// Calls `check` with the answers for user-defined trajectories, as [`for_each_answer_set`] does.
+/// Calls `check` as [`for_each_answer_set`] does, with the answers for the motions given as user-defined trajectories.
 pub fn for_each_trajectory_answer_set(
     query: &Query,
     config: &Settings,
@@ -121,7 +121,7 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
     }
 }
 
-/// Returns a required distance below, at or above the least distance, and the settings that require it.
+/// Returns a required distance below, at or above the least distance, and the settings with that clearance.
 fn required_distance_near(closest: &Answer, config: &Settings) -> (f64, Settings) {
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // A pseudo-random choice.

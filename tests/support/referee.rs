@@ -1,4 +1,4 @@
-//! An independent judge of the first contact of two moving meshes, which is slow and simple.
+//! An independent judge of the first contact of two moving meshes, by a slow and simple method.
 //!
 //! It shares no code with the engine. Poses come from the formula of the motion, distances from all
 //! pairs of vertices, edges and faces, times from undirected conservative advancement.
@@ -20,7 +20,7 @@ use triangles::PosedMesh;
 /// The referee's finding about the first contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finding {
-    /// The surfaces are within the margin at the start.
+    /// The surfaces are in contact or within the margin at the start.
     Start,
     /// The surfaces are apart until `lo`, and in contact at `hi`.
     Hit {
@@ -29,40 +29,40 @@ pub enum Finding {
         /// A time at which the bodies are in contact.
         hi: f64,
     },
-    /// The surfaces are apart until `lo`, and then too near to decide.
+    /// The surfaces are apart until `lo`, and later too near for a decision.
     Near {
         /// The time until which the bodies are proven apart.
         lo: f64,
     },
     /// The surfaces are apart over the whole duration.
     Free {
-        /// The least distance that was found.
+        /// The least distance that was found, over the whole duration.
         gap: f64,
     },
-    /// The step limit was reached before a finding.
+    /// The step limit was reached before the search ended.
     Undecided {
         /// The time until which the bodies are proven apart.
         lo: f64,
     },
 }
 
-/// The judge of one query.
+/// The judge of the first contact in one query.
 pub struct Referee<'a> {
     query: &'a Query,
     placements: [Placement; 2],
     margin: f64,
 }
 
-/// The maximum number of advancement steps.
+/// The maximum number of advancement steps of a search.
 const MAX_STEPS: u32 = 20_000;
 
 impl<'a> Referee<'a> {
-    /// Creates a judge of contacts at a distance of 0.
+    /// Creates a judge that counts intersecting surfaces as a contact, with no margin.
     pub fn new(query: &'a Query) -> Self {
         Referee::with_margin(query, 0.0)
     }
 
-    /// Creates a judge of contacts at a distance of `margin`.
+    /// Creates a judge that counts surfaces nearer than `margin` as a contact.
     pub fn with_margin(query: &'a Query, margin: f64) -> Self {
         Referee {
             query,
@@ -77,7 +77,7 @@ impl<'a> Referee<'a> {
         a.distance(&b)
     }
 
-    /// Returns true if one closed solid contains the first vertex of the other at a time.
+    /// Returns true if one solid contains the first vertex of the other body at a time.
     pub fn nested(&self, time: f64) -> bool {
         let [a, b] = self.posed_meshes(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
@@ -121,13 +121,13 @@ impl<'a> Referee<'a> {
         Finding::Undecided { lo: time }
     }
 
-    /// Returns a bound on the rate of change of the distance.
+    /// Returns an upper bound on the rate of change of the distance.
     pub fn speed(&self) -> f64 {
         let [a, b] = &self.placements;
         (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
     }
 
-    /// Searches for a contact soon after a time at which the bodies nearly touch.
+    /// Searches for a contact soon after `lo`, a time at which the bodies nearly touch.
     fn find_contact(&self, lo: f64, first_step: f64) -> Finding {
         if lo == 0.0 && self.touches(0.0) {
             return Finding::Start;
@@ -175,7 +175,7 @@ impl<'a> Referee<'a> {
 }
 
 impl Finding {
-    /// Returns a time at which contact is certain, if there is one.
+    /// Returns a time at which the bodies are certainly in contact; `None` if no contact is proven.
     pub fn latest(self) -> Option<f64> {
         match self {
             Finding::Start => Some(0.0),

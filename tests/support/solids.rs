@@ -1,4 +1,4 @@
-//! Generates small solids, and computes their distances by the referee's code.
+//! Generates random simple solids, and computes their distances by the referee's code.
 
 use crate::models::{Mesh, cuboid};
 use crate::referee::{Face, distance_squared};
@@ -8,12 +8,12 @@ use ccd_core::{Body, Pieces, Pose, Volume};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// A solid: the hull of a few points, grown by a radius.
+/// A simple solid: the convex hull of a few points, grown by a radius.
 #[derive(Clone, Debug)]
 pub enum Solid {
     /// A ball, by its radius.
     Ball(f64),
-    /// A capsule along z, by its radius and half of its core's length.
+    /// A capsule along z, by its radius and half the length of its axis.
     Capsule(f64, f64),
     /// A cuboid, by its half extents.
     Cuboid(DVec3),
@@ -23,7 +23,7 @@ pub enum Solid {
     CuboidMesh(DVec3),
 }
 
-/// The corners of a tetrahedron's faces, counterclockwise from outside if its determinant is positive.
+/// The vertex numbers of a tetrahedron's faces. They are counterclockwise from outside if its determinant is positive.
 const TETRAHEDRON_FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
 impl Solid {
@@ -89,7 +89,7 @@ impl Solid {
     }
 }
 
-/// A solid at a pose, as a polyhedron grown by a radius. The faces are counterclockwise from outside; a point or a
+/// A solid at a pose, as a polyhedron grown by a radius. The faces are counterclockwise from outside. A point or a
 /// segment is a degenerate polyhedron.
 pub struct PlacedSolid {
     faces: Vec<Face>,
@@ -110,7 +110,7 @@ impl PlacedSolid {
         greater(0.0, cores - self.radius - other.radius)
     }
 
-    /// Returns true if the hull contains a corner of the other solid.
+    /// Returns true if the polyhedron contains the first corner of the other one.
     fn contains(&self, other: &PlacedSolid) -> bool {
         let [p, ..] = other.faces[0].corners;
         let below = |Face {

@@ -1,4 +1,4 @@
-//! Generates random cases: shapes, poses and motions, aimed so that hits, misses and overlaps all occur.
+//! Generates random cases: shapes, poses and motions such that hits, misses and overlaps all occur.
 
 use crate::case::{Case, Model, Part, Start};
 use ccd_core::glam::{DQuat, DVec3};
@@ -7,7 +7,7 @@ use proptest::test_runner::{RngSeed, TestRunner};
 use rand_pcg::Pcg64;
 use std::f64::consts::{PI, TAU};
 
-/// Returns a test runner of `cases` cases, times `CCD_TEST_CASES` if set.
+/// Returns a test runner for `cases` cases, multiplied by the variable `CCD_TEST_CASES` if that is set.
 ///
 /// The cases are always the same, unless `CCD_TEST_SEED` gives another seed.
 pub fn runner(cases: u32) -> TestRunner {
@@ -20,7 +20,8 @@ pub fn runner(cases: u32) -> TestRunner {
     })
 }
 
-/// Returns the seeds of `cases` draws, times `CCD_TEST_CASES` if set; they depend on `CCD_TEST_SEED`.
+/// Returns the seeds of `cases` draws, multiplied by the variable `CCD_TEST_CASES`; the seeds depend on
+/// `CCD_TEST_SEED`.
 pub fn seeds(cases: u32) -> std::ops::Range<u64> {
     let first = u64::from(setting("CCD_TEST_SEED", 0)) << 32;
     first..first + u64::from(cases) * u64::from(setting("CCD_TEST_CASES", 1))
@@ -33,8 +34,8 @@ fn setting(name: &str, default: u32) -> u32 {
         .unwrap_or(default)
 }
 
-/// Runs `law` on `cases` random cases drawn from `strategy`. A failure prints the shrunk case in the format of the
-/// corpus.
+/// Runs a check `law` on `cases` random cases drawn from `strategy`. A failure prints the shrunk case in the format of
+/// the corpus.
 ///
 /// # Panics
 /// If the check fails for a case.
@@ -51,8 +52,8 @@ pub fn check_cases(
     }
 }
 
-/// Generates two small bodies aimed at each other, of size about 1 and a few units apart. Each may move and rotate,
-/// up to three turns.
+/// Generates two bodies of size about 1 that start a few units apart and are aimed at each other. Each may move and
+/// rotate, up to three turns.
 pub fn cases() -> impl Strategy<Value = Case> {
     aimed_cases(model(), model())
 }
@@ -62,7 +63,7 @@ pub fn convex_cases() -> impl Strategy<Value = Case> {
     aimed_cases(convex_model(), convex_model())
 }
 
-/// Generates [`cases`] far from the origin, and of very small to very large size.
+/// Generates [`cases`] of very small to very large size, some of them far from the origin.
 pub fn remote_cases() -> impl Strategy<Value = Case> {
     (
         cases(),
@@ -131,7 +132,7 @@ fn aimed_cases(
     })
 }
 
-/// Assigns the relative velocity to B, to A, or to both in addition to a common velocity `drift`.
+/// Gives the relative velocity to B, to A, or to B in addition to a common velocity along `drift`.
 fn share_velocity(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
     match drift {
         None => case.b.velocity = travel.into(),
@@ -156,7 +157,7 @@ fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
     })
 }
 
-/// Generates an angular velocity: zero, a part of a turn, or up to three turns per unit of time.
+/// Generates an angular velocity: zero, tiny, up to half a turn, or up to three turns per unit of time.
 fn spin() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         2 => Just(DVec3::ZERO),
@@ -184,7 +185,7 @@ pub fn direction() -> impl Strategy<Value = DVec3> {
     prop_oneof![4 => any, 1 => prop::sample::select(&DVec3::AXES[..])]
 }
 
-/// Returns a uniformly distributed unit vector.
+/// Returns a random unit vector, uniformly distributed.
 pub fn random_direction(rng: &mut Pcg64) -> DVec3 {
     loop {
         let v = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
@@ -194,12 +195,12 @@ pub fn random_direction(rng: &mut Pcg64) -> DVec3 {
     }
 }
 
-/// Generates a random rotation.
+/// Generates a rotation about a random axis by up to half a turn.
 pub fn rotation() -> impl Strategy<Value = DQuat> {
     rotation_vector(PI).prop_map(DQuat::from_scaled_axis)
 }
 
-/// Generates a half extent between 0.05 and 1.
+/// Generates a half extent between 0.05 and 1, uniformly on a logarithmic scale.
 fn half_extent() -> impl Strategy<Value = f64> {
     (-1.3..0.0f64).prop_map(|x| 10.0f64.powf(x))
 }

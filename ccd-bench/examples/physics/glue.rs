@@ -1,4 +1,4 @@
-//! Steps a rapier world so that no body passes through another: all the code that a program needs.
+//! Steps a rapier world so that no body passes through another. This is all the code that a program needs.
 
 use anyhow::Result;
 use ccd_core::Trajectory;
@@ -35,7 +35,7 @@ pub(crate) fn step_to_first_contacts(
     Ok(stops)
 }
 
-/// Returns the motion that a body has had since it was at its start.
+/// Returns the motion that takes a body from `start` to its present pose in the given duration.
 pub(crate) fn motion_since(start: Pose, body: &RigidBody, duration: f64) -> Result<Motion> {
     let centre = body.mass_properties().local_mprops.local_com.to_array();
     Ok(Motion::between(start, body_pose(body)?, centre, duration)?)

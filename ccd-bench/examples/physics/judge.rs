@@ -1,4 +1,4 @@
-//! Counts passages of bodies through each other and measures penetration depths, with parry's own tests.
+//! Counts how often bodies pass through each other, and measures how deep they penetrate, by parry's own tests.
 
 use crate::glue::to_rapier_pose;
 use crate::worlds::{SimulatedBody, World};
@@ -11,11 +11,11 @@ use rigid_ccd::{Motion, Settings};
 /// The passages and penetration depths measured so far.
 #[derive(Default)]
 pub(crate) struct Tally {
-    /// The number of pairs that were apart before and after a step, and overlapped between.
+    /// The number of times that a pair of bodies was apart before and after a step, but overlapped during it.
     pub(crate) tunneling_count: usize,
-    /// The deepest penetration after a step, in metres.
+    /// The greatest penetration depth of two bodies at the end of any step, in metres.
     pub(crate) max_penetration_depth: f64,
-    /// The number of steps of single bodies in which the body was stopped.
+    /// The number of times that a body was stopped before the end of a step.
     pub(crate) stop_count: usize,
 }
 
@@ -23,7 +23,7 @@ pub(crate) struct Tally {
 pub(crate) type StoppedMotion = (Motion, f64);
 
 impl Tally {
-    /// Measures one step of all bodies in a world.
+    /// Adds the passages, the penetration depths and the stops of one step of a world to the tally.
     pub(crate) fn step(
         &mut self,
         world: &World,
@@ -52,7 +52,7 @@ impl Tally {
     }
 }
 
-/// Two bodies of a world, and the motions of all.
+/// Two bodies of a world, given by their indices, with the motions of all bodies in a step.
 struct MovedPair<'w> {
     world: &'w World,
     moved: &'w [StoppedMotion],
@@ -71,8 +71,8 @@ impl MovedPair<'_> {
         intersection_test(&p, a, &q, b).is_ok_and(|found| found.intersecting)
     }
 
-    /// Returns whether bodies that are apart at both ends overlap between them, at samples dense enough for the thinnest
-    /// part.
+    /// Returns true if the two bodies are apart at the start and at the end of a step, but overlap at a sampled time
+    /// between. The samples are dense enough for the thinnest part, up to a limit of 20,000.
     fn tunnels(&self, duration: f64) -> bool {
         if self.overlaps(0.0) || self.overlaps(duration) {
             return false;

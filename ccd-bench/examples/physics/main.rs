@@ -1,5 +1,5 @@
-//! Compares three ways of stepping fast bodies in rapier by their passages through each other and penetration depths:
-//! without continuous collision detection, with rapier's own, and with certified times.
+//! Compares three ways to step fast bodies in rapier by how often bodies pass through each other, and how deep they
+//! penetrate. The ways are: without continuous collision detection, with rapier's own, and with certified times.
 //!
 //! ```sh
 //! cargo run --release -p ccd-bench --example physics -- [STEPS]
@@ -24,7 +24,7 @@ use worlds::{WORLDS, World};
 enum Method {
     /// Steps without continuous collision detection.
     WithoutCcd,
-    /// Steps with rapier's continuous collision detection, for all bodies and also between moving ones.
+    /// Steps with rapier's own continuous collision detection, enabled for every moving body.
     Rapier,
     /// Steps in which each body stops at its certified first contact.
     CertifiedCcd,
@@ -61,8 +61,8 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Steps a world many times; returns the measurements, the number of steps of single moving bodies, and the duration of
-/// the steps.
+/// Steps a world many times, and returns the tally, the number of moving bodies times the number of steps, and the
+/// computing time of the steps.
 fn simulate_world(
     mut world: World,
     method: Method,

@@ -13,18 +13,18 @@ use rigid_ccd_parry::Options;
 use rigid_ccd_parry::f64::body;
 use std::f64::consts::FRAC_PI_2;
 
-/// A rapier world with its bodies, and the forces on them.
+/// A rapier world with its bodies, and the function that drives them before each step.
 pub(crate) struct World {
     pub(crate) physics: PhysicsWorld,
     pub(crate) bodies: Vec<SimulatedBody>,
-    /// The pairs of bodies joined to each other, which may overlap.
+    /// The pairs of bodies that a joint connects; they may overlap, so they are not tested.
     pub(crate) joined_pairs: Vec<[usize; 2]>,
     /// The length of the thinnest part of any body, in metres.
     pub(crate) min_thickness: f64,
-    /// Applies forces to the bodies, or throws them again, before a step.
+    /// Throws bodies or sets their velocities; it is called before each step, with the step's number.
     pub(crate) step_action: fn(&mut World, u32),
     rng: Pcg64,
-    /// Whether bodies move with rapier's continuous collision detection, also between moving ones.
+    /// Whether rapier's continuous collision detection is enabled for the moving bodies.
     uses_rapier_ccd: bool,
 }
 
@@ -35,10 +35,10 @@ pub(crate) struct SimulatedBody {
     pub(crate) is_fixed: bool,
 }
 
-/// Makes a world with or without rapier's continuous collision detection.
+/// A function that creates a world, with rapier's continuous collision detection on or off.
 type Make = fn(bool) -> Result<World>;
 
-/// The worlds by name.
+/// The worlds to compare: the name of each in the table, and the function that creates it.
 pub(crate) const WORLDS: [(&str, Make); 3] = [
     ("bullets and paper", bullets),
     ("bunnies onto bunnies", bunnies),
@@ -49,7 +49,7 @@ pub(crate) const WORLDS: [(&str, Make); 3] = [
 /// those that are stopped.
 const CONTACT_SKIN: f64 = 0.002;
 
-/// The number of steps after which the bodies are thrown again.
+/// The number of steps after which the bodies are thrown again, or the chain changes its direction.
 const STEPS_PER_ROUND: u32 = 60;
 
 impl World {
@@ -141,10 +141,10 @@ fn bullets(ccd: bool) -> Result<World> {
     Ok(world)
 }
 
-/// The number of the box's sides, after which the bunnies come.
+/// The number of slabs that form the box; the bunnies follow them in the list of bodies.
 const BOX_SIDE_COUNT: usize = 5;
 
-/// Creates bunnies that are thrown at each other and at thin walls, at 40 metres a second.
+/// Creates twelve bunnies in a box with thin walls, which are thrown towards one point at 40 metres a second.
 fn bunnies(ccd: bool) -> Result<World> {
     let mut world = World::empty(ccd, 0.01, |world, step| {
         if step % STEPS_PER_ROUND != 0 {
@@ -186,7 +186,7 @@ const LINK_COUNT: usize = 14;
 /// Half the length of a link, in metres.
 const LINK_HALF_LENGTH: f64 = 0.06;
 
-/// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and then placed anew.
+/// Creates a chain of fourteen links that is drawn back and forth through a slot between two plates.
 fn chain(ccd: bool) -> Result<World> {
     let mut world = World::empty(ccd, 0.004, |world, step| {
         if step.is_multiple_of(4 * STEPS_PER_ROUND) {
@@ -222,7 +222,7 @@ fn chain(ccd: bool) -> Result<World> {
 }
 
 impl World {
-    /// Returns a link of the chain to its start, at rest.
+    /// Puts a link of the chain back to its start pose, at rest.
     fn reset_link(&mut self, link: usize) {
         let place = Vector::new(-0.2 - 2.5 * LINK_HALF_LENGTH * link as f64, 0.0, 0.0);
         let place = Pose::from_parts(place, Rotation::from_scaled_axis(FRAC_PI_2 * Vector::Y));

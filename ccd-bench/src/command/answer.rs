@@ -1,4 +1,4 @@
-//! The command `ccd-bench answer`: runs a method on standard input and output, so that it can be stopped
+//! The command `ccd-bench answer`: answers queries on standard input with one method, in a process that can be killed
 //! from outside.
 
 use crate::method::solver::Solver;
@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 #[cfg(unix)]
 use std::{thread, time::Duration};
 
-/// Answer queries with one method, line by line: motions and durations in, times out
+/// Answer queries with one method: one line of JSON with motions and a duration in, one line with the reply out
 #[derive(Debug, Args)]
 pub(super) struct AnswerArgs {
-    /// The method, as the tables name it
+    /// The name of the method, as in the tables
     #[arg(long)]
     method: String,
     /// The mesh of body A
@@ -32,7 +32,7 @@ pub(super) struct AnswerArgs {
     /// The tolerance, for methods that take one, in the scene's unit of length
     #[arg(long, value_name = "LENGTH")]
     tolerance: f64,
-    /// The distance to keep
+    /// The distance to keep between the bodies, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0)]
     margin: f64,
 }
@@ -49,7 +49,7 @@ pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Answers all queries, or returns the reason for which the method refuses the bodies or the setting.
+/// Answers all queries on standard input; the inner `Err` says why the method refuses the bodies or the setting.
 fn answer_queries(
     method: Method,
     [a, b]: &[TriangleMesh; 2],
@@ -101,7 +101,7 @@ fn cannot_write_replies(source: io::Error) -> CannotWrite {
     }
 }
 
-/// How long this process may outlive its parent.
+/// The longest time that this process may outlive its parent.
 #[cfg(unix)]
 const MAX_TIME_WITHOUT_PARENT: Duration = Duration::from_secs(1);
 

@@ -1,4 +1,4 @@
-//! The command `ccd-bench chart`: it plans the measurements and presents them.
+//! The command `ccd-bench chart`: measures methods on the paper's scenes, and writes tables, a chart and a page.
 
 use super::print_summary;
 use crate::method::Method;
@@ -16,39 +16,39 @@ use rigid_ccd::command::Exit;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// The choice of measurements and of the outputs.
+/// The arguments of `ccd-bench chart`: what to measure, and where to write it.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct ChartArgs {
     /// Measure everything: every scene, method and row, at nine tolerances (about half an hour)
     #[arg(long)]
     full: bool,
-    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) instead
-    /// of the models made by code
+    /// Use the meshes in this folder (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) instead of the models
+    /// made by code
     #[arg(long, value_name = "DIR")]
     models: Option<PathBuf>,
     /// Write tables, charts and the page to this folder; measurements that it holds already are not
     /// repeated
     #[arg(long, value_name = "DIR", default_value = "target/ccd-report")]
     out: PathBuf,
-    /// Only these scenes
+    /// Measure only these scenes
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     scenes: Vec<String>,
-    /// Only these methods
+    /// Measure only these methods
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     methods: Vec<String>,
-    /// Only these tolerances
+    /// Measure only at these tolerances
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     tolerances: Vec<f64>,
-    /// Seconds for each method on each scene at each tolerance; after that, no more rows are started
+    /// Seconds for each method on each scene at each tolerance; after that, no more queries are started
     #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
     cell: Option<Duration>,
-    /// Seconds after which a peer is stopped in the middle of a row
+    /// Seconds that a peer library may take for a query before it is stopped
     #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
     patience: Option<Duration>,
     #[command(flatten)]
     programs: Programs,
-    /// Draw the measurements that the folder holds, and measure nothing
+    /// Draw the measurements that are already in the folder, and measure nothing
     #[arg(long, conflicts_with_all = ["full", "export"])]
     redraw: bool,
     /// Write the meshes and motions of the scenes to this folder, for programs elsewhere, and
@@ -69,10 +69,10 @@ Examples:
 
 /// The tolerances at which methods are measured, from coarse to fine, for bodies of size 1.
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
-/// The tolerances at which methods are compared at equal accuracy.
+/// The tolerances at which methods are measured without `--full`.
 const COMPARISON_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
 
-/// The limits of measurements for a comparison of everything in half an hour.
+/// The limits of each measurement with `--full`, chosen so that everything takes about half an hour.
 const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
     cell: Duration::from_millis(600),
     patience: Duration::from_secs(4),
@@ -80,7 +80,7 @@ const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
     min_rows: 10,
     preparation: Duration::from_secs(20),
 };
-/// The limits of measurements for a comparison of a few rows of everything in a minute.
+/// The limits of each measurement without `--full`, chosen so that a few queries of everything take about a minute.
 const QUICK_LIMITS: MeasurementLimits = MeasurementLimits {
     cell: Duration::from_millis(40),
     patience: Duration::from_millis(200),
@@ -122,7 +122,8 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Returns the plan to measure everything, or a few rows with the fast methods.
+/// Returns the plan that the arguments ask for: a full one, or a quick one with fewer queries and only the fast
+/// methods.
 fn plan(args: &ChartArgs) -> Result<Plan> {
     if let Some(directory) = &args.models {
         ensure!(
@@ -153,8 +154,8 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
     })
 }
 
-/// Returns true if the method answers a few rows within seconds. Peers take time to start, since they run in other
-/// processes, so only one of them is included.
+/// Returns true if the method answers a few queries within seconds, so that the quick plan includes it. Peers take time
+/// to start, since they run in other processes, so only one of them is included.
 fn is_fast_to_run(method: Method) -> bool {
     match method {
         Method::ThisProject(..) | Method::Rival(_) => true,

@@ -14,17 +14,17 @@ use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Ask one method, and judge its answers by exact ones
+/// Ask one method about a table of motions, and judge its answers by the exact ones
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct JudgeArgs {
-    /// The method, as the tables name it
+    /// The name of the method, as in the tables
     #[arg(long, value_name = "NAME")]
     method: String,
     /// Body A: a mesh, .obj, .stl, .ply or .off
     #[arg(long, value_name = "MESH")]
     a: PathBuf,
-    /// Body B, as body A
+    /// Body B: a mesh, .obj, .stl, .ply or .off
     #[arg(long, value_name = "MESH")]
     b: PathBuf,
     /// The table of motions, CSV, in the format of `ccd query`; - reads standard input
@@ -35,7 +35,7 @@ pub(super) struct JudgeArgs {
     tolerance: f64,
     #[command(flatten)]
     programs: Programs,
-    /// Seconds that a query may take
+    /// Seconds that the method may take for a query before it is stopped
     #[arg(long, value_name = "SECONDS", default_value = "3")]
     patience: NonZeroU32,
     /// The table of verdicts, CSV; - writes to standard output

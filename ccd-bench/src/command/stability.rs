@@ -17,22 +17,22 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct StabilityArgs {
-    /// Ask for all values of all families, not only for three of each
+    /// Ask about every parameter value of each family, not only about three
     #[arg(long)]
     full: bool,
-    /// Only these families
+    /// Ask only about these families
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     families: Vec<String>,
-    /// Only these methods
+    /// Ask only these methods
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     methods: Vec<String>,
     #[command(flatten)]
     programs: Programs,
-    /// Draw the answers that the folder holds, whoever asked, and ask nothing
+    /// Draw the answers that are already in the folder, even those of another build, and ask nothing
     #[arg(long)]
     redraw: bool,
-    /// Write the tables to this folder; answers that it holds already are not asked again, but drawn.
-    /// Those of another build are moved aside
+    /// Write the tables to this folder; answers that are in it already are drawn, but not asked again. Those of another
+    /// build are moved aside
     #[arg(long, value_name = "DIR", default_value = "target/ccd-stability")]
     out: PathBuf,
 }

@@ -16,14 +16,14 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Bracket the exact first contacts of two meshes, to judge answers by
+/// Bracket the exact times of first contact of two meshes, as the truth by which answers are judged
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct TruthArgs {
     /// Body A: a mesh, .obj, .stl, .ply or .off
     #[arg(long, value_name = "MESH")]
     a: PathBuf,
-    /// Body B, as body A
+    /// Body B: a mesh, .obj, .stl, .ply or .off
     #[arg(long, value_name = "MESH")]
     b: PathBuf,
     /// The table of motions, CSV, in the format of `ccd query`; - reads standard input
@@ -61,10 +61,10 @@ Examples:
   ccd-bench truth --a knot.obj --b knot.obj --motions motions.csv --out truth.csv
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd-bench truth --a part.stl --b slab.obj --motions -";
 
-/// The number of rows that are judged together, on all processors, before they are written.
+/// The number of rows that are judged in parallel before their results are written.
 const BATCH_SIZE: usize = 256;
 
-/// Brackets the first contact of all valid rows; the table gives the reason for the others.
+/// Brackets the first contact of every valid row, and writes the problem of every invalid row to the table.
 pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     for (option, path) in [
         ("--motions", &args.motions),
@@ -136,7 +136,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     })
 }
 
-/// Describes how many rows have each kind of truth, and the widest bracket of a first contact.
+/// Returns a line of text with the number of rows of each status, and the width of the widest bracket.
 fn summary(counts: &HashMap<&str, usize>, widest: f64) -> String {
     let kinds = STATUSES.map(|kind| format!("{} {kind}", counts.get(kind).unwrap_or(&0)));
     let (rows, kinds): (usize, String) = (counts.values().sum(), kinds.join(", "));

@@ -1,4 +1,4 @@
-//! Runs a method in a separate process, which is stopped at a time limit.
+//! Runs a method in a separate process, which is stopped if a query exceeds its time limit.
 
 use super::Method;
 use super::solver::{Claim, TimedReply};
@@ -16,25 +16,26 @@ use std::thread;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// A method that runs on one query at a time, in a separate process. Stops and restarts it when it hangs or dies.
+/// A method that answers one query at a time in a separate process. The process is stopped and restarted when it hangs
+/// or dies.
 #[derive(Debug)]
 pub struct GuardedMethod {
     program: PathBuf,
     setting: GuardSettings,
-    /// The folder of the files of both meshes.
+    /// The temporary folder with the mesh files of both bodies.
     meshes: TempDir,
-    /// The running process; `None` after the last one was stopped, until the next one starts.
+    /// The running process; `None` if none is running, so that the next query starts one.
     process: Option<Process>,
 }
 
-/// A method with its tolerance, its margin and its time limit.
+/// A method with its tolerance, its margin, and the time limit for its preparation.
 #[derive(Clone, Copy, Debug)]
 pub struct GuardSettings {
     /// The method that the process runs.
     pub method: Method,
     /// The tolerance, for methods that take one.
     pub tolerance: f64,
-    /// The distance to keep between the bodies; a method without margins refuses any other than 0.
+    /// The distance to keep between the bodies; a method without margins refuses any value except 0.
     pub margin: f64,
     /// The time limit for preparing the bodies.
     pub preparation_limit: Duration,
@@ -57,22 +58,22 @@ impl GuardSettings {
 pub enum QueryOutcome {
     /// The method answered the query.
     Answered(TimedReply),
-    /// The call exceeded the time limit, and the process was stopped.
+    /// The query exceeded its time limit, so that the process was stopped.
     CutOff,
-    /// The process ended by itself: a panic, or out of memory.
+    /// The process gave no valid reply, for example because of a panic or a lack of memory.
     Crashed,
 }
 
 /// The programs that run the methods: this one, and a script for the methods of kind [`Method::Script`].
 #[derive(Clone, Debug, Default, Args)]
 pub struct Programs {
-    /// The script that runs Coal and FCL, for their methods: scripts/peers.py
+    /// The script that runs the methods of Coal and FCL: scripts/peers.py
     #[arg(long = "peers", value_name = "SCRIPT")]
     pub script: Option<PathBuf>,
 }
 
 impl Programs {
-    /// Starts the script of a method, if it has one, to detect missing libraries.
+    /// Starts the script of a method, if a script runs it, to detect missing libraries.
     ///
     /// # Errors
     /// If it does not start.
@@ -92,7 +93,7 @@ impl Programs {
         }
     }
 
-    /// Returns the program that runs a method: this one, or the script.
+    /// Returns the path of the program that runs a method: this program, or the script.
     fn program_of(&self, method: Method) -> io::Result<PathBuf> {
         match (method, &self.script) {
             (Method::Script(_), Some(script)) => Ok(script.clone()),
@@ -113,7 +114,8 @@ impl QueryOutcome {
         }
     }
 
-    /// Returns the time of the query in microseconds: the time limit if it was stopped, NaN if the process ended.
+    /// Returns the time of the query in microseconds: the time limit if the query was stopped, NaN if the process
+    /// ended.
     pub fn micros(&self, patience: Duration) -> f64 {
         match self {
             QueryOutcome::Answered(timed) => timed.micros,
@@ -132,7 +134,7 @@ impl QueryOutcome {
 }
 
 impl GuardedMethod {
-    /// Starts a method on two meshes, with the command `answer` of its program.
+    /// Starts a process that answers queries about two meshes with a method.
     ///
     /// # Errors
     /// If the meshes cannot be written, or the process does not start: of the kind
@@ -161,7 +163,7 @@ impl GuardedMethod {
         GuardedMethod::with_program(program, setting, meshes)
     }
 
-    /// Prepares a method that runs another program with the command `answer`. The first query starts it.
+    /// Prepares a method whose process is the given program, run with the command `answer`. The first query starts it.
     ///
     /// # Errors
     /// If the meshes cannot be written.
@@ -182,7 +184,7 @@ impl GuardedMethod {
         })
     }
 
-    /// Sets the tolerance; the next query restarts the process if it has changed.
+    /// Sets the tolerance; if it changes, the next query restarts the process.
     pub fn set_tolerance(&mut self, tolerance: f64) {
         if self.setting.tolerance != tolerance {
             self.setting.tolerance = tolerance;
@@ -225,7 +227,7 @@ impl GuardedMethod {
     }
 }
 
-/// The names of the files of both meshes.
+/// The names of the mesh files of body A and body B.
 const MESH_FILE_NAMES: [&str; 2] = ["a.obj", "b.obj"];
 
 /// A running process that answers each line of input with one line. It ends when this is dropped.

@@ -1,4 +1,4 @@
-//! Peer libraries behind the same interface as all solvers.
+//! Adapts peer libraries to the interface of all solvers.
 //!
 //! They answer the same queries about the same meshes, each by the call that its makers offer for
 //! that. The docs of each type say which parameters the call takes and which it does not offer.
@@ -21,7 +21,7 @@ use anyhow::Result;
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
 
-/// The peer libraries, in the ways in which they are called.
+/// The peer libraries that this program calls, with one variant for each way to call them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum PeerKind {
     /// Nonlinear casts of parry in double precision: [`parry::double::cast`].
@@ -37,8 +37,7 @@ pub enum PeerKind {
 }
 
 impl PeerKind {
-    /// Returns true if the answers depend on the tolerance. The other peers are run at one
-    /// tolerance only.
+    /// Returns true if the peer's answers depend on the tolerance. The other peers are run at one tolerance only.
     pub fn takes_tolerance(self) -> bool {
         match self {
             PeerKind::ParrySweepF64 | PeerKind::ParrySweepF32 | PeerKind::RapierStepF64 => true,

@@ -1,4 +1,4 @@
-//! Published rivals, built here from their descriptions for comparison.
+//! Published methods, built here as rivals from their descriptions.
 //!
 //! They share no code with the engine that they are compared with: they have their own meshes,
 //! distances, bounding volumes and motions.

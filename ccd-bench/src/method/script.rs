@@ -2,10 +2,10 @@
 
 use clap::ValueEnum;
 
-/// The methods that the script runs, by its names.
+/// The methods that the script runs, with the script's names for them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum ScriptKind {
-    /// A single static distance of Coal at the start, the least cost of any method.
+    /// A single distance query of Coal at the start poses, timed as the least that a method can cost.
     CoalDistance,
     /// Static intersection tests of Coal at equal steps.
     CoalSteps,

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 /// A solver that answers queries about two bodies, one after another.
 pub trait Solver {
-    /// Returns the first contact that the solver finds with a tolerance, given as a length.
+    /// Finds the first contact of the bodies at a tolerance, given as a length, and returns the solver's reply.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply;
 }
 
@@ -17,14 +17,14 @@ pub trait Solver {
 pub struct TimedReply {
     /// The solver's reply to the query.
     pub reply: Reply,
-    /// The median time of the query, in microseconds.
+    /// The median time that the solver took for the query, in microseconds.
     pub micros: f64,
 }
 
 /// The maximum number of times that a query is answered for timing. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
 const MOST_REPEATS: usize = 4;
-/// The total time after which a query is not answered again for timing.
+/// The total time spent on a query after which it is not answered again for timing.
 const REPEAT_TIME_LIMIT: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
@@ -57,7 +57,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// Returns a reply without a tolerance or a reason.
+    /// Returns a reply with the given claim and steps, without a tolerance or a reason.
     pub fn new(claim: Claim, steps: u64) -> Self {
         Reply {
             claim,

@@ -14,7 +14,7 @@ pub const READY_LINE: &str = "ready";
 /// The prefix of the first line if the process refuses the bodies or the setting; the reason follows.
 pub const REFUSAL_PREFIX: &str = "refused: ";
 
-/// Answers queries from the input until it ends.
+/// Answers each line of the input by one line of the output, until the input ends.
 ///
 /// # Errors
 /// If a line is no query, or if the reader of the replies is gone.

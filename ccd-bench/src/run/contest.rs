@@ -1,4 +1,4 @@
-//! Runs methods on a scene: each method gets the same queries, is timed, and is judged by the referee.
+//! Runs methods on a scene, so that each method gets the same queries, is timed, and is judged by the referee.
 
 mod journal;
 mod session;
@@ -27,12 +27,12 @@ use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-/// A scene with its surfaces, prepared for running methods and judging their answers.
+/// A scene with the surfaces of its bodies, prepared for running methods and judging their answers.
 pub struct PreparedScene<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
     given_rows: QueryRows<'s>,
-    /// The queries of the scene with screw motions between the same poses.
+    /// The queries of the scene, with each motion replaced by the screw motion between its start and end poses.
     screw_rows: QueryRows<'s>,
 }
 
@@ -45,24 +45,24 @@ struct QueryRows<'s> {
 /// The limits on time and rows of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct MeasurementLimits {
-    /// The time for one method on one scene at one tolerance; no more queries are started after it.
+    /// The time for one method on one scene at one tolerance, after which no more queries are started.
     pub cell: Duration,
     /// The time limit of one query of a peer, which is then stopped.
     pub patience: Duration,
-    /// The largest number of queries to ask.
+    /// The maximum number of queries to ask.
     pub max_rows: usize,
-    /// The least number of queries, regardless of time.
+    /// The number of queries that are asked even if the time for the cell is over.
     pub min_rows: usize,
     /// The time limit for preparing the pieces of a method that makes them on first use. Only queries that are prepared
     /// by then are asked.
     pub preparation: Duration,
 }
 
-/// The maximum number of pairs of pieces for a schedule without a tree, which processes all pairs in every step.
+/// The maximum number of pairs of pieces on which the naive schedule is run, which processes all pairs in every step.
 pub const MAX_PAIRS_FOR_NAIVE: u64 = 100_000;
 
 impl<'s> PreparedScene<'s> {
-    /// Prepares a scene for running methods on it.
+    /// Prepares a scene: makes the surfaces for the referee, and the screw motions of all queries.
     ///
     /// # Errors
     /// If a motion has no screw between its ends.
@@ -90,7 +90,7 @@ impl<'s> PreparedScene<'s> {
         }
     }
 
-    /// Judges the outcome of a row's query by the exact answer, which is computed on first use.
+    /// Judges the outcome of a query by the exact answer, which is computed when it is first needed.
     fn judge(
         &self,
         rows: &QueryRows<'_>,
@@ -106,8 +106,8 @@ impl<'s> PreparedScene<'s> {
         })
     }
 
-    /// Returns the order in which rows are run, of which at most `most` are run. The rows are spread evenly, and so is
-    /// any number of the first ones.
+    /// Returns the indices of the first `most` queries, in the order in which they are asked. The rows are spread
+    /// evenly, and so is any number of the first ones.
     pub fn row_order(&self, most: usize) -> Vec<usize> {
         let count = self.scene.queries.len();
         let stride = (1..=count)
@@ -119,7 +119,8 @@ impl<'s> PreparedScene<'s> {
         rows.take(most).collect()
     }
 
-    /// Runs a method on the queries, and judges its answers. Returns `None` if it can be asked none of the queries.
+    /// Asks a method the queries within the limits, and judges its answers. Returns `None` if it can be asked none of
+    /// the queries.
     ///
     /// # Errors
     /// If a stopped peer cannot be restarted.
@@ -182,7 +183,7 @@ impl<'s> QueryRows<'s> {
     }
 }
 
-/// Summarises the trials of one method on one scene, of which there is at least one.
+/// Summarises the trials of one method on one scene at one tolerance. There is at least one trial.
 pub fn summarise_trials(trials: &[Trial]) -> Cell {
     let count = |verdict: Verdict| {
         let name = verdict.to_string();
@@ -227,7 +228,7 @@ fn are_coprime(a: usize, b: usize) -> bool {
     }
 }
 
-/// Returns a percentile of sorted values, given as a share from 0 to 1; NaN without values.
+/// Returns a percentile of sorted values, where the percentile is a share from 0 to 1; NaN without values.
 fn percentile(sorted: &[f64], share: f64) -> f64 {
     let within = (share * sorted.len() as f64).ceil() as usize;
     within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])

@@ -1,4 +1,4 @@
-//! Measures all combinations of methods, scenes and tolerances, one after another, into a journal.
+//! Measures all combinations of methods, scenes and tolerances, one after another, and records them in a journal.
 
 use crate::method::guarded::Programs;
 use crate::method::{Method, PAPER_TOLERANCE};
@@ -14,15 +14,16 @@ use std::sync::Arc;
 /// The measurements to make: scenes, methods, tolerances and limits.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The scenes to run the methods on.
+    /// The descriptions of the scenes on which the methods run.
     pub listings: Vec<Listing>,
-    /// The methods to measure.
+    /// The methods to measure on every scene.
     pub methods: Vec<Method>,
-    /// The tolerances to measure at.
+    /// The tolerances at which to measure each method.
     pub tolerances: Vec<f64>,
-    /// The limits of each method on each scene. For a peer, `min_rows` is 1, and `preparation` does not apply.
+    /// The limits of the measurement of one method on one scene at one tolerance. For a peer, `min_rows` is 1, and
+    /// `preparation` does not apply.
     pub limits: MeasurementLimits,
-    /// The programs that run the methods.
+    /// The programs that run the methods: this program, and a script for some.
     pub programs: Programs,
     /// The folder of mesh files that replace the models made by code.
     pub models: Option<PathBuf>,
@@ -130,7 +131,7 @@ impl Plan {
         Ok(scenes)
     }
 
-    /// Prepares the pieces of all bodies that some method needs, on all processors.
+    /// Makes the pieces of all bodies that some method needs, on all processors.
     fn make_pieces(&self, scenes: &[Scene]) {
         let kinds = self.methods.iter().filter_map(|method| match method {
             Method::ThisProject(_, pieces) => Some(*pieces),
@@ -149,7 +150,8 @@ impl Plan {
         });
     }
 
-    /// Returns the tolerances to measure a method at: all, or the usual one if it takes none.
+    /// Returns the tolerances at which to measure a method: all, or only the paper's if its answers do not depend on
+    /// the tolerance.
     fn tolerances_of(&self, method: Method) -> impl Iterator<Item = f64> {
         self.tolerances
             .iter()
@@ -157,7 +159,8 @@ impl Plan {
             .filter(move |&tolerance| method.takes_tolerances() || tolerance == PAPER_TOLERANCE)
     }
 
-    /// Describes the settings that determine all measurements: this program, and the allowances.
+    /// Returns a text that identifies the build of this program, the models and the limits, which determine all
+    /// measurements.
     fn stamp(&self) -> String {
         format!(
             "{}models {}\nmethods {:?}\n",

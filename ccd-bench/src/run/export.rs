@@ -1,4 +1,4 @@
-//! Exports scenes to other programs.
+//! Exports scenes as files that other programs can read.
 
 use crate::scene::{Listing, ModelCache};
 use anyhow::{Context, Result};

@@ -1,4 +1,5 @@
-//! The table of cells, which the charts show, and the table of trials, which it summarises.
+//! Defines the rows of both tables of measurements: cells, which the charts show, and trials, which the cells
+//! summarise.
 
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::Claim;
@@ -28,22 +29,22 @@ pub struct Cell {
     pub p95_us: f64,
     /// The number of contacts reported after the exact first one.
     pub late: usize,
-    /// The number of contacts not reported.
+    /// The number of contacts that the method missed, because it reported that there is none.
     pub missed: usize,
     /// The number of contacts reported although the bodies never come within the tolerance.
     #[serde(rename = "false")]
     pub false_contacts: usize,
     /// The number of queries without a complete answer, including those cut off.
     pub unresolved: usize,
-    /// The mean error of the times of contact, as a fraction of the duration; `None` without any.
+    /// The mean error of the times of contact, as a fraction of the duration; `None` without a contact to compare.
     pub mean_error: Option<f64>,
-    /// The largest error of a time of contact, as a fraction of the duration.
+    /// The largest error of a time of contact, as a fraction of the duration; `None` without a contact to compare.
     pub max_error: Option<f64>,
     /// The number of contacts reported while the bodies are farther apart than the tolerance.
     pub early: usize,
     /// The number of queries that exceeded the time limit and were stopped, or at which the peer died.
     pub cut_off: usize,
-    /// The number of queries whose truth is not known well enough to judge the answer.
+    /// The number of queries whose exact answer is not known well enough to judge the method's answer.
     pub undecided: usize,
     /// The mean number of steps in time of a query, as the method counts them.
     pub mean_steps: f64,
@@ -78,7 +79,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Returns the trial of a query of a scene at a tolerance, with a remark.
+    /// Creates the trial of a query from the outcome, its judgement, and a remark.
     pub fn new(
         (scene, method, tolerance): (&str, &str, f64),
         (row, id): (usize, &str),

@@ -1,4 +1,4 @@
-//! The list of scenes: their models, and their rows in tables of motions.
+//! Lists the scenes: their models, and their rows in tables of motions.
 
 use super::{ModelCache, Scene};
 use crate::scene::model::Model;
@@ -45,7 +45,7 @@ pub(super) const MOTION_TABLES: [(&str, &str); 6] = [
     ),
 ];
 
-/// Returns all scenes, in the order of the report.
+/// Returns the descriptions of all scenes, in the order in which the report shows them.
 ///
 /// # Errors
 /// If the data file is invalid.

@@ -1,4 +1,4 @@
-//! The bodies of the scenes: made by code, or read from files of the same names.
+//! Makes the meshes of the scenes by code, or reads them from files of the same names.
 
 mod blob;
 mod cuboid;
@@ -22,7 +22,7 @@ use std::path::Path;
 /// A mesh of the scenes `[FAST06 §6.2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Model {
-    /// A torus knot of 216 triangles, small enough for all pairs.
+    /// A torus knot of 216 triangles, few enough to process all pairs.
     Knot216,
     /// A torus knot of 2,880 triangles.
     Knot2880,
@@ -42,7 +42,7 @@ pub enum Model {
     Santa,
 }
 
-/// The radius of the knots' tubes.
+/// The radius of the tube along each torus knot.
 const TUBE_RADIUS: f64 = 0.16;
 
 impl Model {
@@ -63,7 +63,7 @@ impl Model {
         }
     }
 
-    /// Returns the mesh that is made by code.
+    /// Makes the mesh of the model by code, without reading a file.
     ///
     /// # Errors
     /// None, since every model has a valid size.

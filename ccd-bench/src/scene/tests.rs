@@ -72,7 +72,7 @@ fn models_are_made_once() {
     assert_eq!(first.mesh().faces().len(), 216);
 }
 
-/// Tests that the stored motions are those that the random seeds give.
+/// Tests that the stored tables of motions are byte for byte those that the random seeds give.
 #[test]
 fn the_stored_motions_are_those_of_their_seeds() {
     let bunnies = Shots {

@@ -35,7 +35,7 @@ pub struct ChartData<'a> {
     pub methods: &'a [MethodFacts<'a>],
 }
 
-/// The facts about a method that charts need.
+/// The name of a method, and the family to which it belongs on charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MethodFacts<'a> {
     /// The name of the method in the tables.
@@ -51,9 +51,9 @@ pub enum MethodFamily {
     Ours,
     /// The method is published, and built here for comparison.
     Rival,
-    /// The method is that of a library in use.
+    /// The method is a call of a peer library.
     Peer,
-    /// The method is this project's on other pieces of the same mesh, shown in tables only.
+    /// The method is this project's default on other kinds of pieces; only tables show it.
     Model,
 }
 
@@ -70,14 +70,14 @@ impl ChartData<'_> {
         pareto::draw_chart(self)
     }
 
-    /// Returns true if the method was late or missed a contact in any cell.
+    /// Returns true if the method was late or missed a contact in any cell of the data.
     pub fn is_unsafe(&self, method: &str) -> bool {
         self.cells
             .iter()
             .any(|cell| cell.method == method && cell.is_unsafe())
     }
 
-    /// Returns the scenes for which there are measurements.
+    /// Returns the scenes for which there are measurements, in display order.
     fn measured_scenes(&self) -> Vec<&str> {
         let has_cells = |scene: &&str| {
             let of = |method: &MethodFacts<'_>| !self.cells_of(scene, method.name).is_empty();
@@ -114,7 +114,7 @@ impl ChartData<'_> {
 }
 
 impl<'a> MethodFacts<'a> {
-    /// Returns the facts about the method with this name; an unknown method was measured elsewhere.
+    /// Returns the facts about the method with this name; an unknown name counts as a peer library.
     pub fn from_name(name: &'a str) -> Self {
         let family = match Method::from_name(name) {
             Some(method @ Method::ThisProject(..)) if method.is_piece_variant() => {

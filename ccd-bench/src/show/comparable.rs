@@ -10,7 +10,7 @@ use std::collections::HashMap;
 /// The key of a row in a table of trials: scene, bits of the tolerance, index of the row.
 type RowKey<'a> = (&'a str, u64, usize);
 
-/// The times of the method with which the others are compared, by row.
+/// The times of the reference method, by row, with which the times of other methods are compared.
 #[derive(Debug)]
 pub struct ReferenceTimes<'a> {
     name: &'a str,
@@ -45,8 +45,8 @@ impl<'a> ReferenceTimes<'a> {
         (!ratios.is_empty()).then(|| median(&mut ratios))
     }
 
-    /// Returns the cells with their medians replaced by comparable ones: the reference's median times the ratio. A cell
-    /// keeps its own where the reference was not asked.
+    /// Returns the cells with every median replaced by a comparable one: the reference's median times the median ratio.
+    /// A cell keeps its own where the reference was not asked.
     pub fn comparable_cells(&self, cells: &[Cell]) -> Vec<Cell> {
         let at = |cell: &&Cell| cell.method == self.name;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))

@@ -7,7 +7,7 @@ use ccd_view::{escape, fill_template};
 #[cfg(test)]
 mod tests;
 
-/// Returns the HTML text of the page.
+/// Returns the HTML text of a page with a chart, views of motions, and tables.
 ///
 /// # Errors
 /// If the views cannot be serialised.

@@ -11,13 +11,13 @@ use crate::show::write;
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 
-/// The finer of the two tolerances at which methods are compared.
+/// The finer of the two tolerances at which the report compares methods.
 const FINE_TOLERANCE: f64 = 1e-6;
-/// The name of the reference method of comparisons.
+/// The name of the method with whose times the report compares all others.
 const REFERENCE_METHOD: &str = "best-first direct";
-/// The name of the paper's own method.
+/// The name of the paper's method FAST, with a sound bound.
 const PAPER_METHOD: &str = "fast vmarch";
-/// The methods that the paper compares its own with; the factors are in the table's title.
+/// The names of the methods with which the paper compares FAST. The paper's factors are in the table's title.
 const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 
 /// Writes the tables, the chart and the page of an evaluation into a folder. Returns the table of wrong answers, and

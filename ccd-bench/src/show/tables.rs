@@ -12,7 +12,7 @@ use rigid_ccd::batch::median;
 use std::collections::HashMap;
 use std::fmt;
 
-/// A table of texts.
+/// A table of texts, with a title and named columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextTable {
     /// The title above the table.
@@ -30,7 +30,7 @@ const SMALL_SAMPLE_SIZE: usize = 10;
 const NO_VALUE: &str = "–";
 
 impl TextTable {
-    /// Creates a table without a name and without rows.
+    /// Creates a table with a title and names of columns, but without rows.
     pub fn new(title: &str, header: impl IntoIterator<Item = impl Into<String>>) -> Self {
         TextTable {
             title: title.to_owned(),
@@ -75,7 +75,7 @@ const COUNTS: [Count; 8] = [
     ("undecided", |cell| cell.undecided),
 ];
 
-/// Counts how often each method was late, missed a contact, or reported a false one, over all
+/// Returns a table that counts how often each method was late, missed a contact, or reported a false one, over all
 /// scenes and tolerances. Methods that answer no query are left out.
 pub fn safety_table(cells: &[Cell], trials: &[Trial]) -> TextTable {
     let not_judged = Verdict::NotJudged.to_string();
@@ -98,9 +98,9 @@ pub fn safety_table(cells: &[Cell], trials: &[Trial]) -> TextTable {
     table
 }
 
-/// Compares the times of other methods with those of a reference, scene by scene. A cell has the
-/// median of the ratios query by query (and the ratio of the total times) over the queries that
-/// both were asked, and a mark if the other method was late or missed a contact there.
+/// Returns a table that compares the times of other methods with those of a reference, scene by scene. A cell has the
+/// median of the ratios query by query (and the ratio of the total times) over the queries that both were asked, and a
+/// mark if the other method was late or missed a contact there.
 pub fn time_ratio_table(
     trials: &[Trial],
     reference: &str,
@@ -177,7 +177,8 @@ fn format_three_digits(value: f64) -> String {
     }
 }
 
-/// Returns the names of the methods in a table, in the usual order.
+/// Returns the names of the methods in a table: first those that this program runs, in their usual order, then all
+/// others.
 pub fn methods(cells: &[Cell]) -> Vec<&str> {
     let order: Vec<String> = Method::built_in_methods()
         .iter()

@@ -19,11 +19,11 @@ pub struct Views {
     pub groups: Vec<Group>,
 }
 
-/// The maximum numbers of contacts and of other motions of a scene to view.
+/// The maximum number of views of a scene: first of motions with a contact, then of other motions.
 const MAX_VIEWS: [usize; 2] = [6, 2];
 
 impl Views {
-    /// Draws the first contacts of each scene, and the first other motions.
+    /// Creates views of the first motions with a contact in each scene, and of the first other motions.
     ///
     /// # Errors
     /// If a query of a scene is invalid.

@@ -31,7 +31,7 @@ pub fn families() -> Vec<Family> {
     .collect()
 }
 
-/// Returns a family with the given name, whose parameter is still unnamed and without values.
+/// Creates a family with the given name and scenes; its parameter has no description and no values yet.
 fn family(name: &'static str, make: fn(f64) -> Result<FamilyStep>) -> Family {
     Family {
         name,
@@ -41,17 +41,17 @@ fn family(name: &'static str, make: fn(f64) -> Result<FamilyStep>) -> Family {
     }
 }
 
-/// Returns the powers 10⁻ᵏ for each k.
+/// Returns the powers 10⁻ᵏ for each exponent k of a range.
 fn negative_powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(-k)).collect()
 }
 
-/// Returns the powers 10ᵏ for each k.
+/// Returns the powers 10ᵏ for each exponent k of a range.
 fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(k)).collect()
 }
 
-/// Returns the step of a body that falls onto a slab, and meets it at a time known to within 1e-14.
+/// Returns the family step in which a body falls onto a slab, and meets it at `time`, which is known to within 1e-14.
 fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
@@ -61,7 +61,7 @@ fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<
 /// The half length and the half width of a rod.
 const ROD_HALF_SIDES: (f64, f64) = (2.0, 0.05);
 
-/// Returns a rod that stands upright.
+/// Returns the mesh of a rod that stands upright.
 fn rod() -> Result<TriangleMesh, MeshError> {
     cuboid(ROD_HALF_SIDES.1, 0.3, ROD_HALF_SIDES.0)
 }
@@ -72,7 +72,7 @@ fn rod_angle_at_wall(wall: f64) -> f64 {
     (wall / long.hypot(thin)).asin() - thin.atan2(long)
 }
 
-/// Returns the step of a rod that turns at the origin beside a wall, whose side is at x = `wall`.
+/// Returns the family step in which a rod rotates at the origin, next to a wall whose near side is at x = `wall`.
 fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyStep> {
     let step = FamilyStep::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
     let beside = BodyMotion::resting_at((wall + 1.0) * DVec3::X);

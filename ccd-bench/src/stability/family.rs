@@ -7,16 +7,16 @@ use ccd_core::{InputError, Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
-/// Scenes of one kind, with a parameter that makes them harder.
+/// A set of scenes of one kind, made from a parameter whose later values make the scene harder.
 #[derive(Clone, Debug)]
 pub struct Family {
     /// The name of the family in tables.
     pub name: &'static str,
-    /// The description of the parameter in words.
+    /// What the parameter measures, in words for tables, such as "distance in sizes".
     pub parameter: &'static str,
     /// The values of the parameter, the easiest first.
     pub parameter_values: Vec<f64>,
-    /// The function that makes the scene of a value.
+    /// The function that makes the scene for one value of the parameter.
     pub make: fn(f64) -> Result<FamilyStep>,
 }
 
@@ -29,9 +29,9 @@ pub struct FamilyStep {
     pub tolerance: f64,
     /// The distance to keep between the bodies, in the scene's unit of length.
     pub margin: f64,
-    /// The duration of all queries.
+    /// The duration of each query, in the motions' unit of time.
     pub duration: f64,
-    /// The queries with their answers.
+    /// The queries about the two meshes, each with its exact answer.
     pub cases: Vec<ExactCase>,
 }
 
@@ -40,12 +40,13 @@ pub struct FamilyStep {
 pub struct ExactCase {
     /// The motions of both bodies.
     pub query: Motions,
-    /// The exact answer of the query, in which a contact is a distance of at most the margin, or a body inside the other.
+    /// The exact answer of the query, where a contact is a distance of at most the margin, or one body inside the
+    /// other.
     pub expected_truth: Truth,
 }
 
 impl Family {
-    /// Returns the same family with a parameter of the given description and values.
+    /// Returns the same family with the given description and values of its parameter.
     pub(super) fn with_values(self, parameter: &'static str, values: Vec<f64>) -> Self {
         Family {
             parameter,
@@ -55,7 +56,7 @@ impl Family {
     }
 }
 
-/// The motion of one body, with its displacement and its rotation over the whole duration.
+/// The motion of one body; the velocities are the displacement and the rotation vector over the whole duration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyMotion {
     pub(super) at: DVec3,
@@ -66,7 +67,7 @@ pub(super) struct BodyMotion {
     pub(super) centre: DVec3,
 }
 
-/// The rotations of the whole scene in which its queries are repeated, about axes of no symmetry.
+/// The rotations by which a whole scene is turned to repeat its queries, as pairs of an axis and an angle in radians.
 const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
     (DVec3::new(0.6, 0.0, 0.8), 1.1),
     (DVec3::new(-0.48, 0.6, 0.64), 2.3),
@@ -75,7 +76,7 @@ const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
 /// The default tolerance of a step, in the scene's unit of length.
 const TOLERANCE: f64 = 1e-6;
 
-/// Returns the answer of a contact at a known time, with an allowance for the rounding of the query's numbers.
+/// Returns the exact answer for a contact at a known time, widened by `slack` for the rounding of the query's numbers.
 pub(super) fn contact_at(time: f64, slack: f64) -> Truth {
     Truth::Hit {
         lo: time - slack,
@@ -127,7 +128,7 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the same motion with an added rotation about the centre.
+    /// Returns the same motion with another angular velocity about the centre.
     pub(super) fn with_spin(self, spin: DVec3) -> Self {
         BodyMotion {
             angular_velocity: spin,
@@ -144,7 +145,7 @@ impl BodyMotion {
 }
 
 impl FamilyStep {
-    /// Creates a step for two meshes, without queries.
+    /// Creates a step for two meshes, with the default tolerance, no margin, duration 1 and no queries.
     pub(super) fn new(a: TriangleMesh, b: TriangleMesh) -> Self {
         FamilyStep {
             meshes: [a, b],
@@ -160,12 +161,13 @@ impl FamilyStep {
         FamilyStep { tolerance, ..self }
     }
 
-    /// Adds a query with exactly these motions; the expected answer is for a duration of 1.
+    /// Adds a query with exactly these motions; the expected times are fractions of the duration.
     pub(super) fn with_query(self, a: BodyMotion, b: BodyMotion, expected: Truth) -> Result<Self> {
         self.with_query_in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
-    /// Adds the query, and the same query in rotated worlds. The answer has to bear their rounding.
+    /// Adds a query, and the same query with the whole scene turned by each of the `WORLD_ROTATIONS`. The expected
+    /// answer must still be right after the rounding of the turned motions.
     pub(super) fn with_rotated_queries(
         mut self,
         a: BodyMotion,
@@ -180,7 +182,7 @@ impl FamilyStep {
         Ok(self)
     }
 
-    /// Adds the query, and the same query in rotated worlds if the answer bears their rounding.
+    /// Adds a query, and its copies in turned scenes only if the expected answer is still right after their rounding.
     pub(super) fn with_rotated_queries_if(
         self,
         bears_rounding: bool,

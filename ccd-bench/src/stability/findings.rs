@@ -1,4 +1,4 @@
-//! The results of a survey by families and methods, and the worst answers.
+//! Finds, for each family and method of a survey, the worst answers and the first wrong one.
 
 use super::family::Family;
 use super::survey::step_name;
@@ -7,12 +7,12 @@ use crate::run::contest::{Journal, Verdict};
 use clap::ValueEnum;
 use std::collections::{HashMap, HashSet};
 
-/// The answers in a journal, sorted by families and methods.
+/// The worst verdicts of a survey, looked up by family and method.
 #[derive(Debug)]
 pub struct Findings<'j> {
-    /// The families of the survey, each with its values.
+    /// The families with answers in the journal, each with only the parameter values that have answers.
     pub(super) families: Vec<Family>,
-    /// The methods that were asked.
+    /// The methods with answers in the journal.
     pub(super) methods: Vec<Method>,
     pub(super) journal: &'j Journal,
     /// The worst verdict on each step by each method.
@@ -27,19 +27,19 @@ pub(super) struct FailedStep {
     pub(super) verdict: Verdict,
 }
 
-/// How far a method is right in a family.
+/// How many steps of a family a method solves, from the easiest, and where it first fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SolvedRange {
     /// The share of the family's steps, from the easiest, before the first wrong answer.
     pub(super) solved_fraction: f64,
-    /// The first step with a wrong answer; `None` if all are right.
+    /// The easiest step with a wrong answer; `None` if all answers are right.
     pub(super) first: Option<FailedStep>,
-    /// The first step with the worst verdict of all; `None` if all are right.
+    /// The easiest step that has the method's worst verdict in the family; `None` if all answers are right.
     pub(super) first_worst_step: Option<FailedStep>,
 }
 
 impl<'j> Findings<'j> {
-    /// Sorts the answers of a journal by `methods` and `families`; those without answers are left out.
+    /// Collects the worst verdicts in a journal; families, parameter values and methods without answers are left out.
     pub fn new(families: Vec<Family>, methods: Vec<Method>, journal: &'j Journal) -> Self {
         let mut worst = HashMap::new();
         for trial in journal.trials() {
@@ -66,12 +66,12 @@ impl<'j> Findings<'j> {
         }
     }
 
-    /// Returns true if the journal has no answers.
+    /// Returns true if the journal has no answers to any of the families by any of the methods.
     pub fn is_empty(&self) -> bool {
         self.families.is_empty() || self.methods.is_empty()
     }
 
-    /// Returns how far a method is right in a family; `None` without answers.
+    /// Returns how many steps of a family a method solves; `None` if the journal has no answers of the method there.
     pub(super) fn reach(&self, family: &Family, method: &str) -> Option<SolvedRange> {
         let answer = |&value: &f64| {
             let step = step_name(family, value);

@@ -1,4 +1,4 @@
-//! Judges the answer to a query of a step against the exact one.
+//! Judges a method's answer to a query against the exact answer of the family.
 
 use super::family::{ExactCase, FamilyStep};
 use crate::method::guarded::QueryOutcome;
@@ -6,11 +6,12 @@ use crate::method::solver::{Claim, Reply};
 use crate::run::contest::{self, Judgement, Verdict, is_within_tolerance, judge_contact};
 use crate::truth::{Referee, Truth};
 
-/// The latest time that counts as the start for bodies in contact at the start, as a fraction of the duration.
+/// The latest reported contact time that is judged right for bodies in contact at the start, as a fraction of the
+/// duration.
 const MAX_START_TIME: f64 = 1e-12;
 
-/// Judges the answer to a query by the tolerance of its step, or by a higher one that the method states. The referee
-/// measures distances; it is not asked for the answer.
+/// Judges a method's answer within the tolerance of the step, or within a larger tolerance that the method states. The
+/// referee measures distances; it is not asked for the answer.
 pub fn judge(
     step: &FamilyStep,
     case: &ExactCase,
@@ -41,7 +42,7 @@ fn judge_reply(
     }
 }
 
-/// Judges a claim about bodies in contact from the start.
+/// Judges a method's claim about bodies that are in contact at the start.
 fn judge_contact_from_start(claim: Claim, duration: f64) -> Verdict {
     match claim {
         Claim::Contact { time } if time <= MAX_START_TIME * duration => Verdict::Right,

@@ -1,4 +1,4 @@
-//! Makes the meshes of the families.
+//! Makes the meshes of the scenes of the families, such as slabs, sheets, combs and threads.
 
 pub(super) use crate::scene::model::cuboid;
 use crate::scene::model::sphere::sphere;
@@ -12,19 +12,19 @@ pub(super) fn cube() -> Result<TriangleMesh, MeshError> {
     cuboid(0.5, 0.5, 0.5)
 }
 
-/// Returns a wide box with its top at z = 1, larger than any body that falls here.
+/// Returns a wide box with its top at z = 1, wider than the bodies that fall onto it.
 pub(super) fn slab() -> Result<TriangleMesh, MeshError> {
     cuboid(9.0, 9.0, 1.0)
 }
 
-/// Returns a ball about the origin with corners at its poles.
+/// Returns a triangulated sphere about the origin, with a vertex at each pole.
 pub(super) fn ball(radius: f64, vertices: usize) -> Result<TriangleMesh, MeshError> {
     let (points, faces) = sphere(vertices);
     TriangleMesh::new(points.into_iter().map(|p| radius * p).collect(), &faces)
 }
 
-/// Returns an open square of side 2 in the plane z = 0 about the origin, cut into small squares of two triangles each;
-/// `squares` is their number per side.
+/// Returns an open square of side 2 in the plane z = 0 about the origin, cut into `squares` by `squares` pairs of
+/// triangles.
 pub(super) fn sheet(squares: u32) -> Result<TriangleMesh, MeshError> {
     let step = 2.0 / f64::from(squares);
     let coordinate = |k: u32| f64::from(k) * step - 1.0;
@@ -54,7 +54,7 @@ pub(super) fn cone(sides: u32, radius: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices, &faces.collect::<Vec<_>>())
 }
 
-/// The width of a comb's tooth, as a share of the step from tooth to tooth.
+/// The width of a comb's tooth, as a share of the distance from one tooth to the next.
 pub(super) const TOOTH_SHARE: f64 = 0.4;
 
 /// Returns a comb of depth 1 along y: a bar from z = 0 to 1 below teeth that reach to z = 2. The first tooth
@@ -67,7 +67,7 @@ pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
     })
 }
 
-/// Returns a solid that is extruded along y by a half depth: the filled cells of a grid in the plane of x and z.
+/// Returns a solid made of the filled cells of a grid in the plane of x and z, extruded from y = −`half` to `half`.
 pub(super) fn extrude_cells(
     x: &[f64],
     z: &[f64],
@@ -109,7 +109,7 @@ pub(super) fn extrude_cells(
     with_used_vertices(&vertices, faces)
 }
 
-/// Returns the mesh with only the vertices that the faces use.
+/// Creates a mesh of the faces, without the vertices that no face uses.
 fn with_used_vertices(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
     let mut numbers = vec![None; vertices.len()];
     let mut kept = Vec::new();
@@ -124,14 +124,15 @@ fn with_used_vertices(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<Triang
     TriangleMesh::new(kept, &faces)
 }
 
-/// Returns a plate across x, from x = −0.1 to 0.1 and 3 wide, with a slit across its middle; `slit` is the slit's half
-/// height.
+/// Returns a plate of half sides 0.1, 3 and 3 that a horizontal slit cuts in two; the slit is open from z = −`slit` to
+/// `slit`.
 pub(super) fn slit_plate(slit: f64) -> Result<TriangleMesh, MeshError> {
     let levels = [-3.0, -slit, slit, 3.0];
     extrude_cells(&[-0.1, 0.1], &levels, 3.0, |_, level| level != 1)
 }
 
-/// Returns a flank of a thread about z between two radii: an open ribbon that rises by the pitch per turn.
+/// Returns one flank of a screw thread about the z axis: an open ribbon between two radii that rises by the pitch per
+/// turn.
 pub(super) fn helicoid(
     radii: [f64; 2],
     pitch: f64,
@@ -151,7 +152,7 @@ pub(super) fn helicoid(
     TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
-/// Returns copies of an open horizontal square, one at each height.
+/// Returns one mesh of copies of an open horizontal square, one copy at each of the given heights.
 pub(super) fn stacked_squares(
     sheet: &TriangleMesh,
     heights: impl Iterator<Item = f64>,
@@ -160,8 +161,8 @@ pub(super) fn stacked_squares(
     TriangleMesh::merge(&sheets.collect::<Result<Vec<_>, _>>()?)
 }
 
-/// Returns the wide box of [`slab`] with a vertex on its top close to the diagonal, so that one of the three triangles
-/// around it is a sliver.
+/// Returns the box of [`slab`] with an extra vertex on its top near a diagonal, so that one triangle there is a sliver
+/// of about the given width.
 pub(super) fn sliver_slab(width: f64) -> Result<TriangleMesh, MeshError> {
     let slab = slab()?;
     let place = |v: u32| slab.vertices()[v as usize];
@@ -182,7 +183,7 @@ pub(super) fn sliver_slab(width: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices, &faces)
 }
 
-/// Returns cubes of side 1/4 in rows across z, every other one inside out, with all tops at z = 0.
+/// Returns cubes of side 1/4 in a horizontal square grid with their tops at z = 0, every other cube inside out.
 pub(super) fn field_of_cubes(count: u32) -> Result<TriangleMesh, MeshError> {
     let cube = cuboid(0.125, 0.125, 0.125)?;
     let faces: Vec<[u32; 3]> = cube.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
@@ -218,13 +219,13 @@ pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices, &faces)
 }
 
-/// Returns open horizontal squares, the highest at z = 0, the lowest at z = −0.5.
+/// Returns `count` open horizontal squares at even steps in height, the highest at z = 0 and all above z = −0.5.
 pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
     let step = 0.5 / f64::from(count);
     stacked_squares(&sheet(1)?, (0..count).map(|k| -step * f64::from(k)))
 }
 
-/// Returns a mesh with some of its faces repeated, half of them reversed, and as many degenerate faces.
+/// Returns the mesh with `count` repeated faces, every other one reversed, and `count` degenerate faces added.
 pub(super) fn with_bad_faces(mesh: &TriangleMesh, count: usize) -> Result<TriangleMesh, MeshError> {
     let mut faces = mesh.faces().to_vec();
     let repeated: Vec<[u32; 3]> = faces.iter().copied().cycle().take(count).collect();

@@ -1,4 +1,4 @@
-//! Summarises a survey as tables and maps: how often each method was right, and how far in each family.
+//! Summarises a survey as tables and heat maps: how often each method was right, and how much of each family it solved.
 
 use super::family::Family;
 use super::findings::Findings;
@@ -11,7 +11,7 @@ use ccd_core::order::greater;
 use clap::ValueEnum;
 use std::collections::HashMap;
 
-/// Returns a table that counts the verdicts of each method over all queries.
+/// Returns a table that counts, for each method, the queries with each verdict.
 pub fn summary(findings: &Findings<'_>) -> TextTable {
     let verdicts = Verdict::value_variants().iter();
     let judged = verdicts.filter(|&&verdict| verdict != Verdict::NotJudged);
@@ -34,8 +34,8 @@ pub fn summary(findings: &Findings<'_>) -> TextTable {
     table
 }
 
-/// Returns a table of the first value, from the easiest, at which each method fails in each family, and the worst
-/// verdict there.
+/// Returns a table with the easiest parameter value at which each method fails in each family, and the worst verdict
+/// there.
 pub fn limits(findings: &Findings<'_>) -> TextTable {
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();
     let columns = ["family", "parameter"].map(str::to_owned);
@@ -56,7 +56,7 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
     table
 }
 
-/// Returns the heat map of how far each method is right in each family.
+/// Returns the heat map of the share of each family that each method solves before its first wrong answer.
 pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
     map(findings, SOLVED_RANGE, |family, method| {
         let reach = findings.reach(family, method)?;
@@ -69,7 +69,8 @@ pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
     })
 }
 
-/// Returns the heat map of how the cost of each method grows over each family.
+/// Returns the heat map of cost growth: the most steps of a method in a family, relative to its steps at the easiest
+/// value.
 pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     // A query takes no step if the bounds of the whole bodies are enough.
     let cost = |cell: &Cell| {
@@ -94,7 +95,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     })
 }
 
-/// Makes a heat map whose cells are a function of the family and the method.
+/// Makes a heat map with a row per family and a column per method, whose cells the function `cell` computes.
 fn map(
     findings: &Findings<'_>,
     kind: &'static HeatMapKind,

@@ -18,37 +18,37 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// The plan of a survey: families, methods and folder.
+/// The plan of a survey: which families are put to which methods, and where the answers are stored.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// The families of scenes to ask about.
+    /// The families whose scenes are put to the methods.
     pub families: Vec<Family>,
-    /// The methods to ask.
+    /// The methods whose answers are judged.
     pub methods: Vec<Method>,
-    /// Whether all values of a family are asked about, or only the easiest, the hardest, and one between.
+    /// True to use all parameter values of a family; false to use only the easiest, the middle and the hardest value.
     pub full: bool,
     /// The programs that run the methods.
     pub programs: Programs,
-    /// The folder in which the journal is.
+    /// The folder that contains the journal, from which an interrupted survey is resumed.
     pub folder: PathBuf,
 }
 
 /// The time that a method may take for one query.
 const QUERY_TIME_LIMIT: Duration = Duration::from_secs(3);
 
-/// The time limit for preparing the bodies of a step.
+/// The time that a method may take to prepare the bodies of a step.
 const PREPARATION_TIME_LIMIT: Duration = Duration::from_secs(20);
 
-/// The number of consecutive steps at which a method is stopped before its harder steps are skipped.
+/// The number of consecutive steps at which a method must exceed a time limit before its harder steps are skipped.
 const STOPS_BEFORE_SKIPPING: usize = 2;
 
-/// Returns the name of a step in the tables.
+/// Returns the name of a step in the tables: the family and the parameter value.
 pub(super) fn step_name(family: &Family, value: f64) -> String {
     format!("{} {value:e}", family.name)
 }
 
 impl Survey {
-    /// Runs the steps that the folder does not have yet.
+    /// Runs the steps whose answers the journal in the folder does not have yet, and returns the journal.
     ///
     /// # Errors
     /// If a scene cannot be made, a method cannot be started, or the journal cannot be kept; earlier answers are kept.
@@ -66,7 +66,7 @@ impl Survey {
         Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Returns the values of a family that are asked about.
+    /// Returns the parameter values of a family that the survey uses.
     fn values(&self, family: &Family) -> Vec<f64> {
         let all = &family.parameter_values;
         if self.full {
@@ -115,7 +115,7 @@ impl Survey {
     }
 }
 
-/// A step with its meshes, prepared for queries.
+/// A step with its name and the referee's surfaces of its meshes.
 struct PreparedStep<'s> {
     step: &'s FamilyStep,
     name: &'s str,
@@ -123,7 +123,7 @@ struct PreparedStep<'s> {
 }
 
 impl PreparedStep<'_> {
-    /// Runs a method on all queries of the step, up to the first query at which the method is stopped.
+    /// Runs a method on all queries of the step; stops after the first query that exceeds the time limit.
     fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
         let setting = GuardSettings {
@@ -167,7 +167,7 @@ impl PreparedStep<'_> {
         Ok(trials)
     }
 
-    /// Returns the method's remark about its answer; empty without one.
+    /// Returns the method's remark about its answer, such as a raised tolerance; empty if there is none.
     fn note(&self, outcome: &QueryOutcome) -> String {
         let QueryOutcome::Answered(TimedReply { reply, .. }) = outcome else {
             return String::new();
@@ -181,7 +181,7 @@ impl PreparedStep<'_> {
     }
 }
 
-/// Judges a method that ends before its first query.
+/// Judges a method that could not be started or that ended before its first query.
 fn judge_failed_start(error: io::Error) -> io::Result<Judgement> {
     Ok(Judgement::without_error(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
@@ -191,7 +191,7 @@ fn judge_failed_start(error: io::Error) -> io::Result<Judgement> {
     }))
 }
 
-/// Describes the settings that determine all answers, for comparison with those of a folder.
+/// Returns a text of the settings that all answers depend on; a folder is resumed only if its text is the same.
 fn stamp() -> String {
     let program = program_stamp();
     format!("{program}patience {QUERY_TIME_LIMIT:?} {PREPARATION_TIME_LIMIT:?}\n")

@@ -8,14 +8,14 @@ use std::ops::{Add, Mul, Neg, Sub};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IntervalVector(pub(super) [Interval; 3]);
 
-/// A matrix by its rows, whose entries are known to within intervals.
+/// A matrix as three rows of entries that are known to within intervals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IntervalMatrix(pub(super) [[Interval; 3]; 3]);
 
 const ZERO: Interval = point_interval(0.0);
 const ONE: Interval = point_interval(1.0);
 const TWO: Interval = point_interval(2.0);
-/// The range of every sine and cosine.
+/// The interval from −1 to 1, which contains every sine and cosine.
 const SINE_RANGE: Interval = Interval::new(-1.0, 1.0);
 
 impl IntervalVector {
@@ -35,7 +35,7 @@ impl IntervalVector {
         IntervalVector([y * w - z * v, z * u - x * w, x * v - y * u])
     }
 
-    /// Returns the matrix that multiplies a vector as the cross product with this one on the left.
+    /// Returns the matrix M such that M w = v × w, where v is this vector.
     pub(super) fn cross_matrix(&self) -> IntervalMatrix {
         let [x, y, z] = self.0;
         IntervalMatrix([[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]])
@@ -54,7 +54,7 @@ impl IntervalMatrix {
         IntervalMatrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
     }
 
-    /// Returns the rotation of a quaternion of about unit length, after normalisation.
+    /// Returns the rotation matrix of a quaternion of about unit length, which is normalised first.
     pub(super) fn from_quaternion(q: DQuat) -> Self {
         let [x, y, z, w] = q.to_array().map(point_interval);
         let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];
@@ -69,7 +69,7 @@ impl IntervalMatrix {
         IntervalMatrix(rows.map(|row| row.map(|entry| entry / square)))
     }
 
-    /// Returns the rotation by an angular velocity over a time, whatever the number of turns.
+    /// Returns the rotation matrix of a constant angular velocity after a time, for any number of turns.
     ///
     /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
     pub(super) fn from_angular_velocity(spin: DVec3, time: f64) -> Self {
@@ -96,7 +96,7 @@ impl IntervalMatrix {
     }
 }
 
-/// The least squared angular speed, in radians per unit of time, well above the values at which squares lose digits.
+/// The squared angular speed below which a rotation gets only a coarse bound, because smaller squares may lose digits.
 const MIN_SQUARED_ANGULAR_SPEED: f64 = 1e-250;
 
 fn kronecker_delta(i: usize, j: usize) -> Interval {
@@ -147,7 +147,7 @@ impl Neg for IntervalVector {
     }
 }
 
-/// Returns enclosures of sine and cosine over an interval, tight for narrow ones.
+/// Returns intervals that contain the sines and the cosines of an interval; they are narrow if the interval is.
 ///
 /// The argument is x = kπ/2 + r by interval arithmetic, which holds for any k and keeps |r| below
 /// 0.79 for the nearest k. Then come Taylor's polynomials about 0, with Lagrange's remainder
@@ -168,7 +168,8 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     }
 }
 
-/// The largest argument for the polynomial, in radians: a little over π/2. Reduced arguments are at most about π/4.
+/// The largest argument of the Taylor polynomials, in radians: a little over π/2. Reduced arguments are at most about
+/// π/4.
 const LARGEST_POLYNOMIAL_ARGUMENT: f64 = 1.6;
 /// 2⁵⁰, the largest number of quarter turns to subtract: up to it, the number and its remainder modulo 4 are exact.
 const MAX_QUARTER_TURNS: f64 = 1_125_899_906_842_624.0;

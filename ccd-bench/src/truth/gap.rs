@@ -1,4 +1,4 @@
-//! Computes the distance of two surfaces at one time.
+//! Bounds the distance of two surfaces at one time.
 
 use super::DistanceBounds;
 use super::rounding::FORTY_ROUNDINGS_ERROR;

@@ -1,4 +1,5 @@
-//! Interval arithmetic: each operation returns an interval that holds all results for numbers of its operands.
+//! Interval arithmetic: each operation returns an interval that contains the exact results for all numbers in its
+//! operands.
 //!
 //! Floats are computed to nearest, then moved outward if they are not exact. A result rounded to
 //! nearest has the exact one strictly between its two neighbours, or equals it: between f64::MAX and
@@ -14,7 +15,7 @@ use super::rounding::nan_propagating_max;
 use ccd_core::order::{greater, lesser};
 use std::ops::{Add, Div, Mul, Neg, RangeInclusive, Sub};
 
-/// All real numbers between a lower and an upper bound, including finite bounds.
+/// The real numbers from a lower bound to an upper bound, either of which may be infinite.
 ///
 /// The bounds are in order, neither is NaN, and a real number is between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,13 +35,13 @@ impl Interval {
         inf: f64::NEG_INFINITY,
         sup: f64::INFINITY,
     };
-    /// An interval that contains π/2, which exceeds the nearest float by 6.1e-17.
+    /// The interval between the two floats around π/2, which exceeds the lower one by 6.1e-17.
     pub(super) const FRAC_PI_2: Interval = Interval {
         inf: std::f64::consts::FRAC_PI_2,
         sup: std::f64::consts::FRAC_PI_2.next_up(),
     };
 
-    /// Returns the numbers from `inf` to `sup`; all numbers if there are none.
+    /// Returns the interval from `inf` to `sup`; all real numbers if no real number is between these bounds.
     pub(super) const fn new(inf: f64, sup: f64) -> Self {
         // The comparison is false for NaN.
         if inf <= sup && inf < f64::INFINITY && sup > f64::NEG_INFINITY {
@@ -66,7 +67,7 @@ impl Interval {
         if mid.is_finite() { mid } else { 0.0 }
     }
 
-    /// Returns an upper bound of the distance of the numbers from `mid`, whatever `mid` rounds to.
+    /// Returns an upper bound of the distance of any number in the interval from the rounded middle `mid`.
     pub(super) fn rad(self) -> f64 {
         let mid = self.mid();
         let ([_, below], [_, above]) = (sum_bounds(mid, -self.inf), sum_bounds(self.sup, -mid));
@@ -101,24 +102,25 @@ impl Interval {
         Interval::new(least, most)
     }
 
-    /// Returns the numbers that are in both intervals; the whole line if there are none, which cannot happen for
-    /// enclosures of one number. Nothing is rounded.
+    /// Returns the numbers that are in both intervals; the whole line if there are none. Two enclosures of the same
+    /// number always have it in common. Nothing is rounded.
     pub(super) fn intersection(self, other: Self) -> Self {
         Interval::new(greater(self.inf, other.inf), lesser(self.sup, other.sup))
     }
 
-    /// Returns the products with the numbers in `factor`, none of which is negative.
+    /// Returns the interval of products with `factor`, which must contain no negative number.
     fn times_nonnegative(self, factor: Self) -> Self {
         self.scaled_between(product_bounds, [factor.inf, factor.sup])
     }
 
-    /// Returns the quotients by the numbers in `divisor`, all of which are positive.
+    /// Returns the interval of quotients by `divisor`, which must contain only positive numbers.
     fn divided_by_positive(self, divisor: Self) -> Self {
         self.scaled_between(quotient_bounds, [divisor.sup, divisor.inf])
     }
 
-    /// Returns the results of scaling by factors from `least` to `most`. The lower bound is scaled by `least`, or by
-    /// `most` if it is negative; the upper bound by `most`, or by `least` if it is negative.
+    /// Returns the interval scaled by a range of nonnegative factors, from the weakest scaling `least` to the strongest
+    /// `most`. The lower bound is scaled by `least`, or by `most` if it is negative; the upper bound by `most`, or by
+    /// `least` if it is negative.
     fn scaled_between(
         self,
         scaled: impl Fn(f64, f64) -> [f64; 2],
@@ -133,7 +135,7 @@ impl Interval {
 impl Neg for Interval {
     type Output = Interval;
 
-    /// Negates exactly, without rounding.
+    /// Returns the interval of the negated numbers. Nothing is rounded.
     fn neg(self) -> Interval {
         Interval::new(-self.sup, -self.inf)
     }
@@ -142,7 +144,8 @@ impl Neg for Interval {
 impl Add for Interval {
     type Output = Interval;
 
-    /// Adds the bounds: a sum is increasing in both operands.
+    /// Returns an interval that contains all sums of the numbers in two intervals. A sum is increasing in both
+    /// operands.
     fn add(self, other: Interval) -> Interval {
         let ([inf, _], [_, sup]) = (
             sum_bounds(self.inf, other.inf),
@@ -155,7 +158,7 @@ impl Add for Interval {
 impl Sub for Interval {
     type Output = Interval;
 
-    /// Subtracts the bounds: a difference is increasing in its first operand and decreasing in its second.
+    /// Returns an interval that contains all differences of the numbers in two intervals.
     fn sub(self, other: Interval) -> Interval {
         self + -other
     }
@@ -195,7 +198,8 @@ impl Mul for Interval {
 impl Div for Interval {
     type Output = Interval;
 
-    /// Divides intervals: a quotient is monotone in each operand while the divisor keeps its sign.
+    /// Returns an interval that contains all quotients of the numbers in two intervals; the whole line if the divisor
+    /// may be 0.
     fn div(self, other: Interval) -> Interval {
         if other.inf > 0.0 {
             self.divided_by_positive(other)
@@ -207,8 +211,9 @@ impl Div for Interval {
     }
 }
 
-/// Returns bounds of an exact result: the rounded result, moved towards the side of `rest`, which has the sign of the
-/// exact result minus the rounded one. Moved to both sides if `rest` is NaN.
+/// Returns bounds of an exact result, given its rounded value and the sign of the rounding error. The sign of `rest` is
+/// that of the exact result minus the rounded one. Only the bound on that side is moved to the next float: no bound if
+/// `rest` is 0, both bounds if it is NaN.
 fn rounded_outward(rounded: f64, rest: f64) -> [f64; 2] {
     [
         if rest >= 0.0 {
@@ -244,7 +249,7 @@ fn product_bounds(x: f64, y: f64) -> [f64; 2] {
     rounded_outward(product, -product_residual(product, x, y))
 }
 
-/// Returns bounds of the exact quotient of two floats, of which the second is not 0. A number over infinity stands for
+/// Returns bounds of the exact quotient of two floats; the divisor must not be 0. A number over infinity stands for
 /// quotients that come near 0.
 fn quotient_bounds(x: f64, y: f64) -> [f64; 2] {
     let quotient = x / y;
@@ -277,7 +282,7 @@ fn product_residual(w: f64, x: f64, y: f64) -> f64 {
     (w - product) - error
 }
 
-/// The range of factors for which no part of Dekker's product overflows or underflows: the lowest bit of the least
+/// The range of factors for which no part of Dekker's product overflows or underflows. The lowest bit of the least
 /// product is at 1e-280 2⁻¹⁰⁴, above the least float.
 const SAFE_FACTORS: RangeInclusive<f64> = 1e-140..=1e140;
 

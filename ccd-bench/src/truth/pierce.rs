@@ -35,7 +35,7 @@ fn pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVector; 3]) ->
     side.is_some() && passes(b, c) == side && passes(c, a) == side
 }
 
-/// Returns how all numbers of an interval compare with 0; `None` if that is uncertain.
+/// Returns whether all numbers of an interval are above or all are below 0; `None` if the interval contains 0.
 fn sign(x: Interval) -> Option<Ordering> {
     if x.inf() > 0.0 {
         Some(Ordering::Greater)

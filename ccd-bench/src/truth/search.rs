@@ -10,43 +10,46 @@ use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::Motions;
 use std::rc::Rc;
 
-/// A node of A's tree and one of B's.
+/// A pair of nodes: an index in A's tree, and an index in B's tree.
 pub(super) type Pair = [u32; 2];
 
-/// The state of the search for the answer to one query.
+/// A search for the first contact in one query: the surfaces, their motions and the remaining budget.
 pub(super) struct Search<'a> {
     surfaces: [&'a Surface; 2],
     pub(super) motions: [EnclosedMotion; 2],
     farthest_distances: [f64; 2],
     duration: f64,
-    /// The number of tests of pairs that may still be made.
+    /// The number of pairs of nodes that may still be tested.
     pub(super) budget: u64,
 }
 
-/// The number of tests of pairs after which a query is left undecided. It would take minutes, while
-/// a hard query takes a second.
+/// The number of tested pairs of nodes after which a query is left undecided. It would take minutes, while a hard query
+/// takes a second.
 const BUDGET: u64 = 30_000_000;
 /// The shortest interval of time that is halved, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
 const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
-/// How often the step is doubled in the search for a proven contact after the first undecided time. The last step is
-/// about a thousandth of the duration.
+/// The largest number of times that the step is doubled in the search for a proven contact after an undecided time. The
+/// last step is about a thousandth of the duration.
 const MAX_DOUBLINGS: u32 = 36;
-/// The number of doublings after which all triangles are tested, not only those that came near first.
+/// The number of doublings after which all triangles are tested, not only the pairs that were near at the undecided
+/// time.
 const DOUBLINGS_PER_FULL_TEST: u32 = 6;
-/// The size of nodes, as a multiple of their displacement in the interval, up to which they are not split.
+/// The size of a node, as a multiple of the pair's relative displacement in the interval, up to which the node is not
+/// split.
 const LARGEST_UNSPLIT_SIZE: f64 = 1.0;
-/// The size, as a fraction of the displacement, below which triangles are separated as well by their boxes.
+/// The size of triangles, as a fraction of their relative displacement, below which only their boxes are tested.
 const MAX_SIZE_FOR_BOX_TEST: f64 = 0.25;
 
-/// The number of normals of two triangles' faces.
+/// The number of face normals, which come first among the candidate separating axes of two triangles.
 const FACE_NORMAL_COUNT: usize = 2;
-/// The distance, as a fraction of the edges, below which triangles are also tested along the normals of pairs of edges.
+/// The distance of two triangles, as a fraction of their edge lengths, below which cross products of edges are tested
+/// too.
 const MAX_DISTANCE_FOR_EDGE_NORMALS: f64 = 1e-3;
 
-/// The pairs of nodes that may meet within an interval of time.
+/// The result of testing pairs of nodes for contact within an interval of time.
 #[derive(Debug, PartialEq)]
 enum RemainingPairs {
-    /// The pairs of nodes that are not excluded.
+    /// The pairs of nodes that may meet within the interval.
     NotExcluded(Vec<Pair>),
     /// The budget of tests was used up before all pairs were tested.
     BudgetSpent,
@@ -87,7 +90,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Halves the duration, the earlier half first, until the first contact is bracketed.
+    /// Brackets the first contact by halving intervals of time, the earlier half first.
     fn bisect_time(&mut self, roots: Pair) -> Truth {
         let whole = Span {
             start: 0.0,
@@ -137,7 +140,8 @@ impl<'a> Search<'a> {
         Snapshot::new([a, b], self.farthest_distances, span)
     }
 
-    /// Returns the pairs that may meet within the interval, of nodes no larger than their displacement.
+    /// Returns the pairs of nodes that may meet within the interval; nodes larger than their displacement are split
+    /// first.
     fn pairs_that_may_meet(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> RemainingPairs {
         let mut left = Vec::new();
         if snapshot.are_bodies_far_apart() {
@@ -229,7 +233,7 @@ impl<'a> Search<'a> {
         triangles.any(|[a, b]| instant.certainly_meet(a, b))
     }
 
-    /// Tests whether the surfaces touch at a time.
+    /// Tests whether the surfaces touch at a time, by the evidence that `proof` requires.
     fn touch_at(&mut self, roots: Pair, time: f64, proof: Proof) -> Touch {
         let span = Span {
             start: time,
@@ -278,7 +282,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Splits the larger node of a pair, or the only one that can be split; returns `None` for two triangles.
+    /// Splits the larger node of a pair, or the inner node if the other node is a leaf; returns `None` for two leaves.
     pub(super) fn split(&self, [a, b]: Pair) -> Option<SplitPair> {
         let [node_a, node_b] = self.nodes([a, b]);
         let of_a = |parts: [u32; 2]| SplitPair {
@@ -302,17 +306,17 @@ impl<'a> Search<'a> {
 
 /// The pairs that result from splitting one node of a pair.
 pub(super) struct SplitPair {
-    /// The size of the node that was split.
+    /// Half the diagonal of the box of the node that was split.
     size: f64,
     pub(super) child_pairs: [Pair; 2],
 }
 
-/// The proof that is required for surfaces to count as touching.
+/// The evidence that makes two surfaces count as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Proof {
-    /// The surfaces cannot be proven to be apart.
+    /// Surfaces touch if they cannot be proven to be apart.
     NotApart,
-    /// An edge certainly passes through a triangle.
+    /// Surfaces touch only if an edge certainly passes through a triangle.
     Piercing,
 }
 
@@ -323,20 +327,20 @@ enum Touch {
     Spent,
 }
 
-/// The times that could neither be excluded nor proven to follow the first contact.
+/// The times at which neither a contact nor a gap between the surfaces could be proven.
 #[derive(Debug, Default)]
 struct UndecidedTimes {
-    /// The first undecided time; `None` without any.
+    /// The first undecided time; `None` if there is no undecided time.
     first: Option<f64>,
-    /// The time up to which the search skips.
+    /// The time before which the search examines no further intervals.
     skipped_until: f64,
     /// The number of undecided times so far.
     undecided_count: u32,
 }
 
 impl UndecidedTimes {
-    /// Skips time after an undecided one; the skipped length doubles each time. Surfaces that slide on each other all
-    /// the time are left after about as many steps as the duration has halvings.
+    /// Skips some time after an undecided interval; the skipped time doubles with every undecided interval. Surfaces
+    /// that slide on each other all the time are left after about as many steps as the duration has halvings.
     fn skip_after(&mut self, span: Span, shortest: f64) {
         let ahead = shortest * 2.0_f64.powi(self.undecided_count.min(1000) as i32);
         self.skipped_until = span.end + ahead;

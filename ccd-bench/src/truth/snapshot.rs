@@ -1,5 +1,4 @@
-//! Encloses where both bodies are around an instant: their positions and velocities then, and a bound of what these and
-//! rounding leave out.
+//! Approximates the motions of both bodies by straight lines within an interval of time, and bounds the error.
 //!
 //! All is relative to a frame that has B's position and orientation at the instant m, moves along
 //! with B's centre in a straight line and does not turn. There, for |s| ≤ h,
@@ -20,14 +19,15 @@ use super::track::EnclosedMotion;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
-/// An interval of time.
+/// An interval of time within the duration of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub(super) start: f64,
     pub(super) end: f64,
 }
 
-/// The positions and velocities of bodies A and B around the middle of an interval of time.
+/// The positions and velocities of bodies A and B at the middle of an interval of time, with error bounds for the whole
+/// interval.
 #[derive(Clone, Debug)]
 pub(super) struct Snapshot {
     /// The map from A's body frame to the common frame, at the middle time.
@@ -38,22 +38,23 @@ pub(super) struct Snapshot {
     rate_b: Affine,
     /// Half the length of the interval.
     half_duration: f64,
-    /// The gap above which bodies are certainly apart: a bound on the rounding, and on the motion's deviation from a
-    /// straight one.
+    /// The computed gap above which bodies are certainly apart: it bounds the rounding, and the motion's deviation from
+    /// a straight line.
     slack: f64,
-    /// The part of `slack` that is due to the motion's deviation from a straight one.
+    /// The part of `slack` that bounds the motion's deviation from a straight line.
     motion_slack: f64,
-    /// The bounds on the extents of boxes, along the axes of B and of A.
+    /// The bounds on the extents of two boxes along B's axes; the next field has those along A's axes.
     extents_along_b: Extents,
     extents_along_a: Extents,
-    /// The vector from B's centre of rotation to A's, and its rate of change.
+    /// The vector from B's centre of rotation to A's centre of rotation; the next field is its rate of change.
     centre_offset: DVec3,
     centre_offset_rate: DVec3,
     /// The sum of the bodies' greatest distances from their centres of rotation.
     radius_sum: f64,
 }
 
-/// An upper bound on a box's extent along the axes of a frame over the interval: `A halfₐ + B half_b`.
+/// Two matrices that bound the half extents of two boxes along the axes of a frame over the interval: `a halfₐ + b
+/// half_b`.
 #[derive(Clone, Copy, Debug)]
 struct Extents {
     a: DMat3,
@@ -125,7 +126,7 @@ impl Snapshot {
                 + FORTY_ROUNDINGS_ERROR * (d.length() + w.length())
     }
 
-    /// Tests whether two boxes stay apart along the six directions of their faces.
+    /// Tests whether one of the six face normals of two boxes separates them over the whole interval.
     pub(super) fn box_separation(&self, a: &Node, b: &Node) -> BoxSeparation {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved =
@@ -145,7 +146,7 @@ impl Snapshot {
         }
     }
 
-    /// Returns a lower bound of the distance of two boxes at the middle time, invalid for an interval.
+    /// Returns a lower bound of the distance of two boxes at the middle time; it does not hold over the interval.
     pub(super) fn box_distance_lower_bound(&self, a: &Node, b: &Node) -> f64 {
         let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
@@ -174,7 +175,7 @@ impl Snapshot {
         a.map(|p| self.placement.apply(p))
     }
 
-    /// Returns the gap along a unit direction above which bodies are certainly apart.
+    /// Returns the computed gap along a unit direction above which bodies are certainly apart.
     pub(super) fn slack(&self) -> f64 {
         self.slack
     }
@@ -185,13 +186,13 @@ impl Snapshot {
 }
 
 impl Extents {
-    /// Returns the gap of two boxes along each axis, at the end of the interval with the smaller gap.
+    /// Returns, for each axis, a lower bound of the gap of two boxes over the whole interval.
     fn axis_gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
         apart.abs() - moved.abs() - self.a * a.half - self.b * b.half
     }
 }
 
-/// Returns, entry by entry, the larger of |m + w| and |m − w|, which bounds the absolute values in between.
+/// Returns, entry by entry, the larger of |m + w| and |m − w|, which bounds |m + s w| for all s from −1 to 1.
 fn larger_of_sum_and_difference(m: DMat3, w: DMat3) -> DMat3 {
     let entry = |m: DVec3, w: DVec3| m.abs() + w.abs();
     DMat3::from_cols(
@@ -206,15 +207,16 @@ fn larger_of_sum_and_difference(m: DMat3, w: DMat3) -> DMat3 {
 struct Affine {
     matrix: DMat3,
     offset: DVec3,
-    /// The error of an image as a length, for points within the body's reach of its origin.
+    /// An upper bound of the error of a body point's image, as a length.
     error: f64,
-    /// The length of the longest image of such a point.
+    /// An upper bound of the length of a body point's image.
     size: f64,
 }
 
 impl Affine {
-    /// Converts a map from intervals to floats: each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in
-    /// sequence. Its error is at most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
+    /// Converts a map from intervals to floats, and bounds the error and the length of the images. Each coordinate of
+    /// an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at most 4u(|m||p| + |o|), plus √3
+    /// rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(IntervalMatrix, IntervalVector), farthest: f64) -> Self {
         let rows = matrix
             .0

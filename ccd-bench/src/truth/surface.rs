@@ -4,7 +4,7 @@ use super::rounding::{ROUND_UP_FACTOR, nan_propagating_max};
 use ccd_core::glam::DVec3;
 use ccd_decomp::TriangleMesh;
 
-/// The triangles of a mesh, prepared for the exact search.
+/// The triangles of a mesh with a tree of boxes over them, as input of the referee.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// The nodes of the tree, the root first, and children after their parents.
@@ -15,7 +15,7 @@ pub struct Surface {
 /// The three corners of a triangle, in the body's frame.
 pub(super) type Triangle = [DVec3; 3];
 
-/// A box with the triangle or the nodes in it.
+/// A node of the tree: a box around some triangles, with its two children or its single triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) centre: DVec3,
@@ -26,7 +26,7 @@ pub(super) struct Node {
     pub(super) content: Content,
 }
 
-/// What a box contains.
+/// The contents of a node: two child nodes, or one triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Content {
     /// The box of an inner node contains the boxes of these two nodes.
@@ -90,7 +90,7 @@ impl Surface {
         far * ROUND_UP_FACTOR
     }
 
-    /// Adds the node of some triangles with all nodes below it, and returns its index. They are halved at the median
+    /// Adds the subtree over some triangles, and returns the index of its root. The triangles are halved at the median
     /// along their longest extent, so the depth is the logarithm of their number.
     fn add_subtree(&mut self, order: &mut [u32]) -> u32 {
         let index = self.nodes.len();

@@ -1,12 +1,13 @@
-//! The table of exact answers.
+//! The columns and the rows of the table of exact answers.
 
 use super::Truth;
 use serde::Serialize;
 
-/// The columns of the table, in order. The last one holds the reason why a row of motions cannot be judged.
+/// The columns of the table of exact answers, in order. The last one holds the reason why a row of motions cannot be
+/// judged.
 pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 
-/// One row of the table of exact answers, without a reason.
+/// One row of the table of exact answers, for a query that can be judged.
 ///
 /// For a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
 /// touch at the start 0. In the other rows nothing touches before `lo`, and `hi` is the duration.
@@ -14,13 +15,13 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 pub struct TruthRow {
     /// The name of the query in the table of motions.
     pub id: String,
-    /// Which kind of exact answer the query has, one of [`STATUSES`].
+    /// The kind of the exact answer, one of [`STATUSES`].
     pub status: &'static str,
     lo: f64,
     hi: f64,
 }
 
-/// The names of the kinds of exact answers.
+/// The values of the status column, one for each kind of exact answer.
 pub const STATUSES: [&str; 5] = ["hit", "free", "initial", "graze", "undecided"];
 
 impl TruthRow {

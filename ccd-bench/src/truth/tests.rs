@@ -44,7 +44,7 @@ fn random_vector(rng: &mut impl Rng, reach: f64) -> DVec3 {
     DVec3::new(coordinate(), coordinate(), coordinate())
 }
 
-/// Returns random triangles in a cube, which may share corners or cross each other.
+/// Returns random triangles in a cube, which may intersect each other.
 fn triangle_soup(rng: &mut impl Rng, triangles: u32) -> TriangleMesh {
     let vertices = (0..3 * triangles).map(|_| random_vector(rng, 1.0));
     let faces: Vec<_> = (0..triangles)

@@ -6,15 +6,16 @@ use super::surface::Triangle;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// Returns the gap of two sets of corners along a direction; negative if they overlap.
+/// Returns the gap between the projections of two triangles on a direction from `b` to `a`; negative if they overlap.
 pub(super) fn gap(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
     let [p, q, r] = a.map(|corner| n.dot(corner));
     let [u, v, w] = b.map(|corner| n.dot(corner));
     lesser(lesser(p, q), r) - greater(greater(u, v), w)
 }
 
-/// Returns the unit normals of both triangles, and then those of all pairs of an edge of each, from `b` towards `a`.
-/// Disjoint triangles that are not in one plane are apart along one of them. A normal that does not exist is NaN.
+/// Returns the two face normals, then the cross products of all pairs of edges of two triangles, as unit vectors from
+/// `b` towards `a`. Disjoint triangles that are not in one plane are apart along one of these directions. A normal that
+/// does not exist is NaN.
 pub(super) fn separating_axis_candidates(
     a: &Triangle,
     b: &Triangle,
@@ -29,7 +30,8 @@ pub(super) fn separating_axis_candidates(
     })
 }
 
-/// Returns the nearest points of two triangles of any shape, up to rounding; the same point if they intersect.
+/// Returns the nearest points of two disjoint triangles of any shape, up to rounding. If an edge pierces the other
+/// triangle, the points may differ; see [`nearest_or_common_points`].
 pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest_points_of_edges(a, b);
     for i in 0..3 {
@@ -58,7 +60,7 @@ pub(super) fn nearest_or_common_points(a: &Triangle, b: &Triangle) -> (DVec3, DV
     best
 }
 
-/// Returns that of two pairs of points whose points are nearer to each other.
+/// Returns the pair of points with the smaller distance, or `best` if the distances are equal.
 fn nearer_pair(best: (DVec3, DVec3), found: (DVec3, DVec3)) -> (DVec3, DVec3) {
     let squared = |(p, q): (DVec3, DVec3)| (p - q).length_squared();
     if squared(found) < squared(best) {
@@ -94,7 +96,7 @@ fn nearest_points_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) ->
     (p + s * u, q + t * v)
 }
 
-/// Returns the nearest point of a triangle's plane to a point, if it lies in the triangle.
+/// Returns the projection of a point onto a triangle's plane if the projection is in the triangle.
 fn projection_in_triangle(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
     let (u, v, r) = (b - a, c - a, p - a);
     let n = u.cross(v);

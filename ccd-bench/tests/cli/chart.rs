@@ -1,4 +1,4 @@
-//! Tests `ccd-bench chart`.
+//! Tests that `ccd-bench chart` measures methods and writes the chart page and its tables.
 
 use crate::command::{Run, Scene, parse, stderr};
 use std::fs;
@@ -62,7 +62,7 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     assert_eq!(fs::read(folder.join("chart.csv")).unwrap(), table);
 }
 
-/// Returns the description of the first view of a page.
+/// Returns the text in brackets in the name of the first view of a chart page.
 fn first_view(page: &str) -> String {
     let (_, views) = page.split_once(r#"id="views">"#).unwrap();
     let (views, _) = views.split_once("</script>").unwrap();

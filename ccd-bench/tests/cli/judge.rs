@@ -1,5 +1,5 @@
-//! Tests `ccd-bench judge` on the recorded failures of other methods: the verdicts are unchanged, and the default
-//! answers all of them right.
+//! Tests that `ccd-bench judge` gives the recorded verdicts on failures of other methods, and finds the default method
+//! right on all of them.
 
 use std::path::Path;
 use std::process::Command;
@@ -29,7 +29,7 @@ const FAILURES: [(&str, &str, &str, &str); 11] = [
     ("rapier-step-f64-early", "rapier-step-f64", "1e-6", "false"),
 ];
 
-/// The folders and tolerances of failures of Python methods, on which only the default is run here.
+/// The folders and tolerances of recorded failures of Python methods; only the default method is run on them here.
 const PYTHON_FAILURES: [(&str, &str); 5] = [
     ("coal-steps-late", "1e-2"),
     ("fcl-ca-late", "1e-3"),

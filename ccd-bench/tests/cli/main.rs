@@ -1,4 +1,4 @@
-//! Tests the `ccd-bench` command as its users run it.
+//! Tests the `ccd-bench` program by running its commands and reading their output.
 
 mod chart;
 #[path = "../../../rigid-ccd/tests/cli/command.rs"]
@@ -10,7 +10,7 @@ mod truth;
 
 use command::{Run, stderr};
 
-/// The path of the command under test.
+/// The path of the `ccd-bench` program that the tests run.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd-bench");
 
 const TETRAHEDRON: &str =

@@ -1,4 +1,4 @@
-//! Tests peers behind a guard: one that hangs is cut off, one that dies is restarted.
+//! Tests that a guard stops a peer program that hangs, and restarts a peer program that has died.
 
 use ccd_bench::method::Method;
 use ccd_bench::method::guarded::{GuardSettings, GuardedMethod, QueryOutcome};
@@ -21,7 +21,7 @@ fn cube() -> TriangleMesh {
     cuboid(0.5, 0.5, 0.5).unwrap()
 }
 
-/// Returns a query in which one cube falls at speed 4 onto another, 2 below it.
+/// Returns a query in which a cube falls at speed 4 onto another cube across a gap of 2.
 fn drop() -> Motions {
     let above = Pose::at(3.0 * DVec3::Z).unwrap();
     Motions {
@@ -40,7 +40,7 @@ fn guarded_method(setting: GuardSettings) -> GuardedMethod {
     GuardedMethod::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
-/// Runs a script of this folder in place of a method's program.
+/// Returns a guarded method whose program is replaced by a script of this folder.
 #[cfg(unix)]
 fn guarded_script(script: &str) -> GuardedMethod {
     let script = Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -1,4 +1,4 @@
-//! Tests `ccd-bench stability`: verdicts of methods that are known to be right or wrong, and resuming.
+//! Tests that `ccd-bench stability` judges a right and a wrong method as expected, and resumes a survey.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,8 @@ fn run_stability(folder: &Path, options: &[&str]) -> Output {
     command.output().unwrap()
 }
 
-/// Returns the cells of a method's row: the numbers of queries, of right answers, and so on.
+/// Returns the cells of a method's row in the table: the number of queries, and the numbers of queries with each
+/// verdict that occurs.
 fn row<'t>(table: &'t str, method: &str) -> Vec<&'t str> {
     let line = table.lines().find(|line| line.contains(method)).unwrap();
     line.rsplit(method)

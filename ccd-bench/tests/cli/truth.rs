@@ -1,4 +1,4 @@
-//! Tests `ccd-bench truth`.
+//! Tests that `ccd-bench truth` writes a bracket of the first contact for each row of motions, and reports bad rows.
 
 use crate::TETRAHEDRON;
 use crate::command::{Run, Scene, parse, stderr};

@@ -5,7 +5,7 @@ use crate::body::feature::Feature;
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// Two nearest pieces with bounds of their distance, their nearest points, and the features that contain these points.
+/// The two nearest pieces of the bodies, with bounds of their distance, their nearest points and the features there.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
@@ -55,7 +55,7 @@ impl Contact {
         self.with_bounds(lesser(lower, least), upper)
     }
 
-    /// Replaces the bounds of the distance.
+    /// Returns the same contact with other bounds of the distance.
     pub(crate) fn with_bounds(self, lower: f64, upper: f64) -> Self {
         Contact {
             separation: Separation {

@@ -1,4 +1,4 @@
-//! The first contact of an answer.
+//! The time and the kind of a contact in an answer.
 
 use super::{Contact, Overlap};
 use glam::DVec3;
@@ -9,7 +9,7 @@ pub struct Hit {
     /// The time of the contact, in the motions' unit. Nothing touches before a first contact, except for contacts at
     /// the start that [`StartPolicy::Leave`](crate::StartPolicy::Leave) ignores.
     pub time: f64,
-    /// Whether the bodies come near, touch at the start, or overlap.
+    /// The kind of the contact: near, touching at the start, or overlapping.
     pub kind: HitKind,
 }
 

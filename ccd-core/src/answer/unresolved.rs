@@ -18,8 +18,8 @@ pub struct Unresolved {
     pub lower: f64,
     /// An upper bound of the requested distance; infinite if none is known.
     pub upper: f64,
-    /// The time at which the least distance was measured, and the nearest pieces at that time. `None` if
-    /// none was measured.
+    /// The time of the smallest measured distance, and the nearest pieces at that time. `None` if no distance was
+    /// measured.
     pub at: Option<(f64, Contact)>,
 }
 
@@ -47,7 +47,7 @@ impl Unresolved {
         .with_measured_upper_bound()
     }
 
-    /// Sets the upper bound to that of the measured contact.
+    /// Sets the upper bound to that of the measured contact; infinite if no distance was measured.
     pub(super) fn with_measured_upper_bound(self) -> Self {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
         Unresolved {
@@ -82,12 +82,13 @@ pub enum Limit {
     Deadline,
     /// The caller [stopped](crate::Settings::stop) the query.
     Stopped,
-    /// A pair's clock cannot advance any more: the next step is smaller than the resolution of time.
+    /// The time until which a pair is proven apart cannot advance: the next step is smaller than the resolution of
+    /// time.
     Stalled,
     /// The oracle gave up on a pair, and no other oracle was available.
     OracleGaveUp,
-    /// The start is undecided: bodies that touch, or may be inside each other, are too near to decide whether they
-    /// overlap.
+    /// Rounding leaves it undecided whether the bodies overlap at the start. They touch then, or one may be inside the
+    /// other.
     Undecided,
 }
 
@@ -105,7 +106,7 @@ impl fmt::Display for Limit {
 }
 
 impl Limit {
-    /// Describes why a query ended, and what to do about it.
+    /// Returns a text that says why a query ended and what the caller can do about it.
     ///
     /// ```
     /// assert!(ccd_core::Limit::Budget.advice().starts_with("the budget is spent"));

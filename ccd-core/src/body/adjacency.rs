@@ -1,17 +1,18 @@
-//! Lists of values by number, stored contiguously.
+//! Many lists of values in one contiguous array, addressed by a number.
 
 use super::facets::range_from_ends;
 
-/// A list of values for each number from 0, such as the facets that meet in each corner.
+/// One list of values for each number from 0, such as the facets that meet in each corner of a polytope.
 #[derive(Clone, Debug)]
 pub(crate) struct AdjacencyLists<V> {
     values: Vec<V>,
-    /// The end of each number's values in `values`.
+    /// The end of each list in `values`; each list starts where the previous one ends.
     ends: Vec<u32>,
 }
 
 impl<V: Copy + Default> AdjacencyLists<V> {
-    /// Creates the lists from pairs of a number below `count` and a value. Each list keeps the order of the pairs.
+    /// Creates `count` lists from pairs of a list's number and a value for that list. Each list keeps the order of the
+    /// pairs.
     pub(crate) fn new(count: usize, pairs: impl Iterator<Item = (u32, V)> + Clone) -> Self {
         // The entries are first counts, then the next free positions, and finally the ends.
         let mut next = vec![0; count];
@@ -29,7 +30,7 @@ impl<V: Copy + Default> AdjacencyLists<V> {
         AdjacencyLists { values, ends: next }
     }
 
-    /// Returns the values of a number; empty for numbers without a list.
+    /// Returns the list with number `k`; empty if there is no such list.
     #[inline]
     pub(crate) fn of(&self, k: usize) -> &[V] {
         if k < self.ends.len() {
@@ -42,7 +43,7 @@ impl<V: Copy + Default> AdjacencyLists<V> {
 
 #[cfg(feature = "hull-tree")]
 impl<V> AdjacencyLists<V> {
-    /// Calls a function with each list.
+    /// Calls a function with each list, which it may change in place.
     pub(super) fn for_each_list(&mut self, mut change: impl FnMut(&mut [V])) {
         (0..self.ends.len()).for_each(|k| change(&mut self.values[range_from_ends(&self.ends, k)]));
     }

@@ -48,12 +48,12 @@ impl Excess {
         })
     }
 
-    /// Returns the largest possible distance of two shapes whose enclosing bodies overlap.
+    /// Returns an upper bound of the distance of two shapes whose enclosing bodies overlap.
     pub(crate) fn distance_of_overlap(self) -> f64 {
         self.0
     }
 
-    /// Converts an upper bound of the distance of two bodies to one of their shapes' distance.
+    /// Converts an upper bound of the distance of two bodies to an upper bound of the distance of their shapes.
     pub(crate) fn upper_bound_of_shapes(self, upper: f64) -> f64 {
         if self.0 > 0.0 {
             (upper + self.0).next_up()
@@ -62,8 +62,8 @@ impl Excess {
         }
     }
 
-    /// Returns the distance of bodies below which their shapes are certainly nearer than `distance`. It is 0 or less if
-    /// there is none.
+    /// Returns the threshold such that shapes are certainly nearer than `distance` if their bodies are nearer than the
+    /// threshold. A threshold of 0 or less never applies.
     pub(crate) fn certain_nearness_threshold(self, distance: f64) -> f64 {
         if self.0 > 0.0 {
             (distance - self.0).next_down()

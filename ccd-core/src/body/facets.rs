@@ -1,4 +1,4 @@
-//! The facets of a piece.
+//! A view of a piece's facets: their corners, their origins, and the mesh's faces on them.
 
 use super::polytope::{Face, FacetOrigin};
 
@@ -7,7 +7,7 @@ use super::polytope::{Face, FacetOrigin};
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
     pub(crate) origins: &'a [FacetOrigin],
-    /// The end of each facet's corners in `corners`, plus `first_corner`.
+    /// The end of each facet's corners in `corners`; the first facet starts at `first_corner`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
     pub(crate) first_corner: u32,
@@ -15,7 +15,7 @@ pub struct Facets<'a> {
 }
 
 impl<'a> Facets<'a> {
-    /// An empty list of facets.
+    /// An empty list of facets, for a piece whose facets are unknown.
     pub const NONE: Facets<'static> = Facets {
         origins: &[],
         ends: &[],
@@ -34,13 +34,13 @@ impl<'a> Facets<'a> {
         self.ends.is_empty()
     }
 
-    /// Returns the corner indices of each facet.
+    /// Returns, for each facet, the indices of its corners among the piece's points.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &'a [u32]> + Clone + use<'a> {
         let facets = *self;
         (0..facets.ends.len()).map(move |k| facets.get(k))
     }
 
-    /// Returns the corner indices of facet `k`.
+    /// Returns the indices of the corners of facet `k` among the piece's points.
     pub(crate) fn get(&self, k: usize) -> &'a [u32] {
         let start = if k == 0 {
             self.first_corner
@@ -50,24 +50,24 @@ impl<'a> Facets<'a> {
         &self.corners[start as usize..self.ends[k] as usize]
     }
 
-    /// Returns for each facet which part of the mesh it came from.
+    /// Returns, for each facet, its origin in the mesh: a face, several faces, or none.
     pub fn origins(&self) -> &'a [FacetOrigin] {
         self.origins
     }
 }
 
-/// Returns the directed edges of a loop of corners.
+/// Returns the directed edges of a closed loop of corners, as pairs of the start and the end.
 pub(crate) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
     let next = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(next.copied())
 }
 
-/// Returns the triangles of a polygon, a fan about its first corner.
+/// Returns the triangles of a fan about the first corner of a polygon.
 pub(crate) fn fan_of<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + Clone {
     (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])
 }
 
-/// Returns the `k`-th range of a list that is stored by the ends of its ranges.
+/// Returns the `k`-th of consecutive index ranges, given the end of each range; the first range starts at 0.
 #[inline]
 pub(crate) fn range_from_ends(ends: &[u32], k: usize) -> std::ops::Range<usize> {
     let start = if k == 0 { 0 } else { ends[k - 1] };

@@ -1,4 +1,4 @@
-//! The outward side of a flat piece.
+//! Finds the side of a flat piece that faces out of the solid.
 
 use super::tree::ray::crossings;
 use super::{Body, Volume};
@@ -7,26 +7,26 @@ use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tuning::INTERIOR_PROBE_DEPTHS;
 use glam::DVec3;
 
-/// The side of a flat piece on which the solid bounded by the body's faces lies.
+/// The orientation of a flat piece relative to the solid that the body's faces bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Facing {
-    /// The solid is on one side only; the unit normal points out of it.
+    /// The solid is on one side of the piece only; the unit normal points out of the solid.
     OutwardNormal(DVec3),
-    /// The outward side does not exist or is unknown. Examples are a piece of a surface, a piece with a volume or
-    /// without an area, and two faces back to back.
+    /// No side of the piece faces out of a solid. Examples are a piece of a surface, a piece with a volume or without
+    /// an area, and two faces back to back.
     NoOutwardSide,
     /// The solid is on different sides at different points, or other faces are too near to decide.
     Unclear,
 }
 
-/// The cached results for a flat piece of a solid.
+/// The orientation of a flat piece and a point inside the solid near it, computed once per piece.
 struct CachedFacing {
     facing: Facing,
     inside_point: Option<DVec3>,
 }
 
 impl Body {
-    /// Returns on which side of a piece the solid is.
+    /// Returns on which side of a flat piece the solid is; computed at the first call and cached.
     ///
     /// # Guarantee
     /// [`Facing::Out`] and [`Facing::Neither`] of a solid's flat piece hold, exactly, at the four
@@ -59,7 +59,8 @@ impl Body {
         points.iter().sum::<DVec3>() / points.len() as f64
     }
 
-    /// Returns the cached results for a flat piece of a solid, and computes them at the first call.
+    /// Returns the cached orientation of a flat piece, computed at the first call; `None` unless it is a flat piece of
+    /// a solid.
     fn cached_facing(&self, piece: u32) -> Option<&CachedFacing> {
         let of = self.pieces().get(piece as usize);
         if self.volume() == Volume::Surface || !of.is_flat() {
@@ -101,7 +102,7 @@ impl Body {
         }
     }
 
-    /// Returns on which side of a face with this normal the surface has a nonzero winding number, near the point `at`.
+    /// Returns on which side of a face the solid is near the point `at`, by the winding numbers of both sides.
     fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
         // A mean is rounded in units of the coordinates.
         let slack = 4.0 * UNIT_ROUNDOFF_F64 * at.abs().element_sum();

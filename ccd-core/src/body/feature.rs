@@ -13,7 +13,7 @@ pub enum Feature {
     Edge(u32, u32),
     /// A face, by its number.
     Face(u32),
-    /// A piece as a whole: the point is inside it, or its facets are unknown.
+    /// A whole piece, by its index, if the point is inside the piece or its facets are unknown.
     Piece(u32),
 }
 

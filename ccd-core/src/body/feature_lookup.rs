@@ -10,7 +10,7 @@ use crate::math::vector::{normal, unit};
 use crate::tuning::{FACET_TOLERANCE, MAX_SCANNED_POINTS};
 use glam::DVec3;
 
-/// The mesh's feature at a point of a polytope.
+/// The vertex, edge or face of the mesh that contains a point of a polytope, if any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MeshFeature {
     Vertex(u32),
@@ -19,7 +19,7 @@ pub(crate) enum MeshFeature {
     NoFeature,
 }
 
-/// Finds the mesh's feature that contains a combination of corners.
+/// Finds the mesh's vertex, edge or face that contains a point, given as a combination of a piece's corners.
 ///
 /// Even if no facet of the mesh contains all of the corners, the point may be on the mesh: a
 /// virtual facet may be within the surface, and so may a chord of two coplanar faces.
@@ -60,7 +60,7 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshF
     }
 }
 
-/// Returns whether the piece has any faces of the mesh.
+/// Returns whether any face of the mesh is on the piece.
 fn is_on_mesh(piece: &Piece<'_>) -> bool {
     match FacetsByCorner::for_piece(piece) {
         Some(by_corner) => by_corner.is_on_mesh,
@@ -68,7 +68,7 @@ fn is_on_mesh(piece: &Piece<'_>) -> bool {
     }
 }
 
-/// For each corner of a piece, the facets that meet in it.
+/// A table of the facets that meet in each corner of a piece.
 struct FacetsByCorner {
     is_on_mesh: bool,
     /// The facets of each corner, in ascending order.
@@ -76,8 +76,8 @@ struct FacetsByCorner {
 }
 
 impl FacetsByCorner {
-    /// Returns the table of a piece of many facets, created once and stored. Returns `None` for a piece of few facets,
-    /// or one that belongs to no list.
+    /// Returns the table of a piece with many facets, which is created at the first call and cached. Returns `None` for
+    /// a piece with few facets, or a piece that belongs to no list.
     fn for_piece<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > MAX_SCANNED_POINTS;
         let kept = many.then(|| piece.cached(|piece| Box::new(FacetsByCorner::new(piece))))?;
@@ -94,12 +94,12 @@ impl FacetsByCorner {
     }
 }
 
-/// Builds the table of a piece in advance, so that no query waits for it.
+/// Builds the table of facets by corner for a piece in advance, so that no query waits for it.
 pub(crate) fn prepare(piece: &Piece<'_>) {
     FacetsByCorner::for_piece(piece);
 }
 
-/// Returns the face of the mesh that contains a point, up to rounding.
+/// Returns the number of the mesh's face on the piece that contains a point, up to rounding.
 pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     if !is_on_mesh(piece) {
         return None;
@@ -118,8 +118,7 @@ pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     (off <= reach).then_some(face)
 }
 
-/// Returns how far a point is off a triangle: the greater of its distance from the plane, and of how far it is beyond
-/// the edges.
+/// Returns the larger of a point's distance from a triangle's plane and its distances beyond the triangle's edges.
 fn distance_from_triangle([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;

@@ -23,9 +23,9 @@ pub struct Hierarchy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HierarchyNode {
-    /// A leaf with one piece, by its index.
+    /// A leaf, with the index of its piece.
     Leaf(u32),
-    /// An inner node with two children, by their indices.
+    /// An inner node, with the indices of its two children.
     Inner(u32, u32),
 }
 
@@ -59,7 +59,8 @@ impl Hierarchy {
         }
     }
 
-    /// Builds a hierarchy by recursive splits at the median of the pieces' centres, along the longest side.
+    /// Builds a hierarchy by recursive splits at the median of the pieces' centres, along the longest side of their
+    /// box.
     pub fn median_split(pieces: &Pieces) -> Self {
         let centres: Vec<DVec3> = pieces
             .iter()
@@ -101,7 +102,7 @@ impl Hierarchy {
 impl TryFrom<Vec<HierarchyNode>> for Hierarchy {
     type Error = InputError;
 
-    /// Creates a hierarchy from stored nodes; the number of leaves is the number of pieces.
+    /// Creates a hierarchy from stored nodes, over as many pieces as there are leaves.
     fn try_from(nodes: Vec<HierarchyNode>) -> Result<Self, InputError> {
         let leaf = |node: &&HierarchyNode| matches!(node, HierarchyNode::Leaf(_));
         let pieces = nodes.iter().filter(leaf).count();

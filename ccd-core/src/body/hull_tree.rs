@@ -1,4 +1,4 @@
-//! The convex hull tree: every node has the hull of the pieces below it `[FAST06 §3.3]`.
+//! The convex hull tree: every node has the convex hull of the pieces below it `[FAST06 §3.3]`.
 
 mod assemble;
 mod bottom_up;
@@ -47,15 +47,15 @@ use std::sync::Arc;
 )]
 pub struct HullTree {
     hierarchy: Hierarchy,
-    /// The hulls, which clones share even if their leaves number the pieces differently.
+    /// The hulls of all nodes, which clones of the tree share even if their leaves number the pieces differently.
     hulls: Arc<Hulls>,
 }
 
-/// The hulls of all nodes, in the hierarchy's order.
+/// The hulls of all nodes in the order of the hierarchy's nodes, with data on their facets.
 #[derive(Debug)]
 struct Hulls {
     pieces: Pieces,
-    /// The classes of the facets of all hulls, hull by hull.
+    /// The class of each facet, for the facets of all hulls one after the other.
     classes: Vec<FacetClass>,
     /// The end of each hull's facets in `classes`.
     class_ends: Vec<u32>,
@@ -63,23 +63,23 @@ struct Hulls {
     has_uniform_radius: Vec<bool>,
     /// Half the diagonal of each hull's bounding box, rounding included.
     half_diagonals: Vec<f64>,
-    /// The facets that meet in each point, for all points of all hulls, by their indices within the hull.
+    /// The facets that meet in each point of all hulls, as indices among the facets of the point's hull.
     facets_by_point: AdjacencyLists<u32>,
 }
 
 impl HullTree {
-    /// Returns the nodes, the root first; leaves have the indices of pieces.
+    /// Returns the tree's nodes, the root first; the leaves refer to the body's pieces.
     pub fn hierarchy(&self) -> &Hierarchy {
         &self.hierarchy
     }
 
-    /// Returns the hulls of all nodes, in the order of the nodes, in the form of pieces. Features of an inner hull have
-    /// their names in the mesh if they are part of it.
+    /// Returns the hulls of all nodes as pieces, in the order of the nodes. Features of an inner hull have their names
+    /// in the mesh if they are part of it.
     pub fn hulls(&self) -> &Pieces {
         &self.hulls.pieces
     }
 
-    /// Returns the classes of the facets of a node's hull, in the order of the facets.
+    /// Returns the class of each facet of a node's hull, in the order of the facets.
     ///
     /// # Panics
     /// When there is no such node.
@@ -87,8 +87,8 @@ impl HullTree {
         &self.hulls.classes[range_from_ends(&self.hulls.class_ends, node as usize)]
     }
 
-    /// Returns the class of the feature that contains a combination of a node's points: the best class among the facets
-    /// that meet there `[SWIFT01]`.
+    /// Returns the best facet class at a point of a node's hull, given as a combination of the hull's points
+    /// `[SWIFT01]`.
     ///
     /// # Guarantee
     /// Unless the class is [`FacetClass::Free`], the combination is on or in a piece below the
@@ -159,7 +159,7 @@ impl HullTree {
 }
 
 impl Hulls {
-    /// Returns the facets of a node's hull that meet in one of its points; empty if there is no such point.
+    /// Returns the facets that meet in a point of a node's hull; empty if the hull has no such point.
     fn facets_by_point(&self, node: usize, point: u32) -> &[u32] {
         let points = self.pieces.point_range(node);
         let at = points.start + point as usize;

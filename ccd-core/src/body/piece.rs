@@ -1,4 +1,4 @@
-//! Convex pieces, of which bodies consist and whose distances oracles compute.
+//! The convex pieces of bodies: the shapes between which oracles compute distances.
 
 use super::facets::{Facets, fan_of};
 use super::polytope::FacetOrigin;
@@ -20,15 +20,15 @@ pub struct Piece<'a> {
     pub points: &'a [DVec3],
     /// The radius of the ball by which the hull is grown, ≥ 0.
     pub radius: f64,
-    /// The facets of the hull, if known; empty for up to three points.
+    /// The facets of the hull, if known; empty if they are unknown, and for up to three points.
     pub facets: Facets<'a>,
     /// A search structure for extremal points, if one was prepared.
     pub(crate) support_map: Option<&'a Support>,
-    /// The entry in which backends store values with the piece.
+    /// The place where values that backends derive from the piece are cached; `None` for a piece outside of any list.
     pub(crate) side_table_entry: Option<SideTableEntry<'a>>,
 }
 
-/// The entry of a piece in a side table.
+/// The place of a piece's cached values: the side table of its list, and its index there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SideTableEntry<'a> {
     pub(crate) side_table: &'a SideTable,
@@ -37,7 +37,7 @@ pub(crate) struct SideTableEntry<'a> {
 }
 
 impl<'a> Piece<'a> {
-    /// Creates a piece without known facets, for example to try an oracle.
+    /// Creates a piece without radius and facets from points, for example to call an oracle directly.
     pub fn from_points(points: &'a [DVec3]) -> Self {
         Piece {
             points,
@@ -48,8 +48,9 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns a value that a backend derives from the piece. It is computed when first requested, and stored as long
-    /// as the list of the piece exists. Returns `None` for a piece that belongs to no list.
+    /// Returns the cached value of type `T` that `make` computes from the piece. The value is computed when first
+    /// requested, and stored as long as the list of the piece exists. Returns `None` for a piece that belongs to no
+    /// list.
     ///
     /// The value belongs to the piece as stored in the list, regardless of later changes of the public fields. The
     /// function `make` must not request the same type of the same piece: it would wait for itself.
@@ -75,8 +76,8 @@ impl<'a> Piece<'a> {
         Some(entry.get_or_init(|| make(self)))
     }
 
-    /// Adds a search structure for extremal points if the piece has many points. The structure is created once and
-    /// stored.
+    /// Returns the piece with a search structure for extremal points if it has many points. The structure is created
+    /// once and stored.
     #[inline]
     pub(crate) fn with_support_map(self, make: impl FnOnce(&Self) -> Support) -> Self {
         if self.points.len() <= MAX_SCANNED_POINTS || self.support_map.is_some() {
@@ -89,8 +90,8 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns the mesh's triangles on the piece, each with the number of its face. Polygons become fans about their
-    /// first corner.
+    /// Returns the mesh's triangles on the piece, each with the number of its face in the mesh. Polygons become fans
+    /// about their first corner.
     pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
         let facets = self.facets.origins.iter().zip(self.facets.iter());
         let fans = facets.flat_map(|(origin, corners)| {
@@ -130,8 +131,7 @@ impl<'a> Piece<'a> {
         self.points[self.extremal(direction) as usize]
     }
 
-    /// Returns the centre and radius of a ball around the points; `None` if there are few points, or no search
-    /// structure.
+    /// Returns the centre and radius of a ball around the points; `None` if no search structure stores one.
     #[inline]
     pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
         self.support_map.and_then(Support::bounding_ball)
@@ -155,7 +155,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns whether all points of the piece are in one plane, judged by the number of facets.
+    /// Returns whether all points of the piece are in one plane: it has up to three points, or exactly two facets.
     pub(crate) fn is_flat(&self) -> bool {
         self.points.len() <= 3 || self.facets.len() == 2
     }
@@ -177,7 +177,7 @@ impl Combination {
         len: 0,
     };
 
-    /// Creates the combination that is a single point.
+    /// Creates the combination of a single point with weight 1.
     pub fn point(index: u32) -> Self {
         let mut out = Self::EMPTY;
         out.push(index, 1.0);
@@ -192,8 +192,8 @@ impl Combination {
         out
     }
 
-    /// Adds a point with a weight. Weights that are not positive, or outside of [`WEIGHT_RANGE`], are dropped. Equal indices
-    /// are merged. Terms beyond four distinct indices are dropped.
+    /// Adds a point of the piece, by its index, with a weight. Weights that are not positive, or outside of
+    /// [`WEIGHT_RANGE`], are dropped. Equal indices are merged. Terms beyond four distinct indices are dropped.
     pub fn push(&mut self, index: u32, weight: f64) {
         // A NaN is in no range.
         if !WEIGHT_RANGE.contains(&weight) {

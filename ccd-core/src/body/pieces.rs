@@ -1,4 +1,4 @@
-//! The list of a body's convex pieces, stored contiguously.
+//! The convex pieces of a body, with their points and facets in contiguous lists.
 
 pub(crate) mod builder;
 #[cfg(feature = "serde")]
@@ -17,7 +17,7 @@ use crate::limits::MAX_COORDINATE;
 use builder::{PiecesBuilder, PolytopeParts};
 use glam::DVec3;
 
-/// The convex pieces of one body, with the numbers of the mesh from which they came.
+/// The convex pieces of one body, with the vertex and face numbers of the mesh that they were made from.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -28,17 +28,17 @@ pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
     shape: PieceShapes,
-    /// The values that backends store with the pieces.
+    /// The cached values that backends derive from the pieces.
     side_table: SideTable,
 }
 
-/// The largest number of points of all pieces together. Indices have 32 bits: a quarter of their range is for points,
-/// the rest leaves room for nodes.
+/// The largest number of points that all pieces of a body may have together. Indices have 32 bits: a quarter of their
+/// range is for points, the rest leaves room for nodes.
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
 enum PieceShapes {
-    /// Every piece is a triangle, and is one face of the mesh.
+    /// Every piece is one triangular face of the mesh, with radius 0.
     Triangles {
         face_ids: Vec<u32>,
     },
@@ -48,16 +48,16 @@ enum PieceShapes {
 /// The data that convex polytopes have and triangles lack.
 #[derive(Clone, Debug, Default)]
 struct Polytopes {
-    /// The end of each piece's points.
+    /// The end of each piece's points in the list of points.
     point_ends: Vec<u32>,
     radii: Vec<f64>,
     /// The end of each piece's facets in `corner_ends` and `origins`.
     facet_ends: Vec<u32>,
     origins: Vec<FacetOrigin>,
-    /// The end of each facet's corners in the list of corners.
+    /// The end of each facet's corners in `corners`.
     corner_ends: Vec<u32>,
     corners: Vec<u32>,
-    /// The end of each piece's mesh faces.
+    /// The end of each piece's mesh faces in `faces`.
     face_ends: Vec<u32>,
     faces: Vec<Face>,
 }
@@ -136,7 +136,7 @@ impl Pieces {
         Ok(self)
     }
 
-    /// Checks the facets and mesh faces of a piece.
+    /// Checks that a piece's facets have valid corners, and that its mesh faces have finite coordinates.
     fn check_surface(&self, piece: usize) -> Result<(), InputError> {
         let facets = self.facets(piece);
         let count = self.point_range(piece).len();
@@ -220,7 +220,7 @@ impl Pieces {
         }
     }
 
-    /// Returns the points of a range of pieces.
+    /// Returns the points of consecutive pieces, one piece after the other.
     pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
         let start = self.point_range(pieces.start).start;
         &self.points[start..self.point_range(pieces.end - 1).end]
@@ -258,9 +258,9 @@ impl Pieces {
         }
     }
 
-    /// Returns the mesh's feature at a point of a piece. This is the vertex, edge or face that has the combined
-    /// corners, or else the face that contains the point. It is [`Feature::Piece`] for points inside, and if all facets
-    /// of the piece are virtual.
+    /// Returns the mesh's vertex, edge or face at a point of a piece. It has the combined corners, or else it is the
+    /// face that contains the point. It is [`Feature::Piece`] for points inside, and if all facets of the piece are
+    /// virtual.
     pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
         match (&self.shape, point.support()) {

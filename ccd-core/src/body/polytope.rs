@@ -10,9 +10,9 @@ pub struct Polytope {
     pub points: Vec<DVec3>,
     /// The mesh's vertex number of each point. An empty list numbers them from 0.
     pub vertex_ids: Vec<u32>,
-    /// The hull's facets, if known: they tile the boundary of the hull. A flat polygon has two.
+    /// The facets of the hull, if known; together they cover its boundary. A flat polygon has two facets.
     pub facets: Vec<Facet>,
-    /// The mesh's faces that are on the hull's boundary and are not a facet by themselves.
+    /// The mesh's triangles on the hull's boundary that are only a part of a facet.
     pub faces: Vec<Face>,
     /// The radius of the ball by which the hull is grown, ≥ 0.
     pub radius: f64,
@@ -22,13 +22,13 @@ pub struct Polytope {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
-    /// Which part of the mesh the facet came from.
+    /// The face or faces of the mesh that the facet consists of, if any.
     pub origin: FacetOrigin,
     /// The corners as indices into the polytope's points, counterclockwise seen from outside.
     pub corners: Vec<u32>,
 }
 
-/// Which part of the mesh a polytope's facet came from.
+/// The relation of a polytope's facet to the mesh: one face, several faces, or no face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FacetOrigin {
@@ -36,7 +36,7 @@ pub enum FacetOrigin {
     Face(u32),
     /// The facet consists of several coplanar faces, listed in [`Polytope::faces`].
     Faces,
-    /// The facet closes the polytope, and is not part of the mesh, or only partly.
+    /// The facet closes the polytope; none of it, or only a part of it, is on the mesh.
     Virtual,
 }
 

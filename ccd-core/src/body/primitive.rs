@@ -7,7 +7,7 @@ use crate::error::{InputError, check_length};
 use glam::DVec3;
 
 impl Body {
-    /// Creates a solid sphere about the origin; exact, not a mesh.
+    /// Creates a solid ball about the origin, as one point with a rounding radius instead of a mesh.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a radius that is not from 0 to
@@ -36,7 +36,7 @@ impl Body {
         })
     }
 
-    /// Creates a box with its centre at the origin, given by half of each side.
+    /// Creates a solid box with its centre at the origin, given by half of each side's length.
     ///
     /// Corner `k` has a positive x, y, z if bit 0, 1, 2 of `k` is set. Faces 0 to 5 have the
     /// outward normals −x, +x, −y, +y, −z, +z.
@@ -77,7 +77,7 @@ impl Body {
         })
     }
 
-    /// Creates a solid body of one convex piece.
+    /// Creates a solid body of one convex piece, given as a polytope in the body's frame.
     ///
     /// # Errors
     /// The errors of [`Pieces::polytopes`].

@@ -53,7 +53,7 @@ pub struct Enclosure {
 }
 
 impl SolidOfRevolution {
-    /// Creates a cylinder, from `−half_height` to `half_height` along z.
+    /// Creates a cylinder about the z axis, from `−half_height` to `half_height`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
@@ -61,7 +61,7 @@ impl SolidOfRevolution {
         SolidOfRevolution::new(SolidKind::Cylinder, radius, half_height)
     }
 
-    /// Creates a cone along z. Its base is at `−half_height` along z, its apex at `half_height`.
+    /// Creates a cone about the z axis. Its base is at `−half_height` along z, its apex at `half_height`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
@@ -80,13 +80,13 @@ impl SolidOfRevolution {
         })
     }
 
-    /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] have: [`DEFAULT_EXCESS_SHARE`] of the radius.
+    /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] allow: [`DEFAULT_EXCESS_SHARE`] of the radius.
     pub fn usual_excess(&self) -> f64 {
         DEFAULT_EXCESS_SHARE * self.radius
     }
 
-    /// Returns the smallest excess that is accepted, which gives [`MAX_CIRCLE_CORNERS`] corners: a little less than 1.9e-8 of
-    /// the radius.
+    /// Returns the smallest excess that [`SolidOfRevolution::enclose`] accepts: a little less than 1.9e-8 of the
+    /// radius. It gives about [`MAX_CIRCLE_CORNERS`] corners.
     pub fn least_excess(&self) -> f64 {
         1.01 * self.radius * (1.0 / (PI / MAX_CIRCLE_CORNERS).cos() - 1.0)
     }
@@ -133,21 +133,21 @@ impl SolidOfRevolution {
 }
 
 impl Enclosure {
-    /// Returns the enclosing polytope. Its facets are its exact boundary, and plane: facets that are not triangles have
-    /// all corners at one height, or in pairs above each other.
+    /// Returns the polytope that encloses the shape, in the body's frame. Its facets are its exact boundary, and plane:
+    /// facets that are not triangles have all corners at one height, or in pairs above each other.
     ///
     /// Facet 0 is the base, and facet 1 the other end of a cylinder. The sides follow, counterclockwise about z.
     pub fn polytope(&self) -> &Polytope {
         &self.polytope
     }
 
-    /// Returns the largest distance of the polytope's points from the enclosed shape.
+    /// Returns an upper bound of the distance of any point of the polytope from the enclosed shape.
     pub fn excess(&self) -> f64 {
         self.excess
     }
 
-    /// Returns the polytope as a solid body with its [excess](Body::excess). A body that is not flat also has
-    /// [triangles](Body::with_surface).
+    /// Creates a solid body of the polytope, with the [excess](Body::excess) of the enclosure. A body that is not flat
+    /// also has [triangles](Body::with_surface).
     ///
     /// # Errors
     /// The errors of [`Body::polytope`].
@@ -182,7 +182,7 @@ impl Enclosure {
 /// circle.
 struct Ring {
     corners: Vec<[f64; 2]>,
-    /// The largest distance of the polygon's points from the enclosed disc.
+    /// An upper bound of the distance of any point of the polygon from the enclosed disc.
     excess: f64,
 }
 
@@ -211,7 +211,7 @@ impl Ring {
     }
 }
 
-/// Returns the number of corners with which a regular polygon exceeds the enclosed circle by at most `asked`.
+/// Returns a number of corners such that a regular polygon around a circle exceeds it by at most `asked`.
 fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
     // A corner is at `radius / cos(π/n)`. The share of the excess is clamped to a range in which angles lose no
     // digits. The rounding of the corners is subtracted.

@@ -1,14 +1,14 @@
-//! The connected parts of a body's surface.
+//! Finds the connected parts of a body, and their extreme points.
 
 use super::pieces::Pieces;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// The points of a connected part that are farthest along x, y, z, −x, −y, −z.
+/// The six extreme points of a connected part, along x, y, z, −x, −y and −z.
 pub(crate) type Shell = [DVec3; 6];
 
-/// Returns the extreme points of every connected part; pieces that share a point are connected.
+/// Returns the six extreme points of every connected part of a body; pieces that share a point are connected.
 ///
 /// # Complexity
 /// Approximately linear in the number of points.
@@ -45,7 +45,8 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     shells
 }
 
-/// Joins points with equal number and equal position. Returns the sets, and the first point of each.
+/// Joins points that have the same vertex number and the same position. Returns the sets, and the index of the first
+/// point of each set.
 ///
 /// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
 /// numbers: points count as equal by their coordinates.
@@ -79,7 +80,7 @@ fn join_points_by_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
     (DisjointSets(parts), distinct)
 }
 
-/// Joins points at the same position.
+/// Joins the sets of points at the same position, whatever their vertex numbers.
 fn join_coincident_points(points: &[DVec3], distinct: &[u32], parts: &mut DisjointSets) {
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
@@ -98,7 +99,7 @@ fn join_coincident_points(points: &[DVec3], distinct: &[u32], parts: &mut Disjoi
     }
 }
 
-/// A union-find forest: every element stores another one of its set, and a root stores itself.
+/// A union-find forest: every element stores the index of another element of its set, and a root stores its own.
 struct DisjointSets(Vec<u32>);
 
 impl DisjointSets {
@@ -111,7 +112,7 @@ impl DisjointSets {
         k
     }
 
-    /// Joins the sets of two elements, and returns whether they were different.
+    /// Joins the sets of two elements, and returns whether the sets were different before.
     fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;

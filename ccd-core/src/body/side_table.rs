@@ -1,11 +1,11 @@
-//! A table for values that backends store with each piece.
+//! A table of cached values of any type for each piece of a list.
 
 use std::any::Any;
 use std::fmt;
 use std::sync::OnceLock;
 
-/// A linked list of columns, one for each type of value. A column has an entry for each piece, computed when first
-/// requested.
+/// A table of cached values with a row per piece and a column per type of value, as a linked list of columns. A column
+/// has an entry for each piece, computed when first requested.
 ///
 /// The table lives as long as the pieces, and is shared by all threads that share them. A copy of the pieces starts
 /// with an empty table.
@@ -15,12 +15,12 @@ pub(crate) struct SideTable(OnceLock<Box<Column>>);
 struct Column {
     /// The column's entries: a `Vec<OnceLock<T>>` for some type `T`.
     entries: Box<dyn Any + Send + Sync>,
-    /// The columns for other types.
+    /// The rest of the linked list: the columns for other types of values.
     next: SideTable,
 }
 
 impl SideTable {
-    /// Returns the entry of the piece `index`, for values of type `T`; `len` is the number of pieces.
+    /// Returns the entry for the value of type `T` of the piece `index`; `len` is the number of pieces.
     #[inline]
     pub(crate) fn entry<T: Any + Send + Sync>(&self, len: usize, index: usize) -> &OnceLock<T> {
         let mut side_table = self;

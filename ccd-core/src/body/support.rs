@@ -28,17 +28,18 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Debug)]
 pub enum Support {
-    /// Evaluates the height of every point.
+    /// Scans all points: computes the height of every point along the direction.
     Scan(SupportScan),
-    /// Climbs along the edges of the hull.
+    /// Climbs along the edges of the hull to higher corners.
     Climb(Box<SupportTable>),
     /// Searches a tree over the points.
     Tree(Box<SupportTree>),
 }
 
 impl Support {
-    /// Builds the search structure for points. If there are more than [`MAX_SCANNED_POINTS`] of them, the facets must be
-    /// those of their hull. Without facets, every point is scanned.
+    /// Builds the search structure for the points of one piece: a scan of few points, climbing for many. If there are
+    /// more than [`MAX_SCANNED_POINTS`] of them, the facets must be those of their hull. Without facets, every point is
+    /// scanned.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
         let climbed = points.len() > MAX_SCANNED_POINTS;
         match climbed.then(|| SupportTable::new(points, facets)).flatten() {
@@ -47,7 +48,7 @@ impl Support {
         }
     }
 
-    /// Builds the search structure for points whose facets are unknown.
+    /// Builds a tree search for points whose facets are unknown.
     pub(crate) fn of_points(points: &[DVec3]) -> Self {
         Support::Tree(Box::new(SupportTree::new(points)))
     }
@@ -67,7 +68,7 @@ impl Support {
         }
     }
 
-    /// Like `Support::extremal`, for a direction along which `corner` may be known to be nearly extremal.
+    /// Like `Support::extremal`, but may start at `corner`, a point that is likely to be nearly extremal.
     #[inline]
     pub(crate) fn extremal_point_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {

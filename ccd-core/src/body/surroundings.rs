@@ -1,4 +1,4 @@
-//! The shape of a body's surface around one of its points.
+//! Describes a body's surface around one of its points by vectors to nearby corners.
 
 use super::Body;
 use super::facets::fan_of;
@@ -7,9 +7,9 @@ use super::tree::point_query::{is_farther_than, pieces_near};
 use glam::DVec3;
 
 impl Body {
-    /// Calls `add` with vectors from a surface point that describe the surface around it, in the body's frame. They
-    /// lead to the corners of all faces nearer than about `reach`, to the points of pieces without known faces, and
-    /// into the solid.
+    /// Calls `add` with vectors from a surface point to points of the body around it, in the body's frame. They lead to
+    /// the corners of all faces nearer than about `reach`, to the points of pieces without known faces, and into the
+    /// solid.
     ///
     /// # Complexity
     /// Linear in the number of faces of the pieces within that distance.
@@ -37,8 +37,8 @@ impl Body {
     }
 }
 
-/// Calls `look` with each face of a piece: the mesh's triangles, or else the facets' triangles, or else all points at
-/// once. If there are none, calls it with those of the piece's facets, or with all points of the piece.
+/// Calls `look` with the corners of each mesh triangle on a piece. If there are none, calls it with the triangles of
+/// the piece's facets, or with all points at once if no facets are known.
 fn for_each_face(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
     let mut is_on_mesh = false;
     for (_, triangle) in piece.mesh_triangles() {

@@ -2,7 +2,7 @@ use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::*;
 use glam::DVec3;
 
-/// Creates a box on a square, above a second piece with a square twice as large.
+/// Creates a body of two pieces: a box, and a square in the plane of the box's base that is twice as large.
 fn box_on_a_square() -> Body {
     let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let facet = |origin, corners: &[u32]| Facet {
@@ -59,7 +59,7 @@ fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
     assert_eq!(name(&[0, 7]), Feature::Piece(boxed as u32));
 }
 
-/// Creates a tetrahedron as one piece, and as triangles.
+/// Creates a tetrahedron twice: as a body of one piece, and as a body of four triangles.
 fn tetrahedron() -> [Body; 2] {
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];

@@ -4,13 +4,14 @@ use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// The least number of list elements or subtree nodes for which a second thread is started.
+/// The smallest number of list elements or subtree nodes for which a second thread is started.
 pub(super) const MIN_PARALLEL_WORK: usize = 1024;
 
-/// The number of consecutive elements that one thread takes at a time.
+/// The number of consecutive list elements that one thread takes at a time.
 const CHUNK_LENGTH: usize = 64;
 
-/// Calls a function with every element and its index, in parallel. Each thread has its own workspace.
+/// Calls a function with every element of a list and its index, on several threads if the list is long. Each thread has
+/// its own workspace.
 pub(super) fn parallel_for_each<T: Send, W: Clone + Send>(
     list: &mut [T],
     workspace: &W,
@@ -57,7 +58,8 @@ fn parallel_for_each_on<T: Send, W: Clone + Send>(
     });
 }
 
-/// Calls two functions, in parallel if there is enough work and a free thread.
+/// Calls two functions and returns both results; they run in parallel if `size` is large enough and a thread can be
+/// started.
 pub(super) fn join<A: Send, B>(
     size: usize,
     in_other_thread: impl FnOnce() -> A + Send,

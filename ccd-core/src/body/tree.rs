@@ -35,11 +35,11 @@ pub(crate) struct Tree {
     /// The slabs around flat nodes, sorted by node.
     slabs: Vec<(NodeId, Slab)>,
     whole: BodyBox,
-    /// The largest distance of any point from the body's origin, rounding radii included.
+    /// The largest distance of a piece's points from the body's origin, plus the rounding radius.
     span: f64,
 }
 
-/// The id of a node; ids after the last node are triangles.
+/// The id of a node or a triangle: ids below the number of nodes are nodes, higher ids are triangles.
 pub(crate) type NodeId = u32;
 
 /// The node or triangle that a [`NodeId`] refers to.
@@ -59,12 +59,12 @@ impl Tree {
         }
     }
 
-    /// Returns the number of nodes.
+    /// Returns the number of nodes, triangles not included.
     pub(crate) fn nodes(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Returns the piece of a node that contains a single piece; `None` for other nodes.
+    /// Returns the index of the piece if the id refers to a single piece or triangle; `None` for other nodes.
     #[inline]
     pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
         match self.get(id) {
@@ -86,7 +86,7 @@ impl Tree {
         Some(&self.slabs[place].1)
     }
 
-    /// Returns a group of triangles in the layout for vector instructions.
+    /// Creates the group of triangles with this index, in the layout for vector instructions.
     #[inline(always)]
     pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
         let row = &self.triangles[index as usize];
@@ -95,33 +95,33 @@ impl Tree {
         TriangleGroup::new(row, triangles.as_chunks().0)
     }
 
-    /// Returns the common fields of a group of triangles.
+    /// Returns the origin, the reach and the children's ids of a group of triangles.
     pub(crate) fn triangle_group_header(&self, index: u32) -> &GroupHeader {
         &self.triangles[index as usize].members
     }
 
-    /// Returns the largest distance of any point from the body's origin.
+    /// Returns the largest distance of any point of the body from its origin, rounding radii included.
     pub(crate) fn span(&self) -> f64 {
         self.span
     }
 
-    /// Returns the centre and radius of a ball around all pieces.
+    /// Returns the centre and radius of a ball around all pieces, in the body's frame.
     pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
         (self.nodes[0].centre, f64::from(self.nodes[0].radius))
     }
 
-    /// Returns an upper bound of the distances of all points from a point in the body's frame, by that ball.
+    /// Returns an upper bound of the distances of all points of the body from a point, by the ball around all pieces.
     pub(crate) fn max_distance_from(&self, point: DVec3) -> f64 {
         let (centre, radius) = self.bounding_ball();
         centre.distance(point) * (1.0 + f64::EPSILON) + radius
     }
 
-    /// Returns the radius of the ball around the root.
+    /// Returns the radius of the ball around all pieces.
     pub(crate) fn radius(&self) -> f32 {
         self.nodes[0].radius
     }
 
-    /// Returns the bounding box of the whole body.
+    /// Returns the bounding box of the whole body, which is tighter than the root's box in f32.
     pub(crate) fn body_box(&self) -> &BodyBox {
         &self.whole
     }
@@ -131,7 +131,7 @@ impl Tree {
         self.nodes[0].half
     }
 
-    /// Returns whether a point is in the root's box, or near it.
+    /// Returns whether a point may be in the body: it is in the root's box up to rounding.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
         self.nodes[0].is_near(point, 0.0)
     }

@@ -1,12 +1,12 @@
-//! Trees of boxes over the faces of pieces, to find the near faces of two pieces.
+//! Trees of axis-aligned boxes over the faces of pieces, to find the faces of two pieces that are near each other.
 
 use super::skin::NearSurface;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// The box trees over the faces of one body's pieces. Each tree is built when its piece is first requested: a piece of
-/// many faces may be near many others, and is sorted only once.
+/// The box trees over the faces of one body's pieces, one tree per piece. Each tree is built when its piece is first
+/// requested: a piece of many faces may be near many others, and is sorted only once.
 #[derive(Default)]
 pub(super) struct FaceTrees {
     nodes: Vec<FaceBox>,
@@ -28,7 +28,7 @@ enum FaceBoxContent {
     Inner(u32),
 }
 
-/// The pairs of near faces that a search finds, and its remaining budget.
+/// The pairs of near faces found so far, with the remaining budget of the search.
 pub(super) struct NearFacePairs {
     pub(super) pairs: Vec<[u32; 2]>,
     pub(super) budget: u64,
@@ -36,8 +36,8 @@ pub(super) struct NearFacePairs {
 }
 
 impl NearFacePairs {
-    /// Adds the pairs of faces below two roots whose boxes are nearer than `reach`. Returns `None` if the budget is
-    /// spent.
+    /// Adds the pairs of a face of A and a face of B below two roots whose boxes are no farther apart than `reach`.
+    /// Returns `None` if the budget is spent.
     pub(super) fn add_pairs_below(
         &mut self,
         trees: &[FaceTrees; 2],
@@ -72,14 +72,14 @@ impl NearFacePairs {
 }
 
 impl FaceTrees {
-    /// Builds a single tree over all faces of a surface.
+    /// Builds a single box tree over all faces of a surface, for searches by a point.
     pub(super) fn over_all_faces(skin: &NearSurface<'_>) -> Self {
         let mut trees = FaceTrees::default();
         trees.add_faces(skin, skin.all_faces());
         trees
     }
 
-    /// Returns the faces of the first tree whose boxes are within `reach` of a point.
+    /// Returns the faces whose boxes are within `reach` of a point; only the first tree is searched.
     pub(super) fn faces_near(&self, at: DVec3, reach: f64) -> Vec<u32> {
         let point = FaceBox {
             low: at,
@@ -111,7 +111,7 @@ impl FaceTrees {
         Some(root)
     }
 
-    /// Adds a tree over some faces, and returns its root; `None` if there are none.
+    /// Adds a tree over a range of faces, and returns its root; `None` if the range is empty.
     fn add_faces(&mut self, skin: &NearSurface<'_>, faces: Range<u32>) -> Option<u32> {
         let mut boxes: Vec<FaceBox> = faces.map(|face| FaceBox::new(skin, face)).collect();
         self.add(&mut boxes)
@@ -121,8 +121,8 @@ impl FaceTrees {
         &self.nodes[at as usize]
     }
 
-    /// Adds a node for some faces, and recursively the nodes below it. The depth is the logarithm of the number of
-    /// faces.
+    /// Adds the subtree over some faces, and returns its root; `None` without faces. The depth is the logarithm of the
+    /// number of faces.
     fn add(&mut self, faces: &mut [FaceBox]) -> Option<u32> {
         let around = faces.iter().copied().reduce(FaceBox::union)?;
         let at = self.nodes.len();
@@ -146,7 +146,7 @@ impl FaceBox {
         }
     }
 
-    /// Returns the union of two boxes, with the children of the first.
+    /// Returns the smallest box around two boxes, with the content of the first box.
     fn union(self, other: FaceBox) -> FaceBox {
         FaceBox {
             low: self.low.min(other.low),
@@ -155,7 +155,7 @@ impl FaceBox {
         }
     }
 
-    /// Returns whether two boxes are certainly farther apart than `reach` along a coordinate.
+    /// Returns whether two boxes are farther apart than `reach` along one of the coordinate axes.
     fn is_farther_apart(&self, other: &FaceBox, reach: f64) -> bool {
         let gap = (other.low - self.high).max(self.low - other.high);
         gap.max_element() > reach
@@ -166,7 +166,7 @@ impl FaceBox {
     }
 }
 
-/// Splits two or more faces at the median, along the longest side of their box.
+/// Splits two or more faces at the median of their middles, along the longest side of the box around them.
 fn split_at_median(faces: &mut [FaceBox], size: DVec3) -> (&mut [FaceBox], &mut [FaceBox]) {
     let (axis, half) = (size.max_position(), faces.len() / 2);
     let middle = |face: &FaceBox| face.low[axis] + face.high[axis];

@@ -1,13 +1,13 @@
-//! Nearest points of two faces that may become a pair of features.
+//! A candidate for a pair of features in contact: the nearest points of two faces.
 
 use glam::DVec3;
 
-/// The nearest points of two faces, in A's frame, and the faces.
+/// The nearest points of a face of A and a face of B, in A's frame, with the indices of both faces.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) points: [DVec3; 2],
     pub(super) faces: [u32; 2],
-    /// The sum of both faces' rounding radii. They may differ for faces that share an edge or a corner.
+    /// The sum of both faces' rounding radii. The radii of faces that share an edge or a corner may differ.
     pub(super) radii: f64,
 }
 

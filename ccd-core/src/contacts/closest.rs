@@ -1,9 +1,9 @@
-//! Nearest points in closed form, for a triangle and a point, and for two edges `[ERICSON05 §5.1]`.
+//! Computes the nearest points of a triangle and a point, and of two edges, in closed form `[ERICSON05 §5.1]`.
 
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// The inside, an edge or a corner of a triangle.
+/// The part of a triangle that contains a point: its interior, an edge or a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TrianglePart {
     Corner(usize),
@@ -12,8 +12,8 @@ pub(super) enum TrianglePart {
     Interior,
 }
 
-/// Returns the nearest point of a triangle, and the smallest part of the triangle that is equally near up to
-/// `rounding`. The triangle may be a segment or a point.
+/// Returns the point of a triangle that is nearest to `from`, and the smallest part of the triangle that is as near, up
+/// to `rounding`. The triangle may be a segment or a point.
 ///
 /// Even if a weight suffers cancellation, the point is in the triangle, so that its distance is
 /// never too small.
@@ -56,8 +56,8 @@ pub(super) fn nearest_point_on_triangle(
     best
 }
 
-/// Returns the nearest points of two edges if both are inside the edges, and nearer than the ends by more than
-/// `rounding`. Edges that are parallel, or meet at an end, do not cross.
+/// Returns the nearest points of two edges if both points are interior to their edges. They must be nearer than any end
+/// is to the other edge, by more than `rounding`. Edges that are parallel, or meet at an end, do not cross.
 pub(super) fn nearest_points_on_crossing_edges(
     e: [DVec3; 2],
     f: [DVec3; 2],

@@ -1,4 +1,4 @@
-//! Translates answers about the surfaces of convex bodies to the pieces that these surfaces bound.
+//! Translates answers about the triangulated surfaces of convex bodies to the bodies that the caller gave.
 
 use super::meeting::common_normal;
 use crate::answer::{Contact, Outcome, Separation};
@@ -12,8 +12,8 @@ use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
 use crate::rounding::{RESTING_DECREASE, is_direction_uncertain};
 
-/// Translates an outcome to the bodies that the caller gave. The normal, the nearest points and the bounds of a contact
-/// are those of the pieces that it names.
+/// Translates the contacts of an outcome from triangulated surfaces to the bodies that the caller gave. The normal, the
+/// nearest points and the bounds of a contact are those of the pieces that it names.
 ///
 /// Here `within` returns the distance at which a contact was to be found.
 pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
@@ -29,7 +29,7 @@ pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
     })
 }
 
-/// Like [`outcome_for_given_bodies`], for a contact at a time.
+/// Translates a contact at a time to the bodies that the caller gave, as [`outcome_for_given_bodies`] does.
 pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -48,8 +48,8 @@ pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
     }
 }
 
-/// Replaces a contact's normal by a common normal of both surfaces if it is mostly rounding. Touching pieces may have
-/// normals that the rest of the surfaces does not have.
+/// Replaces a contact's normal by a common normal of both surfaces if the normal is mostly rounding error. A normal of
+/// two touching pieces need not be a normal of the surfaces around them.
 fn with_common_normal(
     problem: &Problem<'_>,
     meter: &mut Meter,

@@ -1,4 +1,4 @@
-//! Collects the pairs of features in contact, and chooses those to report.
+//! Collects all pairs of features in contact, and chooses the pairs to report.
 
 use super::candidate::Candidate;
 use super::closest::{TrianglePart, nearest_point_on_triangle, nearest_points_on_crossing_edges};
@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::cell::LazyCell;
 use std::collections::{HashMap, HashSet};
 
-/// All pairs of features found in contact.
+/// The pairs of features in contact that are found so far, before pairs that need no report are removed.
 pub(super) struct ContactManifold<'a> {
     problem: &'a Problem<'a>,
     near_surfaces: [&'a NearSurface<'a>; 2],
@@ -33,7 +33,7 @@ impl<'a> ContactManifold<'a> {
         self.found.len()
     }
 
-    /// Adds the contacts between a face of A and a face of B.
+    /// Adds the contacts between the corners, edges and interiors of a face of A and a face of B.
     pub(super) fn add_face_contacts(&mut self, faces: [u32; 2]) {
         let [a, b] = self.near_surfaces;
         let rounding = self.problem.rounding;
@@ -57,7 +57,8 @@ impl<'a> ContactManifold<'a> {
         }
     }
 
-    /// Adds a pair if it is within reach. If it is known already, the nearer place of contact is kept.
+    /// Adds a pair of features if it is within margin and tolerance, up to rounding. If the pair is known already, the
+    /// nearer points are kept.
     fn add_pair(&mut self, spots: [SurfacePart; 2], points: [DVec3; 2], faces: [u32; 2]) {
         let radius = |k: usize| self.near_surfaces[k].face(faces[k]).radius;
         let Problem {
@@ -112,9 +113,9 @@ impl<'a> ContactManifold<'a> {
         pairs
     }
 
-    /// Returns whether the contact exists only because a flat surface is cut into triangles. Its point is on an edge or
-    /// corner within a plane, and another triangle around it comes nearer elsewhere. That nearer place makes a pair of
-    /// its own.
+    /// Returns whether a contact exists only because a flat part of a surface is cut into triangles. Its point is on an
+    /// edge or corner within a plane, and another triangle of that plane comes nearer elsewhere. That nearer point
+    /// makes a pair of its own.
     fn is_due_to_cut(&self, spots: [SurfacePart; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
@@ -126,8 +127,8 @@ impl<'a> ContactManifold<'a> {
         })
     }
 
-    /// Returns the pairs that follow from others, and need no report. Such a pair is a corner and a boundary part of a
-    /// face or edge, if the corner's projection inside that face or edge is equally near.
+    /// Returns the pairs that need no report because another pair in contact implies them. Such a pair is a corner and
+    /// a boundary part of a face or edge, if the corner's projection inside that face or edge is equally near.
     fn implied_pairs(&self) -> HashSet<[SurfacePart; 2]> {
         let [a, b] = self.near_surfaces;
         let mut covered = HashSet::new();
@@ -143,7 +144,7 @@ impl<'a> ContactManifold<'a> {
     }
 }
 
-/// Converts a part of a face's triangle to the corner, edge or face of the surface.
+/// Converts a corner, edge or interior of a face's triangle to the corner, edge or face of the whole surface.
 fn surface_part(skin: &NearSurface<'_>, face: u32, part: TrianglePart) -> SurfacePart {
     let corners = skin.face(face).corners;
     match part {
@@ -164,7 +165,7 @@ fn keep_nearest(
     }
 }
 
-/// Returns the pairs sorted, so that their order does not depend on that of the map.
+/// Returns the pairs sorted by their features, so that their order does not depend on the hash map.
 fn sorted_pairs(
     pairs: &HashMap<[SurfacePart; 2], Candidate>,
 ) -> Vec<([SurfacePart; 2], Candidate)> {

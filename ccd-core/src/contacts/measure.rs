@@ -1,4 +1,4 @@
-//! Bounds the distance of two features, checked like every separation.
+//! Bounds the distance of two features from below by a gap along an axis, and from above by two points.
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
@@ -12,12 +12,12 @@ use crate::problem::Problem;
 use crate::rounding::is_direction_uncertain;
 use glam::DVec3;
 
-/// A part of A's surface and one of B's.
+/// A pair of surface parts: a corner, edge or face of A, and one of B.
 pub(super) type SurfaceParts = [SurfacePart; 2];
 
-/// Bounds the distance of two features with known nearest points, in the world's coordinates. `a_to_world` is A's
-/// frame, relative to the problem's origin. If the points are too near for a direction, `common_normals` returns those
-/// of both surfaces at two points.
+/// Creates the reported pair of two features from their nearest points, with bounds of the distance, in world
+/// coordinates. `a_to_world` is A's frame, relative to the problem's origin. If the points are too near each other to
+/// give a direction, a normal from `common_normals` is used.
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper` for any points: the gap of the features' corners along any axis
@@ -72,7 +72,7 @@ pub(super) fn measure(
     }
 }
 
-/// Returns the gap `min_B n·y − max_A n·x` of two features along `n`.
+/// Returns the gap `min_B n·y − max_A n·x` of two features along `n`; negative if their projections overlap.
 fn support_gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     let from = a[0];
     let highest = a
@@ -86,8 +86,8 @@ fn support_gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     lowest - highest
 }
 
-/// Returns candidate normals: those of faces, and that of two crossing edges. The normal of a face is exact to the last
-/// digits, even if the vector to its foot is mostly rounding.
+/// Returns candidates for the contact normal: the normals of both features, and the cross product of their edges. The
+/// normal of a face is exact to the last digits, even if the vector between the nearest points is mostly rounding.
 fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     let along = |of: &[DVec3; 3]| of[1] - of[0];
     [
@@ -97,8 +97,8 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     ]
 }
 
-/// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without an
-/// outside it leads from the middle of one piece to the middle of the other.
+/// Returns an approximate direction from A to B for features that touch: out of A's surface and into B's surface. For
+/// surfaces without an outside it leads from the middle of one piece to the middle of the other.
 fn outward_direction(
     skins: [&NearSurface<'_>; 2],
     spots: &[SurfacePart; 2],

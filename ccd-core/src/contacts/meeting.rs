@@ -1,13 +1,13 @@
-//! The surfaces of two bodies around the nearest points of two pieces.
+//! Finds a common normal of two bodies' surfaces around a contact.
 
 use crate::engine::meter::Meter;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT};
 use glam::DVec3;
 
-/// Returns the common normal of both surfaces around two points that is nearest to a direction, if the vector between the
-/// points is along it up to rounding. The points, of A and of B without their radii, and the directions are in A's
-/// frame.
+/// Returns the common normal of both surfaces at a contact that is nearest to the direction `towards`. Returns `None`
+/// unless the vector between both points is along such a normal up to rounding. The points, of A and of B without their
+/// radii, and the directions are in A's frame.
 pub(super) fn common_normal(
     snapshot: &Snapshot<'_>,
     points: [DVec3; 2],

@@ -1,4 +1,4 @@
-//! Finds near pieces of two bodies, and their near faces, by trees.
+//! Finds the pieces of two bodies that are near each other, and their near faces, with bounding volume trees.
 
 use super::boxes::{FaceTrees, NearFacePairs};
 use super::skin::NearSurface;
@@ -33,7 +33,7 @@ pub(super) fn near_face_pairs(
     Some(near.pairs)
 }
 
-/// Returns the pairs of pieces that may be nearer than `reach`, judged by their nodes on all levels of the trees.
+/// Returns the pairs of pieces that may be nearer than `reach`; `None` if the search exceeds the budget.
 fn near_piece_pairs(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);
@@ -64,7 +64,7 @@ fn near_piece_pairs(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option
     Some(near)
 }
 
-/// Returns the children of a node.
+/// Returns the ids of a node's children; empty for a triangle or a node with a single piece.
 fn children_of(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     let members = match tree.get(at) {
         NodeOrTriangle::Triangle(_) => return 0..0,
@@ -77,17 +77,17 @@ fn children_of(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     members.first..members.first + members.count
 }
 
-/// The bounding volume of a node, in A's frame.
+/// The bounding volume of a node or triangle, in A's frame: a ball, with a box or the triangle itself.
 struct BoundingVolume {
     centre: DVec3,
     radius: f64,
-    /// The unit vectors along which the node is likely to be thin.
+    /// The candidates for a separating axis: the axes of the box, or the normal of the triangle.
     axes: [DVec3; 3],
     shape: Shape,
 }
 
 enum Shape {
-    /// A box, by half its extent along each axis.
+    /// A box, given by half its extent along each of `axes`.
     Box([f64; 3]),
     Triangle([DVec3; 3]),
 }
@@ -121,7 +121,7 @@ impl BoundingVolume {
         }
     }
 
-    /// Returns the interval of the node's projection on a direction.
+    /// Returns the interval of the volume's projection on a direction.
     fn projection_on(&self, n: DVec3) -> [f64; 2] {
         match &self.shape {
             Shape::Box(half) => {
@@ -137,8 +137,8 @@ impl BoundingVolume {
     }
 }
 
-/// Returns whether two nodes are certainly farther apart than `reach`. It tries their balls, the axes of either, and
-/// the vector between them. Written so that NaN counts as near.
+/// Returns whether two nodes are certainly farther apart than `reach`. It tries their balls, the axes of both nodes,
+/// and the vector between their centres. Written so that NaN counts as near.
 fn certainly_apart([a, b]: &[BoundingVolume; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);

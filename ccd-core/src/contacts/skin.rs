@@ -1,4 +1,4 @@
-//! The surface of one body near the other, as triangles with mesh numbers.
+//! The part of a body's surface near the other body, as triangles that keep the mesh's numbers.
 
 mod unpack;
 
@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// The needed part of a body's surface as triangles, in A's frame.
+/// The triangles of a body's surface that a search for contacts needs, in A's frame.
 pub(super) struct NearSurface<'a> {
     body: &'a Body,
     body_to_a: Frame,
@@ -19,13 +19,14 @@ pub(super) struct NearSurface<'a> {
     faces: Vec<Face>,
     /// The index of the corner with a given position and mesh number.
     corner_index: HashMap<(PointBits, Option<u32>), u32>,
-    /// The edges between two coplanar faces, with these faces. Points on such an edge belong to the first of the faces.
+    /// The edges between two coplanar faces, each mapped to these two faces. Points on such an edge belong to the first
+    /// of the faces.
     coplanar_edges: HashMap<[u32; 2], [u32; 2]>,
-    /// For each corner, whether it is inside a plane and has no mesh number.
+    /// For each corner, whether it has no mesh number and all edges at it are between coplanar faces.
     is_hidden: Vec<bool>,
     /// The faces around each hidden corner.
     faces_around: HashMap<u32, Vec<u32>>,
-    /// The first triangle with each face number.
+    /// The first triangle of each face of the mesh; a face may have several triangles.
     first_triangle_of: HashMap<Feature, u32>,
     /// The sum of the normals of the faces around each corner.
     corner_normals: Vec<DVec3>,
@@ -135,7 +136,7 @@ impl<'a> NearSurface<'a> {
         self.corners[corner as usize].at
     }
 
-    /// Returns three points, possibly equal, whose hull is a corner, edge or face.
+    /// Returns three points, possibly equal, whose convex hull is the given corner, edge or face.
     pub(super) fn points(&self, spot: SurfacePart, face: u32) -> [DVec3; 3] {
         match spot {
             SurfacePart::Corner(corner) => [self.at(corner); 3],
@@ -222,8 +223,8 @@ impl<'a> NearSurface<'a> {
         faces.unwrap_or_default()
     }
 
-    /// Returns the corner, edge or face to report instead of `spot`, and a face with it. Edges and corners inside a
-    /// flat part are replaced by a face. Triangles with the same face number are one face.
+    /// Returns the corner, edge or face that a contact reports for `spot`, and a face that contains `spot`. Edges and
+    /// corners inside a flat part are replaced by a face. Triangles with the same face number are one face.
     pub(super) fn reported_part(&self, spot: SurfacePart, face: u32) -> (SurfacePart, u32) {
         let face = match spot {
             SurfacePart::Corner(corner) if self.is_hidden[corner as usize] => face,
@@ -238,8 +239,8 @@ impl<'a> NearSurface<'a> {
         (SurfacePart::Face(first.copied().unwrap_or(face)), face)
     }
 
-    /// Returns the mesh's feature of a corner, edge or face. If it has no number, the feature is that of the face
-    /// `face`, or the piece.
+    /// Returns the vertex, edge or face of the mesh for a part of the surface. If the part has no number, the feature
+    /// is that of the face `face`, or the piece.
     pub(super) fn feature_of(&self, spot: SurfacePart, face: u32) -> Feature {
         let id = |corner: u32| self.mesh_number(corner);
         let own = match spot {
@@ -250,7 +251,7 @@ impl<'a> NearSurface<'a> {
         own.unwrap_or(self.face(face).name)
     }
 
-    /// Returns the corners of a face, each once, except the hidden ones.
+    /// Returns the distinct corners of a face that are not hidden.
     pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
         let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
@@ -336,14 +337,15 @@ struct EdgeFaces {
     count: usize,
 }
 
-/// Returns the edges of a triangle, the smaller end first, each once. A segment has one edge, a point none.
+/// Returns the distinct edges of a triangle, each with its smaller corner index first. A segment has one edge, a point
+/// none.
 pub(super) fn triangle_edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
     let ends = move |k: usize| triangle_edge(corners, k);
     let proper = move |&k: &usize| ends(k)[0] != ends(k)[1] && !(0..k).any(|j| ends(j) == ends(k));
     (0..3).filter(proper).map(ends)
 }
 
-/// Returns the edge of a triangle from one of its corners to the next.
+/// Returns the edge from corner `k` of a triangle to the next corner, with the smaller corner index first.
 pub(super) fn triangle_edge(corners: [u32; 3], k: usize) -> [u32; 2] {
     let (v, w) = (corners[k], corners[(k + 1) % 3]);
     [v.min(w), v.max(w)]

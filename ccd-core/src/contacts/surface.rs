@@ -1,4 +1,4 @@
-//! Finds the shape of a body's surface around its points, by a tree over its triangles.
+//! Finds the faces of a body's surface around a point, and the normals that two surfaces have in common.
 
 use super::boxes::FaceTrees;
 use super::closest::nearest_point_on_triangle;
@@ -7,7 +7,7 @@ use crate::distance::common_normals::CommonNormals;
 use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT};
 use glam::DVec3;
 
-/// The needed part of a body's surface, with a tree to find the triangles around a point.
+/// The triangles of a body's surface, with a tree that finds the triangles around a point.
 pub(super) struct Surface<'a> {
     near_surface: &'a NearSurface<'a>,
     tree: FaceTrees,
@@ -21,7 +21,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Returns the common normals of two surfaces at a point of each, in A's frame.
+    /// Returns the common normals of two surfaces, each at its own point, in A's frame.
     pub(super) fn common_normals(
         surfaces: &[Surface<'_>; 2],
         points: [DVec3; 2],
@@ -36,8 +36,8 @@ impl<'a> Surface<'a> {
         normals
     }
 
-    /// Calls `add` with vectors that describe the surface around a point: to the corners of the faces there, and into
-    /// the solid.
+    /// Calls `add` with the vectors from a point to the corners of the faces around it, and to points of the solid
+    /// below these faces.
     fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for face in self.tree.faces_near(at, reach) {
             let (_, nearest) = nearest_point_on_triangle(at, self.near_surface.triangle(face), 0.0);

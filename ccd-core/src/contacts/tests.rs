@@ -60,7 +60,7 @@ fn count_pair_kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     counts
 }
 
-/// Creates a box twice: as 12 triangles that share 8 vertices, and as one piece.
+/// Creates a box as two bodies: one of 12 triangles that share 8 vertices, and one of a single piece.
 fn cuboids(half: DVec3) -> [Body; 2] {
     let solid = Body::cuboid(half).unwrap();
     [Mesh::cuboid(half).body(Volume::Solid), solid]
@@ -154,7 +154,7 @@ fn flush_squares_cross_along_their_outlines() {
     check_bounds(&pairs, 0.0, -DVec3::Z);
 }
 
-/// Tests that equal faces on each other report only their corners, not the pairs that follow from these.
+/// Tests that two equal squares on each other report only the pairs of their corners, not those of the edges and faces.
 #[test]
 fn equal_faces_meet_in_their_corners() {
     for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
@@ -202,7 +202,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     check_bounds(&pairs, 5e-4, -DVec3::X);
 }
 
-/// Tests features without mesh numbers: hulls of unknown facets have only corners.
+/// Tests that a corner without a mesh number is named by its piece, or by its point if the piece has no facets.
 #[test]
 fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
@@ -229,7 +229,7 @@ fn features_without_a_number_are_named_by_their_piece() {
     }
 }
 
-/// Tests that bodies at the distance of the margin are in contact.
+/// Tests that contacts are reported up to the margin plus the tolerance, and not beyond.
 #[test]
 fn a_margin_is_reached_across() {
     let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Volume::Solid);
@@ -245,8 +245,8 @@ fn a_margin_is_reached_across() {
     }
 }
 
-/// Compares the contacts of random triangle soups with a brute-force search. Positions are random, so no distance is
-/// close to the tolerance.
+/// Compares the contacts of random triangle soups with those of a brute-force search. Positions are random, so no
+/// distance is close to the tolerance.
 #[test]
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
@@ -273,7 +273,8 @@ fn no_pair_of_random_soups_is_missed() {
     assert!(found.iter().all(|&count| count > 120), "{found:?}");
 }
 
-/// Tests closed meshes that share vertices: faces on faces, edges on faces, crossing edges, corners on corners.
+/// Compares the contacts of a box that nearly rests on a terrain with those of a brute-force search. Faces, edges and
+/// corners of the box lie on the terrain.
 #[test]
 fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     let rng = &mut rng(72);
@@ -308,7 +309,8 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     assert!(found[0] > 400 && found[1] > 400, "{found:?}");
 }
 
-/// Compares the pairs with a brute-force search, by features and distances, in both orders of the bodies.
+/// Compares the contacts of two meshes with a brute-force search, by features and distances, and counts them in
+/// `found`.
 fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
     let config = Settings {
@@ -373,7 +375,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     assert_eq!(pairs, problem.contacts_at(0.0).unwrap());
 }
 
-/// Tests that of a million pairs of triangles between two plates, only the near ones are visited.
+/// Tests that the contacts of two plates with 52 million pairs of triangles are found within the default budget.
 #[test]
 fn fine_plates_face_to_face_are_no_trouble() {
     let rng = &mut rng(73);

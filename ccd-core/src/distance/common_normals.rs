@@ -4,15 +4,16 @@ use crate::math::vector::{across, length, unit};
 use crate::rounding::LEAST_COMPONENT_LENGTH;
 use glam::DVec3;
 
-/// The common normals of surfaces A and B at a point of each. They are the unit vectors `n` from A to B in the normal
-/// cone of A, with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes nearer around the two points.
-/// Each surface is given by its offsets: vectors from its point to the corners of the faces around that point. `n` is a
-/// common normal if no offset of A rises along it, and none of B falls, by more than a slack.
+/// The common normals of two surfaces A and B at a pair of points, one on each surface. They are the unit vectors `n`
+/// from A to B in the normal cone of A, with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes
+/// nearer around the two points. Each surface is given by its offsets: vectors from its point to the corners of the
+/// faces around that point. `n` is a common normal if no offset of A rises along it, and none of B falls, by more than
+/// a slack.
 #[derive(Debug, Default)]
 pub(crate) struct CommonNormals {
     /// The offsets of B, and the negated offsets of A. None of them may fall along a common normal.
     offsets: Vec<DVec3>,
-    /// The height by which an offset may fall along a common normal.
+    /// The largest height by which an offset may fall along a common normal.
     slack: f64,
 }
 
@@ -87,8 +88,8 @@ impl CommonNormals {
         Some(best)
     }
 
-    /// Like [`CommonNormals::project_onto_cone`], with the result perpendicular to `level`, and for the first `count`
-    /// offsets only.
+    /// Like [`CommonNormals::project_onto_cone`], for the first `count` offsets only; the result is perpendicular to
+    /// `level`.
     fn project_perpendicular(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
         let level = unit(level)?;
         let mut best = unit_of_component(towards - level * level.dot(towards))?;
@@ -114,7 +115,8 @@ impl CommonNormals {
 /// The largest number of offsets for which memory is kept between uses.
 const MAX_KEPT_OFFSETS: usize = 1 << 20;
 
-/// Returns the unit vector along a component of a unit vector; `None` if the component may be mere rounding.
+/// Returns the unit vector along a component of a unit vector; `None` if the component is so short that it may be mere
+/// rounding.
 fn unit_of_component(part: DVec3) -> Option<DVec3> {
     (length(part) > LEAST_COMPONENT_LENGTH).then(|| unit(part))?
 }

@@ -66,7 +66,7 @@ pub(crate) fn containment_at_start(
     }
 }
 
-/// A body at its pose at the start.
+/// A body, with its frame at the start of the query.
 struct PlacedBody<'a> {
     body: &'a Body,
     frame: Frame,
@@ -81,7 +81,7 @@ impl PlacedBody<'_> {
     }
 }
 
-/// Tests points of one body, the inner one, against the solid of the other.
+/// A search for a point of one body, the inner one, inside the solid of the other, the outer one.
 struct Search<'a> {
     outer_body: &'a PlacedBody<'a>,
     inner_body: &'a PlacedBody<'a>,
@@ -89,7 +89,7 @@ struct Search<'a> {
     reach: f64,
 }
 
-/// The result of a test; the point is in the problem's coordinates.
+/// Whether a test found a point inside the outer body; the point is in the problem's coordinates.
 #[derive(Clone, Copy)]
 enum ContainmentResult {
     Inside(DVec3),
@@ -104,7 +104,8 @@ impl ContainmentResult {
 }
 
 impl Search<'_> {
-    /// Tests the inner body's parts; `touching` are pairs of a piece of the inner and a piece of the outer body.
+    /// Tests whether a part or a piece of the inner body is inside the outer body; `touching` has the pairs of an inner
+    /// and an outer piece that touch.
     fn test_body(
         &self,
         touching: impl Iterator<Item = [u32; 2]> + Clone,
@@ -134,7 +135,7 @@ impl Search<'_> {
         inside.unwrap_or(result)
     }
 
-    /// Tests a point in the inner body's frame.
+    /// Tests whether a point, given in the inner body's frame, is inside the outer body.
     fn test_point(&self, point: DVec3) -> ContainmentResult {
         let placed = self.inner_body.frame.point(point);
         let there = self.outer_body.frame.inverse_point(placed);
@@ -145,7 +146,7 @@ impl Search<'_> {
         }
     }
 
-    /// Tests points one by one, until one is inside or undecided.
+    /// Tests points one by one, until one is certainly inside or certainly outside.
     fn test_points(&self, points: impl IntoIterator<Item = DVec3>) -> ContainmentResult {
         let mut answers = points.into_iter().map(|p| self.test_point(p));
         let told = answers.find(|result| !matches!(result, ContainmentResult::Undecided));
@@ -166,8 +167,8 @@ impl Search<'_> {
         }
     }
 
-    /// Tests whether a piece that touches the other body has a point inside it. The tested points are the piece's corners,
-    /// which pieces that do not touch share, and a point of the solid behind or in the piece.
+    /// Tests whether a piece that touches the other body has a point inside that body. The tested points are the
+    /// piece's corners, which pieces that do not touch share, and a point of the solid behind or in the piece.
     fn test_piece(&self, piece: u32) -> ContainmentResult {
         let body = self.inner_body.body;
         let corners = match body.pieces().get(piece as usize) {
@@ -195,7 +196,7 @@ impl Search<'_> {
         piece.is_flat() || !piece.facets.is_empty()
     }
 
-    /// Returns whether a piece is thick: its middle is inside it by more than rounding. A face through the middle would
+    /// Returns whether the middle of a piece is inside the piece by more than rounding. A face through the middle would
     /// intersect the piece by more than that.
     fn is_thick(&self, piece: u32) -> bool {
         let middle = self.inner_body.body.centroid(piece);
@@ -207,8 +208,8 @@ impl Search<'_> {
         piece.facets.len() > 2 && piece.facets.iter().all(is_above)
     }
 
-    /// Tests points of a thin piece next to edges of the other body that lie on it. Some of the points are next to
-    /// faces.
+    /// Tests whether a thin piece is inside the outer body next to an edge of `outer` that lies on the piece. Some of
+    /// the tested points are next to faces.
     fn test_edges(&self, [inner, outer]: [u32; 2]) -> ContainmentResult {
         let piece = self.inner_body.body.pieces().get(inner as usize);
         let other = self.outer_body.body.pieces().get(outer as usize);
@@ -225,8 +226,8 @@ impl Search<'_> {
     }
 }
 
-/// Returns whether the closed faces of a body wind about a point in its frame; `None` if the point is not certainly
-/// farther than `reach` from them.
+/// Returns whether the faces of a body have a nonzero winding number about a point in the body's frame; `None` if the
+/// point is not certainly farther than `reach` from them.
 fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !body.tree().may_contain(point) {
         return Some(false);

@@ -40,7 +40,7 @@ pub trait DistanceOracle {
         cache: &mut Self::Cache,
     ) -> Result<Claim, GiveUpReason>;
 
-    /// Returns the steps of all calls so far; an oracle that does not count returns 0.
+    /// Returns the counters of all calls so far; they are 0 for an oracle that does not count.
     fn effort(&self) -> Effort {
         Effort::default()
     }
@@ -81,7 +81,7 @@ pub struct PiecePair<'a> {
 }
 
 impl PiecePair<'_> {
-    /// Returns the number of points of both pieces.
+    /// Returns the number of points that a search for an extremal point evaluates, summed over both pieces.
     pub(crate) fn points(&self) -> u64 {
         self.a.evaluations_per_search() + self.b.evaluations_per_search()
     }
@@ -90,7 +90,7 @@ impl PiecePair<'_> {
 /// An oracle's unchecked result for a pair of pieces, in A's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claim {
-    /// A vector from A's piece to B's piece along which they are claimed to be apart, of any length.
+    /// The claimed separating axis: a vector of any length that points from A's piece to B's piece.
     pub axis: DVec3,
     /// The claimed point of A's piece that is nearest to B's.
     pub a: Combination,
@@ -101,7 +101,7 @@ pub struct Claim {
 /// Counters for the work of an oracle, over many calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
-    /// The number of steps between features or simplices.
+    /// The number of steps from one feature or simplex to the next.
     pub steps: u64,
     /// The number of times that a search returned to an earlier state.
     pub cycles: u64,
@@ -140,13 +140,13 @@ impl std::ops::Sub for Effort {
 pub enum GiveUpReason {
     /// A piece has more points than the oracle supports.
     TooManyPoints,
-    /// The oracle needs facets that close the pieces' hulls, and a piece has none.
+    /// The oracle needs facets that enclose the pieces' hulls, and a piece has no such facets.
     BadFacets,
     /// The search reached its limit of steps.
     StepCap,
     /// The search returned to an earlier state.
     Cycle,
-    /// The oracle could not prove its result, from any start.
+    /// The oracle could not prove its result, wherever it started its search.
     Uncertified,
 }
 

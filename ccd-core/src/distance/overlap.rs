@@ -83,7 +83,7 @@ fn minkowski_support_point(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
 pub(crate) struct InnerPolytope {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
-    /// The border edges between the faces that the last corner is in front of, and the others.
+    /// The edges between a face that the last added corner is in front of, and a face that the corner is behind.
     horizon_edges: Vec<[usize; 2]>,
 }
 
@@ -93,13 +93,15 @@ struct Face {
     corners: [usize; 3],
     /// The outward unit normal.
     normal: DVec3,
-    /// The least and greatest heights of the face's corners above the origin, along the normal.
+    /// The least height of the face's corners above the origin, along the normal.
     depth: f64,
+    /// The greatest height of the face's corners above the origin, along the normal.
     height: f64,
 }
 
 impl InnerPolytope {
-    /// Starts with a tetrahedron of differences. Returns false if all differences are in one plane.
+    /// Replaces the polytope by a tetrahedron of four points of the Minkowski difference. Returns false if all
+    /// differences are in one plane.
     fn start_with_tetrahedron(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
         self.corners.clear();
         self.faces.clear();
@@ -125,12 +127,14 @@ impl InnerPolytope {
         });
     }
 
-    /// Returns the face that is nearest to the origin, or that the origin is farthest in front of.
+    /// Returns the face with the least height above the origin; the height is negative if the origin is in front of the
+    /// face.
     fn shallowest_face(&self) -> Option<&Face> {
         self.faces.iter().min_by(|f, g| f.depth.total_cmp(&g.depth))
     }
 
-    /// Adds a corner that is in front of the face `seen`, and replaces all faces that it is in front of.
+    /// Adds a corner, which is in front of the face `seen`, and replaces every face that the corner is in front of by
+    /// faces at the corner.
     fn add(&mut self, corner: DVec3, seen: [usize; 3]) {
         let new = self.corners.len();
         self.corners.push(corner);
@@ -155,8 +159,8 @@ impl InnerPolytope {
     }
 }
 
-/// Returns four differences far from one another. Returns `None` if all differences are in a plane up to rounding, so
-/// that the pieces cannot intersect by more than that.
+/// Returns four points of the Minkowski difference that are far from one another. Returns `None` if all differences are
+/// in a plane up to rounding, so that the pieces cannot intersect by more than that.
 fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     let both = |along: DVec3| [along, -along].map(|along| minkowski_support_point(pair, along));
     let farther =

@@ -11,7 +11,7 @@ use glam::DVec3;
 /// A checked claim with proven bounds of the distance, in A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CheckedClaim {
-    /// The claim, with combinations of points that exist.
+    /// The claim; combinations with invalid point indices are replaced.
     pub(crate) claim: Claim,
     /// A lower bound of the distance, minus rounding; negative if no axis separates the pieces.
     pub(crate) lower: f64,
@@ -19,7 +19,7 @@ pub(crate) struct CheckedClaim {
     pub(crate) upper: f64,
     /// The unit axis along which `lower` was computed.
     pub(crate) axis: DVec3,
-    /// The distance of the nearest points before the pieces' radii are subtracted.
+    /// The distance of the claimed nearest points, before the pieces' radii are subtracted.
     pub(crate) core_distance: f64,
     /// The point of A from which `upper` was computed, on the surface that includes the radius.
     pub(crate) witness_a: DVec3,
@@ -72,7 +72,7 @@ pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
     support_gap_near(pair, n, from, [None; 2])
 }
 
-/// Like [`support_gap`], but starts the searches at corners that may be known to be nearly extremal.
+/// Like [`support_gap`], but starts the search for the extremal point of each piece at its corner in `near`, if given.
 #[inline]
 fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
     let highest = match pair.a.support_map {
@@ -100,7 +100,7 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
     lowest + origin_b - highest
 }
 
-/// Returns a combination and its position. A combination with indices that the piece does not have is replaced.
+/// Returns a combination and its position; a combination with invalid indices is replaced by the first point.
 fn with_valid_indices(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
     match combination.position(points) {
         Some(point) => (combination, point),

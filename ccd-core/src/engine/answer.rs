@@ -29,8 +29,8 @@ pub(crate) fn answer<O: DistanceOracle>(
     answer_under_policy(problem, oracle, scratch, as_found, search)
 }
 
-/// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. If contacts at the
-/// start are to be ignored, the start is therefore examined first.
+/// Like [`answer`], for a search that need not examine pairs in order of time. Such a search may pass over a contact at
+/// the start. If contacts at the start are to be ignored, the start is therefore examined first.
 pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -44,8 +44,8 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     answer_under_policy(problem, oracle, scratch, at_start, search)
 }
 
-/// Runs a search under the query's policy for contacts at the start. If these are to be ignored, `look` examines the
-/// start first, and may return the outcome.
+/// Runs a search under the query's policy for contacts at the start; `look` examines the start before the search. It is
+/// called only if contacts at the start are to be ignored, and may return the outcome.
 fn answer_under_policy<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -79,7 +79,7 @@ fn answer_under_policy<O: DistanceOracle>(
     .answer()
 }
 
-/// Searches a problem round by round if its motions are periodic, and as a whole otherwise.
+/// Runs a search in [`Rounds`] if the relative motion is periodic, and once over the whole time otherwise.
 #[inline]
 pub(crate) fn search_in_rounds(
     problem: &Problem<'_>,
@@ -116,7 +116,7 @@ pub(crate) fn problem_after_start_contact<'a, O: DistanceOracle>(
     }
 }
 
-/// The result of a search, with its tolerance and its work.
+/// The result of a search, with the achieved tolerance and the counted work.
 pub(crate) struct SearchResult<T> {
     pub(crate) found: T,
     pub(crate) tolerance: f64,
@@ -168,7 +168,7 @@ pub(crate) fn achieved_tolerance(problem: &Problem<'_>, outcome: &Outcome) -> f6
     }
 }
 
-/// A schedule as the engine calls it.
+/// A schedule that answers queries in normalised units.
 pub(crate) trait EngineSchedule<O: DistanceOracle> {
     /// Returns whether the schedule handles accelerations of the bodies' centres. Otherwise they count as deviations
     /// from a straight path.

@@ -1,4 +1,4 @@
-//! Best-first search: always examines the pair whose proof expires first.
+//! Best-first search: always examines the pair with the least clock, the time until which the pair is proven apart.
 
 use super::answer::{EngineSchedule, answer, search_in_rounds};
 use super::meter::Meter;

@@ -14,12 +14,12 @@ pub(crate) struct Meter {
     pub(crate) scratch: Scratch,
     /// The time at which the deadline passes; `None` without a deadline. No clock is read then.
     deadline_at: Option<Instant>,
-    /// The amount of work at which the clock and the stop flag are read next; unreachable if there are none.
+    /// The amount of work at which the clock and the stop flag are read next; `u64::MAX` without a deadline and a flag.
     next_check: u64,
 }
 
 impl Meter {
-    /// Starts counting, and starts the deadline's time.
+    /// Creates a meter with all counts at zero, and starts to measure the time until the deadline.
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         // A deadline that no clock can represent counts as none.
         let deadline_at = |deadline| Instant::now().checked_add(deadline);

@@ -18,8 +18,8 @@ use crate::rounding::SKIPPED_NEARER_SHARE;
 use lists::SearchBuffers;
 use std::ops::ControlFlow;
 
-/// A search for the nearest pieces. It splits the pair of nodes with the least lower bound, until no waiting pair can
-/// contain pieces that are nearer than those found.
+/// A search for the two nearest pieces of two bodies at one clock. It splits the pair of nodes with the least lower
+/// bound, until no waiting pair can contain pieces that are nearer than those found.
 ///
 /// Pairs that may intersect have no lower bound of their distance, and therefore come first.
 pub(crate) struct NearestSearch<'p> {
@@ -31,9 +31,9 @@ pub(crate) struct NearestSearch<'p> {
     cutoff: f64,
     /// The two pieces with the least upper bound, by their indices in the problem, and their contact.
     nearest: Option<([u32; 2], Contact)>,
-    /// A lower bound of the distances of all pieces that were measured, or that the oracle gave up.
+    /// A lower bound of the distances of the measured pieces, and once the search has ended, of the waiting pairs.
     lower: f64,
-    /// True if it could not be decided for some pair whether its pieces intersect.
+    /// True if it could not be decided for some pair of pieces whether they intersect.
     pub(crate) undecided: bool,
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct NearestSearch<'p> {
 pub(crate) enum SearchEnd {
     /// Two pieces that intersect, by their indices, and their contact.
     Overlap([u32; 2], Contact),
-    /// A limit was reached.
+    /// The search was ended by a limit, such as the budget, or by an oracle that gave up.
     Limit(Limit),
 }
 
@@ -135,8 +135,8 @@ impl<'p> NearestSearch<'p> {
         Some(next)
     }
 
-    /// Has the oracle measure two pieces, and updates the bounds of the search. Ends it if the pieces certainly
-    /// intersect, or if the oracle gives up.
+    /// Measures two pieces by the oracle, and then updates the bounds of the search, or ends the search. The search
+    /// ends if the pieces certainly intersect, or if the oracle gives up.
     fn measure_pieces<O: DistanceOracle>(
         &mut self,
         ids: [u32; 2],
@@ -170,7 +170,8 @@ impl<'p> NearestSearch<'p> {
         ControlFlow::Continue(())
     }
 
-    /// Returns the least upper bound found so far, or the distance beyond which pairs are ignored.
+    /// Returns the least upper bound of the distance found so far, or the cutoff if no pieces nearer than the cutoff
+    /// were found.
     fn upper_bound(&self) -> f64 {
         let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
         self.nearest.map_or(self.cutoff, upper)
@@ -186,19 +187,20 @@ impl<'p> NearestSearch<'p> {
         }
     }
 
-    /// Returns the nearest pieces, with a lower bound for all pieces; `None` if no pieces are nearer than `beyond`.
+    /// Returns the contact of the nearest pieces, with a lower bound for all pieces; `None` if no pieces are nearer
+    /// than the cutoff.
     pub(crate) fn nearest(&self) -> Option<Contact> {
         self.nearest_pieces().map(|(_, contact)| contact)
     }
 
-    /// Like [`Nearest::nearest`], with the indices of the pieces in the problem.
+    /// Like [`NearestSearch::nearest`], with the indices of the pieces in the problem.
     pub(crate) fn nearest_pieces(&self) -> Option<([u32; 2], Contact)> {
         self.nearest
             .map(|(pieces, contact)| (pieces, contact.cap_lower_bound(self.lower)))
     }
 
-    /// Returns the nearest pieces, with a lower bound for all pieces. If a later claim of an oracle contradicts an
-    /// earlier one, these are the pieces `seen` in contact.
+    /// Returns the nearest pieces if they are in contact, or else the contact `seen`, with a lower bound for all
+    /// pieces. The latter is returned if a later claim of an oracle contradicts an earlier one.
     pub(crate) fn contact(&self, seen: Contact) -> Contact {
         let within = self.problem.contact_distance();
         let nearest = self

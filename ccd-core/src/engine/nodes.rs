@@ -1,4 +1,5 @@
-//! Bounds for pairs of tree nodes, eight at once in f32.
+//! Bounds of the distances of pairs of tree nodes, and of the times for which they stay apart, eight pairs at once in
+//! f32.
 //!
 //! `expand.rs` splits a node, `bounds.rs` bounds its children against the other node, and the pairs wait together in
 //! `siblings.rs`.

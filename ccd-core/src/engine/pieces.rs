@@ -1,4 +1,4 @@
-//! Bounds for pairs of pieces, one pair at a time in f64.
+//! Bounds of the times for which pairs of pieces stay apart, one pair at a time in f64.
 //!
 //! `pair.rs` decides about a pair. A `snapshot.rs` of the pair calls the oracle, and computes how long a plane keeps
 //! the pieces apart, by the `heights.rs` of their points. `level.rs` has the pieces that come to touch on the ground

@@ -41,8 +41,8 @@ impl ProvenFacts {
         })
     }
 
-    /// Returns the outcome for a pair in contact at clock `s`. Other pairs may be nearer: only their clocks bound their
-    /// distances.
+    /// Returns the outcome of a query that ends with a pair in contact at clock `s`. Other pairs may be nearer: only
+    /// their clocks bound their distances.
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
             time: problem.time(s),
@@ -50,8 +50,7 @@ impl ProvenFacts {
         }
     }
 
-    /// Records that all pairs are past the start without contact there. Returns the outcome if one body is inside the
-    /// other.
+    /// Records that no pair is in contact at the start; returns the outcome if one body is inside the other.
     pub(crate) fn record_past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
         if std::mem::replace(&mut self.apart_at_start, true) {
             return None;
@@ -63,7 +62,7 @@ impl ProvenFacts {
         }
     }
 
-    /// Returns the outcome if all pairs are apart to the end.
+    /// Returns the outcome of a query whose pairs are all apart to the end.
     pub(crate) fn finish(&mut self, problem: &Problem<'_>) -> Outcome {
         self.record_past_start(problem).unwrap_or(Outcome::Free {
             proven_gap: problem.proven_gap(),

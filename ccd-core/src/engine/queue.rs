@@ -20,8 +20,9 @@ pub(crate) struct Queue<T> {
     serial: u32,
 }
 
-/// The sort key of an item. It has 64 bits of clock (clocks are not negative, so their bits have the order of the
-/// numbers), 1 bit of rank, 31 bits of age, 32 bits of index.
+/// The sort key of an item: its clock, rank, age and index, from the highest bits to the lowest. It has 64 bits of
+/// clock (clocks are not negative, so their bits have the order of the numbers), 1 bit of rank, 31 bits of age, 32 bits
+/// of index.
 type Key = u128;
 
 /// The key of an empty slot, greater than all others.
@@ -192,7 +193,7 @@ fn key(clock: f64, rank: Rank, serial: u32, place: u32) -> Key {
 
 /// A collection of waiting items, from which a search takes the next one.
 pub(crate) trait Worklist<T> {
-    /// Adds an item that waits until a clock ≥ 0.
+    /// Adds an item with its clock, which is at least 0.
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull>;
 
     /// Returns the next item and its clock.
@@ -210,7 +211,7 @@ pub(crate) trait Worklist<T> {
     /// When no item waits.
     fn postpone_as_newest(&mut self, clock: f64, rank: Rank);
 
-    /// Replaces the next item by a new one.
+    /// Replaces the next item by a new item with a clock of its own.
     ///
     /// # Panics
     /// When no item waits.

@@ -8,14 +8,14 @@ use crate::shortcuts::screw::Profiles;
 /// The scratch memory of a solver, created when first needed.
 pub(crate) type Scratch = Option<Box<ScratchMemory>>;
 
-/// The lists that some queries need. They carry no information to the next query.
+/// The lists that some queries need besides the queue. They carry no information to the next query.
 #[derive(Debug, Default)]
 pub(crate) struct ScratchMemory {
     /// The lists of the search for the nearest pieces.
     pub(crate) nearest: SearchBuffers,
     /// The polytope of the test whether two pieces intersect.
     pub(crate) inner: InnerPolytope,
-    /// The surfaces around two nearest points.
+    /// The common normals of the surfaces around two nearest points.
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.
     pub(crate) profiles: Profiles,

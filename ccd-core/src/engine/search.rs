@@ -28,9 +28,9 @@ impl<C> Item<C> {
     }
 }
 
-/// The question that a search answers: it decides from each step whether the search goes on.
+/// The question that a search answers, which decides after each step whether the search goes on.
 pub(crate) trait Question<O: DistanceOracle> {
-    /// The type of the result.
+    /// The type of the result that ends a search, such as an outcome.
     type Found;
 
     /// Decides from the clock of the next pair whether the search ends before the pair is examined.
@@ -48,14 +48,14 @@ pub(crate) trait Question<O: DistanceOracle> {
         advance: AdvanceResult,
     ) -> ControlFlow<Self::Found, f64>;
 
-    /// Returns the result if a limit is reached at clock `s`.
+    /// Returns the result of a search that reaches a limit at clock `s`.
     fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
 
-    /// Returns the result if all pairs are proven apart to the end.
+    /// Returns the result of a search whose pairs are all proven apart to the end.
     fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found;
 }
 
-/// What a step found out about a pair of pieces.
+/// The result of advancing a pair of pieces at a clock.
 pub(crate) struct AdvanceResult {
     /// The indices of the pieces in the problem.
     pub(crate) pieces: [u32; 2],

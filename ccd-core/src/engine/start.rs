@@ -7,7 +7,7 @@ use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
 
-/// Returns the outcome for bodies of which two pieces are in contact at the start: touching, with their distance, or
+/// Returns the outcome for bodies with two pieces in contact at the start: touching, with the bodies' distance, or
 /// overlapping.
 ///
 /// # Guarantee
@@ -27,8 +27,9 @@ pub(crate) fn touching<O: DistanceOracle>(
     outcome.unwrap_or(Outcome::Touching { contact: seen })
 }
 
-/// Returns the outcome for bodies that are nearer than `beyond` at the start, which then count as touching, or of which
-/// one is inside the other; `None` for others.
+/// Returns the outcome for bodies that overlap at the start or are nearer than `beyond`; `None` for bodies farther
+/// apart. Bodies nearer than `beyond` count as touching, and a body inside the other counts as overlapping. If this is
+/// undecided, the outcome is unresolved.
 pub(crate) fn outcome_at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
@@ -38,8 +39,8 @@ pub(crate) fn outcome_at_start<O: DistanceOracle>(
     measure_at_start(problem, beyond, oracle, meter, |nearest| nearest.nearest())
 }
 
-/// Measures the bodies at the start, and returns the outcome if they overlap, or are in `contact`. Pieces at least as
-/// far apart as `beyond` are not measured.
+/// Measures the bodies at the start, and returns the outcome if they overlap, or if `contact` gives their contact.
+/// Pieces at least as far apart as `beyond` are not measured.
 fn measure_at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,

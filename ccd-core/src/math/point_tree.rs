@@ -25,7 +25,8 @@ pub struct PointTree {
     base: DVec3,
     /// The points in the order of the leaves, with their original indices.
     points: Vec<(DVec3, u32)>,
-    /// The nodes in depth-first order: every node comes before its left subtree, and that before its right subtree.
+    /// The nodes in depth-first order: every node comes before its left subtree, and its left subtree before its right
+    /// subtree.
     nodes: Vec<Node>,
     /// An upper bound of the absolute value of any coordinate of the boxes, and so of the stored points.
     reach: f64,
@@ -45,7 +46,7 @@ struct Node {
 const LEAF_CAPACITY: usize = 8;
 
 impl PointTree {
-    /// Builds the tree in O(n log n).
+    /// Builds the tree of some points, in O(n log n).
     pub fn new(points: &[DVec3]) -> Self {
         let base = points.first().copied().unwrap_or(DVec3::ZERO);
         let mut tree = PointTree {
@@ -63,7 +64,8 @@ impl PointTree {
         tree
     }
 
-    /// Builds the subtree of a range of points, by halving it. The depth is at most the number of bits of the length.
+    /// Builds the subtree of a range of points, by halving the range. The depth is at most the number of bits of the
+    /// length.
     fn build(&mut self, range: Range<usize>) {
         let points = &mut self.points[range.clone()];
         let (mut lo, mut hi) = (points[0].0, points[0].0);

@@ -140,7 +140,7 @@ pub(crate) fn choose<L: Simd>(mask: mask32x8<L>, a: Vec3x8<L>, b: Vec3x8<L>) -> 
 /// Three coordinates in memory, and an unused fourth number.
 pub(crate) type Row = [f64; 4];
 
-/// A vector in one register.
+/// A vector of three coordinates in f64, in one register.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PackedVector<L: Simd>(f64x4<L>);
 
@@ -257,7 +257,7 @@ impl<L: Simd> Mul for PackedMatrix<L> {
 }
 
 impl Instructions {
-    /// Converts the choice to the form that [`vectorize!`](crate::vectorize) takes.
+    /// Converts the choice of instructions to the token that [`vectorize!`](crate::vectorize) takes.
     #[doc(hidden)]
     pub fn level(self) -> Level {
         match self {
@@ -267,7 +267,7 @@ impl Instructions {
     }
 }
 
-/// Evaluates an expression with the best useful vector instructions: AVX2 or SSE2 on x86, the only ones elsewhere. All
+/// Evaluates an expression with the best useful vector instructions: AVX2 or else SSE2 on x86, NEON on 64-bit ARM. All
 /// functions called by the expression, closures included, have to be `#[inline(always)]`: others are compiled for the
 /// oldest machine.
 ///

@@ -112,12 +112,12 @@ pub(crate) fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3
     })
 }
 
-/// Returns the least of each coordinate.
+/// Returns the vector of the lesser coordinates of two vectors.
 pub(crate) fn componentwise_min(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z))
 }
 
-/// Returns the greatest of each coordinate.
+/// Returns the vector of the greater coordinates of two vectors.
 pub(crate) fn componentwise_max(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z))
 }

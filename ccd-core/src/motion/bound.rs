@@ -17,14 +17,14 @@ pub(crate) struct Velocities {
     pub(crate) spin: DVec3,
 }
 
-/// Which upper bound of the velocity of a body's points along an axis a schedule uses, to divide distances by it.
+/// The upper bound of a body's velocity along an axis, by which a schedule divides distances to get its time steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum VelocityBound {
-    /// `max (n×ω)·r + |v·n|` over the arms r, as printed in the paper `[FAST06 §4.2 Eq. 5]`. It
-    /// holds at one instant only. **Unsound** over a step: times may be late, and contacts missed.
+    /// The bound as published, `max (n×ω)·r + |v·n|` over the arms r, which holds at one instant only. It is printed in
+    /// the paper `[FAST06 §4.2 Eq. 5]`. **Unsound** over a step: times may be late, and contacts missed.
     Published,
-    /// `v·n + |n×ω| ρ`, where ρ is the largest distance from the axis of rotation: it holds over any
-    /// interval `[C2A09]`.
+    /// The bound `v·n + |n×ω| ρ`, which holds over any interval; ρ is the largest distance from the axis of rotation
+    /// `[C2A09]`.
     #[default]
     Sound,
 }

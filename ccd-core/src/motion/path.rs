@@ -75,8 +75,8 @@ impl Path {
         }
     }
 
-    /// Returns the part of the path between two times, with times from 0 to 1 again. Positions are off by
-    /// [`place_rounding`](crate::rounding::place_rounding) at most.
+    /// Returns the part of the path between two times, in units in which that part takes the times from 0 to 1.
+    /// Positions are off by [`place_rounding`](crate::rounding::place_rounding) at most.
     pub(crate) fn subpath(&self, [from, to]: [f64; 2]) -> Self {
         let time = to - from;
         let (sin, cos) = sin_cos(self.rate * from);
@@ -93,7 +93,7 @@ impl Path {
         }
     }
 
-    /// Returns the coefficients of the cosine, the sine and one in the rotation.
+    /// Returns the coefficients `A`, `B` and `C` of the rotation `cos(ω s) A + sin(ω s) B + C`.
     pub(crate) fn rotation_coefficients(&self) -> [DMat3; 3] {
         [
             self.cosine_coefficient,
@@ -139,13 +139,14 @@ impl Path {
         length(self.velocity) + length(self.acceleration)
     }
 
-    /// Returns the velocity of the body's point `x` at time `s`.
+    /// Returns the velocity at `s` of the body's point that is then at the position `x`.
     #[inline]
     pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
         self.centre_velocity_at(s) + self.spin.cross(x - self.centre_at(s))
     }
 
-    /// Returns the velocities per unit of `s`; `None` if they are not constant.
+    /// Returns the centre's velocity at `s = 0` and the angular velocity, per unit of `s`. An acceleration is not
+    /// included.
     pub(crate) fn velocities(&self) -> Velocities {
         Velocities {
             linear: self.velocity,

@@ -22,7 +22,7 @@ pub(crate) struct RelativePath {
 enum RelativeRotation {
     OneTurns {
         rotation: RotatingQuantity<[Row; 3]>,
-        /// The vector between the centres of rotation over time, and its rate of change.
+        /// The vector between the centres of rotation at `s = 0`, in the seeing body's frame over time.
         offset: RotatingQuantity<Row>,
         change: RotatingQuantity<Row>,
         acceleration: Option<RotatingQuantity<Row>>,
@@ -40,7 +40,7 @@ enum RelativeRotation {
     },
 }
 
-/// A quantity that turns: `cos(ω s) P + sin(ω s) Q + K`.
+/// A vector or a matrix that turns at a constant rate: `cos(ω s) P + sin(ω s) Q + K`.
 #[derive(Clone, Copy, Debug)]
 struct RotatingQuantity<T> {
     rate: f64,

@@ -53,7 +53,8 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
     }
 }
 
-/// Tests half a turn, for which both directions are equally short, and the signs of the quaternions decide.
+/// Tests that the signs of the quaternions decide the direction of half a turn, for which both directions are equally
+/// short.
 #[test]
 fn half_a_turn_goes_about_the_axis_as_it_is_given() {
     let turn = |start: DQuat, end: DQuat| {

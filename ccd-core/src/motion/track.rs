@@ -1,4 +1,4 @@
-//! The exact height along an axis of a point that turns.
+//! The exact height of a turning point along a fixed axis, as a function of time.
 
 use crate::math::order::lesser;
 use crate::math::vector::length;

@@ -8,7 +8,7 @@ use crate::math::vector::length;
 use crate::rounding::RETIMED_POSE_ERROR_F64;
 use glam::DVec3;
 
-/// A motion of any kind. Between any two times it is near a [`Motion`], up to a known deviation.
+/// A motion of any kind that is near a [`Motion`] between any two times, up to a known deviation.
 ///
 /// A query covers the time with stretches, long ones first. It requests shorter ones if the answer depends on it. The
 /// bounds have to shrink with the length of the stretch: with its square if the motion is smooth.
@@ -60,7 +60,7 @@ pub trait Trajectory: Sync {
         None
     }
 
-    /// Returns the pose at a time, as exact as a stretch of no length.
+    /// Returns the pose at a time, with the accuracy of a stretch of no length.
     ///
     /// # Errors
     /// The errors of [`Trajectory::stretch`].
@@ -83,7 +83,7 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// Creates a stretch of a trajectory that equals the motion.
+    /// Creates a stretch in which the trajectory equals the motion.
     pub fn exact(motion: Motion) -> Self {
         Stretch {
             motion,
@@ -92,7 +92,8 @@ impl Stretch {
         }
     }
 
-    /// Returns the pose after a time, except for the deviation.
+    /// Returns the pose of the accelerated motion at a time after the start of the stretch. The trajectory may deviate
+    /// from it.
     pub fn pose(&self, time: f64) -> Pose {
         let pose = self.motion.pose(time);
         if self.acceleration == DVec3::ZERO {
@@ -102,7 +103,8 @@ impl Stretch {
         }
     }
 
-    /// Returns the velocity of the body's point `x` after a time, except for the deviation.
+    /// Returns the velocity, in the accelerated motion, of the body's point that is at the position `x` after a time.
+    /// The trajectory may deviate from it.
     pub(crate) fn velocity_at(&self, x: DVec3, time: f64) -> DVec3 {
         let motion = &self.motion;
         let arm = x - self.pose(time).transform_point(motion.centre());
@@ -129,7 +131,7 @@ impl Stretch {
         })
     }
 
-    /// Returns a bound of the error of a start that was computed for another time.
+    /// Returns a bound of the rounding error of the pose when [`Stretch::with_start_at`] moves the start by a time.
     pub(crate) fn rounding_of_moved_start(&self, time: f64) -> DeviationBound {
         let Stretch { motion, .. } = self;
         let turned = length(motion.spin()) * time.abs();
@@ -218,7 +220,7 @@ impl std::ops::Add for DeviationBound {
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait SmoothTrajectory: Sync {
-    /// Returns the motion with the trajectory's pose and velocities at a time, which becomes its time 0.
+    /// Returns the motion with the trajectory's pose and velocities at a time, which is the motion's time 0.
     ///
     /// The linear velocity is that of the motion's [centre](Motion::centre).
     ///
@@ -229,8 +231,8 @@ pub trait SmoothTrajectory: Sync {
     /// Returns upper bounds of the magnitudes of the accelerations between two times.
     fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds;
 
-    /// Returns the tangent at a time with the acceleration of its centre, and a bound of how fast that acceleration
-    /// changes up to a later time; `None` if it is unknown or unbounded.
+    /// Returns the tangent motion at a time, with the acceleration of its centre and a bound of the acceleration's
+    /// derivative between two times. The acceleration is `None` if it is unknown or its derivative is unbounded.
     ///
     /// # Errors
     /// The errors of the motion.
@@ -274,12 +276,12 @@ pub struct AccelerationBounds {
 pub struct Acceleration {
     /// The acceleration vector, in the scene's unit of length per unit of time squared.
     pub vector: DVec3,
-    /// A bound of the magnitude of the acceleration's derivative, per unit of time.
+    /// A bound of the magnitude of the acceleration's derivative, in the scene's unit of length per unit of time cubed.
     pub jerk: f64,
 }
 
 impl Acceleration {
-    /// Returns a bound of the deviation from the tangent after a time that changes of the acceleration cause.
+    /// Returns a bound of the centre's deviation after a time from the motion with this constant acceleration.
     fn deviation_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = RETIMED_POSE_ERROR_F64 * (time * (time * length(self.vector)));
@@ -288,7 +290,8 @@ impl Acceleration {
 }
 
 impl AccelerationBounds {
-    /// Bounds how far accelerations within these bounds move and turn a body away from its tangent motion in a time.
+    /// Returns bounds of a body's deviation from its tangent motion after a time, if its accelerations are within these
+    /// bounds.
     fn deviation_after(self, time: f64) -> DeviationBound {
         // The time and the products are rounded. The square of a short time may be zero, so none is computed.
         let deviation = |acceleration: f64| {
@@ -332,7 +335,8 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
     }
 }
 
-/// Returns the motion itself for each stretch. Stretches that do not begin at time 0 are off by rounding.
+/// A motion as a trajectory: the motion itself is each of its stretches. Stretches that do not begin at time 0 are off
+/// by rounding.
 impl Trajectory for Motion {
     fn as_motion(&self) -> Option<Motion> {
         Some(*self)

@@ -21,11 +21,11 @@ use hull_pair::HullTreePair;
 use reach::AxisDistances;
 use std::ops::ControlFlow;
 
-/// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published
-/// `[FAST06 Alg. 2]`.
+/// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published. It is Algorithm 2 of the
+/// paper `[FAST06]`.
 ///
-/// A descent through pairs of nodes computes the distance of the bodies `[FAST06 Alg. 3]`. The pairs at which it
-/// stops, the *front*, cover all pairs of pieces. Each pair stays apart for its distance divided by a [bound](VelocityBound)
+/// A descent through pairs of nodes computes the distance of the bodies `[FAST06 Alg. 3]`. The pairs at which it stops,
+/// the *front*, cover all pairs of pieces. Each pair stays apart for its distance, divided by a [bound](VelocityBound)
 /// of its rate of approach. All pairs are advanced by the least of these times, and the distance is computed again,
 /// until it is within the tolerance. The next descent starts from the front of the last one `[SWIFT01]`. That front
 /// contains the pieces that were nearest, so that the distance is bounded before anything is split, and the nearest
@@ -100,7 +100,8 @@ impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// Runs Alg. 2: repeatedly computes the distance of the bodies, and advances both by the time that it allows.
+    /// Computes the distance of the bodies repeatedly, and advances both by a time for which they stay apart. This is
+    /// Algorithm 2 of the paper.
     fn advance(
         &mut self,
         problem: &Problem<'_>,

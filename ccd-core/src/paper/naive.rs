@@ -1,4 +1,4 @@
-//! A slow and simple reference: all pairs of pieces with one common clock, Alg. 1 of the paper.
+//! A slow and simple reference schedule: all pairs of pieces share one clock. It is Algorithm 1 of the paper.
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
@@ -15,8 +15,8 @@ use crate::motion::bound::VelocityBound;
 use crate::problem::{BodyWithPath, Problem};
 use std::ops::ControlFlow;
 
-/// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`. A free time is the pair's
-/// distance, divided by a [bound](VelocityBound) of its rate of approach.
+/// A schedule that advances all pairs of pieces together by the least of their free times. It is Algorithm 1 of the
+/// paper `[FAST06]`. A free time is the pair's distance, divided by a [bound](VelocityBound) of its rate of approach.
 ///
 /// Every step costs one distance for each pair of pieces. Grazing passes, fast turning and bodies that are let go
 /// from flush contact cost many steps. This schedule suits only bodies of few pieces, and checks of the other
@@ -33,7 +33,7 @@ pub struct Naive<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Naive<O> {
-    /// Creates a schedule that divides distances by the given bound of the approach.
+    /// Creates a schedule that divides distances by the given bound of the rate of approach.
     pub fn new(bound: VelocityBound) -> Self {
         Naive {
             bound,

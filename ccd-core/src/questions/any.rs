@@ -82,7 +82,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-/// Converts an answer to one in which a contact at the start counts like any other contact.
+/// Returns the answer with a contact at the start reported as a contact at time 0; other answers are unchanged.
 pub(crate) fn start_contact_as_any(answer: Answer) -> Answer {
     let outcome = match answer.outcome {
         Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
@@ -91,16 +91,17 @@ pub(crate) fn start_contact_as_any(answer: Answer) -> Answer {
     Answer { outcome, ..answer }
 }
 
-/// The search for any contact of the bodies.
+/// A search for any contact of two bodies, with what it has proven so far.
 #[derive(Default)]
 struct AnyContactSearch {
     proven: ProvenFacts,
-    /// The clock of the first pair that could not be proven to the end, and the reason.
+    /// The earliest clock of a pair that could not be proven apart to the end, and the limit that stopped the proof.
     first_failure: Option<(f64, Limit)>,
 }
 
 impl AnyContactSearch {
-    /// Gives up a pair that cannot be proven further, because another pair may be in contact.
+    /// Drops a pair that cannot be proven apart any further, and records its clock; the search goes on, since another
+    /// pair may be in contact.
     fn give_up_pair(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
         if self.first_failure.is_none_or(|(first, _)| s < first) {
             self.first_failure = Some((s, limit));

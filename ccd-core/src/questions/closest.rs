@@ -1,4 +1,4 @@
-//! Computes bounds of the least distance of two bodies over a query, and its time.
+//! Computes bounds of the least distance of two bodies over the duration of a query, and the time at which it occurs.
 
 mod follow;
 pub(crate) mod guess;
@@ -31,8 +31,8 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Bounds the least distance of the bodies over the duration, to within the tolerance. If a
-    /// [clearance](crate::Settings::clearance) is required of bodies that move, decides whether they keep it instead.
+    /// Computes bounds of the least distance of the bodies over the duration, which differ by at most the tolerance. If
+    /// a [clearance](crate::Settings::clearance) is required of bodies that move, decides whether they keep it instead.
     ///
     /// The margin and the [policy](crate::StartPolicy) for the start play no role.
     ///
@@ -53,7 +53,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Bounds the least distance of two bodies with constant velocities.
+    /// Computes bounds of the least distance of the two bodies of a problem, or decides whether they keep a required
+    /// clearance.
     pub(crate) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
             Some(distance) => self.decide_clearance(problem, distance, oracle),
@@ -62,7 +63,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         answer.widened_by_excess(problem.excess())
     }
 
-    /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
+    /// Computes bounds of the least distance of the bodies, without a correction for their excess over the shapes.
     pub(crate) fn approach_of_bodies(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = self.search_distances_below(problem, f64::INFINITY, oracle, found_or_overlap);
         let found = answer.found;
@@ -75,7 +76,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Decides whether the bodies keep a distance, or their shapes come nearer.
+    /// Decides whether the bodies stay at least `distance` apart, or their shapes come nearer than `distance`.
     fn decide_clearance(&mut self, problem: &Problem<'_>, distance: f64, oracle: &mut O) -> Answer {
         let required = RequiredClearance {
             distance,
@@ -92,8 +93,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         answer.unwrap_or_else(|never| match never {})
     }
 
-    /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`. If they meet, the answer does
-    /// not say whether they overlap at the start.
+    /// Computes bounds of the least distance of the bodies if it is below `beyond`, or returns that it is not. If the
+    /// bodies meet, the answer does not say whether they overlap at the start.
     pub(crate) fn least_distance_below(
         &mut self,
         problem: &Problem<'_>,
@@ -103,7 +104,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         self.search_distances_below(problem, beyond, oracle, |_, _, _, found| found)
     }
 
-    /// Searches for distances below `beyond`, and completes the outcome by `last_look`.
+    /// Searches for the least distance of the bodies if it is below `beyond`, and applies `last_look` to the outcome.
     fn search_distances_below(
         &mut self,
         problem: &Problem<'_>,
@@ -207,7 +208,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-/// Converts the outcome for a sample of the periods to one for the whole time.
+/// Converts the outcome for one period of repeating motions to an outcome for the whole duration.
 fn outcome_for_all_periods(
     sample: &Sample<'_>,
     found: Result<Outcome, FartherThanCutoff>,
@@ -232,7 +233,7 @@ fn outcome_for_all_periods(
     )
 }
 
-/// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
+/// Returns `found`, or the outcome that the bodies overlap if they overlap at the start.
 fn found_or_overlap<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -248,7 +249,7 @@ fn found_or_overlap<O: DistanceOracle>(
     }
 }
 
-/// Measures the distance of bodies at rest.
+/// Measures the distance of two bodies that are both at rest.
 fn distance_at_rest<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
@@ -269,7 +270,7 @@ fn distance_at_rest<O: DistanceOracle>(
     })
 }
 
-/// The bodies stay at least as far apart as the distance of interest.
+/// The result that the bodies never come nearer than the cutoff distance of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FartherThanCutoff {
     /// A lower bound of the distance of the bodies at all times.

@@ -1,5 +1,5 @@
-//! Depth-first search: always examines the newest pair, whatever its clock. It serves questions other than the first
-//! contact.
+//! Depth-first search, which always examines the newest pair, whatever its clock. It serves questions other than the
+//! first contact.
 
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::capacity::empty;
@@ -30,7 +30,7 @@ impl<O: DistanceOracle> Default for DepthFirst<O> {
     }
 }
 
-/// A stack of items: the last one added is next, whatever its clock.
+/// A stack of waiting pairs: the pair added last is examined next, whatever its clock.
 #[derive(Debug)]
 pub(crate) struct Stack<T> {
     items: Vec<(f64, T)>,
@@ -47,20 +47,20 @@ impl<T> Default for Stack<T> {
 }
 
 impl<T> Stack<T> {
-    /// Removes all items, and keeps [some of the memory](empty).
+    /// Removes all items, and keeps [a part of the memory](empty) for the next search.
     pub(crate) fn clear(&mut self) {
         empty(&mut self.items);
         self.peak = 0;
     }
 
-    /// Returns the earliest clock, the time until which an item is proven apart, of all items; infinite if there are
+    /// Returns the least clock of all items, the time until which all of them are proven apart; infinite if there are
     /// none.
     pub(crate) fn least_clock(&self) -> f64 {
         let clocks = self.items.iter().map(|&(clock, _)| clock);
         clocks.fold(f64::INFINITY, lesser)
     }
 
-    /// Returns the largest number of items that waited at once.
+    /// Returns the largest number of items that waited at the same time.
     pub(crate) fn peak(&self) -> u64 {
         self.peak as u64
     }

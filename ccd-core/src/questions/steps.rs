@@ -18,7 +18,7 @@ use crate::shortcuts::closer_look::TighterBounds;
 use crate::shortcuts::rounds::Rounds;
 use std::ops::ControlFlow;
 
-/// A search for the first contact that can be advanced to any time and continued later.
+/// A search for the first contact that can stop at any time and continue later.
 ///
 /// It serves queries for the first contact among many pairs of bodies. No pair is proven further than the answer
 /// needs: the pair that is proven least far continues next.
@@ -47,9 +47,9 @@ pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
 
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum Kind<'a, O: DistanceOracle> {
-    /// A search about constant velocities, which is done in steps.
+    /// A search for bodies with constant velocities, which is done in steps.
     InSteps(SteppedSearch<'a, O>),
-    /// A search along trajectories, which is done at once.
+    /// A search for bodies on trajectories, which is done to its end in the first step.
     AtOnce {
         query: Query<'a>,
         memory: BestFirst<O>,
@@ -60,11 +60,12 @@ enum Kind<'a, O: DistanceOracle> {
 /// A search in steps, about two bodies with constant velocities.
 struct SteppedSearch<'a, O: DistanceOracle> {
     problem: Problem<'a>,
-    /// The problem that is searched now. It reports a contact at the start, or ignores it.
+    /// The problem that is searched at present: it reports a contact at the start, or ignores it.
     current_problem: Problem<'a>,
-    /// The rounds and the part that is searched now, if the motions repeat themselves.
+    /// The progress over the periods of repeating motions, and the periods that are searched at present; `None` if the
+    /// motions do not repeat.
     part: Option<(Rounds<'a>, Problem<'a>)>,
-    /// The policy for a contact at the start that is still to be applied.
+    /// The policy for a contact at the start, until it has been applied.
     start: StartPolicy,
     memory: BestFirst<O>,
     meter: Meter,
@@ -73,14 +74,14 @@ struct SteppedSearch<'a, O: DistanceOracle> {
     answer: Option<Answer>,
 }
 
-/// The state of the search without the waiting pairs.
+/// The state of a search between two steps, except for the waiting pairs.
 #[derive(Debug)]
 struct SearchState {
     tighter_bounds: TighterBounds,
     proven: ProvenFacts,
 }
 
-/// How far a search for the first contact has come.
+/// The progress of a search for the first contact: a certified time, or the answer.
 #[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
@@ -91,7 +92,7 @@ pub enum Progress {
 }
 
 impl<'a, O: DistanceOracle> FirstContact<'a, O> {
-    /// Creates the search for a query, with the memory of a schedule. The time until the
+    /// Creates the search for a query, which uses the memory of the schedule `memory`. The time until the
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContact(match query.problem.take() {
@@ -104,7 +105,7 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         })
     }
 
-    /// Returns the memory of the schedule, for another search.
+    /// Returns the schedule with its memory, for another search.
     pub fn into_memory(self) -> BestFirst<O> {
         match self.0 {
             Kind::InSteps(steps) => steps.into_memory(),
@@ -112,8 +113,8 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         }
     }
 
-    /// Continues until the bodies are proven apart up to the time `until` or later, or there is an answer. Along
-    /// trajectories other than [motions](crate::Motion), the search continues to the answer.
+    /// Continues the search until the bodies are proven apart up to the time `until` or later, or there is an answer.
+    /// Along trajectories other than [motions](crate::Motion), the search continues to the answer.
     ///
     /// # Guarantee
     /// [Never late](crate#guarantee); ends on every input. The answer has the same bits as that of [`BestFirst`],
@@ -236,8 +237,8 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
         }
     }
 
-    /// Searches the current problem up to a time; if the motions repeat, only the periods that are searched together at
-    /// present. Returns the time that is reached, or the outcome.
+    /// Searches the current problem up to the time `until`; for repeating motions, only the periods that are searched
+    /// at present. Returns the time that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
         let (problem, until) = match &self.part {

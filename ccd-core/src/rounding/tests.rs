@@ -1,4 +1,4 @@
-//! Compares the error bounds for f64 with double-double arithmetic.
+//! Compares errors of f64 computations with their bounds; the exact values are computed in double-double arithmetic.
 
 mod derivations;
 mod distances;
@@ -23,13 +23,13 @@ use crate::tests::worst::share;
 use crate::{Body, Pose};
 use glam::DVec3;
 
-/// The largest errors found, as shares of their bounds.
+/// The largest errors found of positions, gaps and distances, as shares of their bounds.
 #[derive(Debug, Default)]
 struct WorstErrorShares {
     place: f64,
     gap: f64,
     distance: f64,
-    /// The number of problems a million units from the body's or the world's origin.
+    /// The number of tested problems that are far from the body's or the world's origin, by a million units or more.
     far: usize,
     turning_count: usize,
 }
@@ -64,7 +64,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
     assert!(worst.distance < 1.0, "{worst:?}");
 }
 
-/// Tests velocities derived from poses at both ends: answers hold for the motion between the given poses.
+/// Tests the rounding of positions on motions whose velocities are derived from given poses at both ends.
 #[test]
 fn rounding_of_motions_between_poses_is_allowed_for() {
     let mut rng = rng(6);
@@ -123,7 +123,8 @@ fn motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Moti
     .unwrap()
 }
 
-/// Compares positions, a support gap and a distance at one clock with the exact values, and records the errors.
+/// Compares positions, a support gap and a distance at one clock with the exact values, and records the largest errors
+/// in `worst`.
 fn sample(
     rng: &mut Pcg64,
     problem: &Problem<'_>,
@@ -138,7 +139,7 @@ fn sample(
     worst.distance = greater(worst.distance, of.distance);
 }
 
-/// The errors of one comparison, as shares of the bound.
+/// The errors of a position, a gap and a distance in one comparison with exact values, as shares of their bound.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shares {
     place: f64,
@@ -146,7 +147,8 @@ struct Shares {
     distance: f64,
 }
 
-/// Returns the errors of positions, of a support gap and of a distance at one clock, as shares of the bound.
+/// Returns the errors of positions, a support gap and a distance at one clock, as shares of the bound
+/// [`distance_rounding`].
 fn shares_of_comparison(
     rng: &mut impl RngExt,
     problem: &Problem<'_>,

@@ -1,5 +1,5 @@
-//! Proves bodies apart that are far from each other all the time: by two balls on straight paths, or by one fixed plane
-//! between two boxes.
+//! Proves bodies apart that stay far from each other, by two balls on straight paths or by one fixed plane between two
+//! boxes.
 //!
 //! A path with a constant acceleration is within an eighth of that acceleration from the straight path between its
 //! ends.
@@ -44,7 +44,7 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
     distance - a.radius - b.radius - 2.0 * problem.rounding
 }
 
-/// Returns how far the vector between the balls' centres may be off a linear function of time, because of
+/// Returns a bound of the deviation of the vector between the balls' centres from a linear function of time, due to
 /// accelerations.
 fn deviation_from_line(problem: &Problem<'_>) -> f64 {
     0.125
@@ -58,9 +58,9 @@ pub(crate) fn nearest_clock(problem: &Problem<'_>) -> f64 {
     least_length_parameter(b.centre - a.centre, b.velocity - a.velocity)
 }
 
-/// A ball on a straight path that contains a body at all times.
+/// A ball that moves on a straight path and contains a body at all times, up to the effect of its acceleration.
 struct Ball {
-    /// The position of the centre at the start.
+    /// The position of the ball's centre at the start.
     centre: DVec3,
     velocity: DVec3,
     radius: f64,
@@ -128,7 +128,8 @@ fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
         .any(|n| plane_keeps_apart(problem, [&a, &b], n))
 }
 
-/// Returns the vector between the centres when they are nearest, if they keep their velocities at the start.
+/// Returns the vector between the boxes' centres at their closest approach, as if both kept their velocities at the
+/// start.
 fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2]) -> DVec3 {
     let way = b.centre - a.centre;
     let velocity =
@@ -138,7 +139,7 @@ fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2]) -
     way + velocity * greater(0.0, lesser(nearest, 1.0))
 }
 
-/// Returns whether a fixed plane perpendicular to a unit vector keeps the boxes apart.
+/// Returns whether a fixed plane perpendicular to the unit vector `n` keeps the boxes apart for the whole duration.
 fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3) -> bool {
     let gap = n.dot(b.centre - a.centre) - a.extent_along(n) - b.extent_along(-n);
     let excess = gap - problem.contact_distance() - 2.0 * problem.rounding;

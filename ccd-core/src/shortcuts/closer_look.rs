@@ -1,4 +1,4 @@
-//! Tighter bounds in f64 for single pairs of nodes, for which the bounds of eight in f32 are too coarse.
+//! Tighter bounds in f64 for single pairs of nodes, if the bounds of eight pairs at once in f32 are too coarse.
 //!
 //! These bounds are computed only where splits would prove little.
 
@@ -11,10 +11,10 @@ use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::GAP_ERROR_PER_RADIUS_F32;
 use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW};
 
-/// Computes tighter bounds for the pairs of a query, as far as they are useful.
+/// Computes tighter bounds for single pairs of nodes of a query, where splitting nodes would prove little.
 #[derive(Debug)]
 pub(crate) struct TighterBounds {
-    /// True if f32 is too coarse for the gap to keep between the largest nodes.
+    /// Whether the rounding of gaps in f32 is too large for the gap that the largest nodes have to keep.
     is_f32_coarse: bool,
     /// The number of splits in the search so far.
     splits: u64,
@@ -34,8 +34,8 @@ impl TighterBounds {
         }
     }
 
-    /// Removes the pair with the least clock `s` from its siblings, if a later clock can be proven for it. Returns that
-    /// clock and the pair, which then waits alone.
+    /// Removes the pair with the least clock, `s`, from its siblings if a later clock can be proven for it. Returns the
+    /// later clock and the pair, which then waits alone.
     #[inline(always)]
     pub(crate) fn remove_if_provable(
         &self,
@@ -50,7 +50,7 @@ impl TighterBounds {
         }
     }
 
-    /// Marks the pairs of a new split that are proven apart to the end as finished.
+    /// Marks pairs of a new split as finished if surfaces of the screw motion prove them apart to the end.
     #[inline(always)]
     pub(crate) fn finish_proven_pairs(
         &mut self,

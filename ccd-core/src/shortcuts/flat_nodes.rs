@@ -1,4 +1,4 @@
-//! Bounds for flat nodes that approach each other face to face.
+//! Free times in f64 of flat nodes that approach each other face to face.
 //!
 //! In f32 the rounding of the gap between two large plates is that of their size. For a finer tolerance all of their
 //! nodes would be split before a single pair of pieces is near enough. Their slabs are known in f64.
@@ -12,8 +12,9 @@ use crate::rounding::{GAP_ERROR_PER_RADIUS_F32, RATE_ERROR_F64};
 use crate::tuning::{CLOSED_GAP, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
 use glam::DVec3;
 
-/// Returns a time for which two flat nodes of A and B certainly keep the gap of nodes, from clock `s` on. The time is 0
-/// if they are not flat, if f32 is fine enough for them, or if rotation uses up more of the gap than their approach.
+/// Returns a time, from clock `s` on, for which a flat node of A and a flat node of B certainly keep the required gap.
+/// The time is 0 if the nodes are not flat, if f32 is fine enough for them, or if rotation uses up more of the gap than
+/// their approach.
 pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f64 {
     let sides = [(&problem.a, a), (&problem.b, b)];
     if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
@@ -30,7 +31,7 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
     greater(along(a.normal), along(b.normal))
 }
 
-/// Returns whether a node is a triangle, or thin enough for a flat node.
+/// Returns whether a node is a single triangle, or its box is thin enough for all its triangles to lie in one plane.
 fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
     match side.body.tree().get(id) {
         NodeOrTriangle::Node(node) => node.is_thin(),
@@ -38,11 +39,11 @@ fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
     }
 }
 
-/// A node whose triangles lie in one plane up to rounding, or a single triangle, placed where its body is at clock `s`
-/// (time, from 0 to 1), in the problem's coordinates.
+/// A flat node or a single triangle at its pose at a clock, in the problem's coordinates. All triangles of a flat node
+/// lie in one plane, up to rounding.
 struct FlatNode {
     node: PlacedNode,
-    /// Half the thickness; `None` for a triangle, whose corners are known.
+    /// Half the thickness of the node along its normal; `None` for a triangle, whose corners are known.
     half: Option<f64>,
     /// The unit normal of the node's plane.
     normal: DVec3,
@@ -82,7 +83,8 @@ impl FlatNode {
     }
 }
 
-/// Returns the time for which a fixed plane perpendicular to `n` keeps the nodes apart; `n` may have either sign.
+/// Returns a time for which a fixed plane perpendicular to `n` certainly keeps the nodes apart; `n` may have either
+/// sign.
 fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };

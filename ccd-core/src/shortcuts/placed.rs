@@ -1,5 +1,5 @@
-//! Bounding boxes of single nodes, and triangles, in f64 at the pose of a clock, and the rates at which two of them
-//! approach along a fixed direction.
+//! Nodes at the pose of a clock, as boxes or triangles in f64, and the rate at which two of them approach along a
+//! direction.
 
 use crate::body::tree::{NodeId, NodeOrTriangle};
 use crate::math::order::{greater, lesser};
@@ -11,11 +11,11 @@ use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{BOX_EXTENT_ERROR_F32, RATE_ERROR_F64};
 use glam::{DVec3, Vec3};
 
-/// A node's box or a triangle at the pose of a clock.
+/// A node's bounding box, or a single triangle, at the pose of a clock.
 pub(crate) struct PlacedNode {
     frame: Frame,
     shape: Shape,
-    /// The centre in the problem's coordinates, in which all arguments and results are.
+    /// The centre in the problem's coordinates. All arguments and results are in these coordinates.
     pub(crate) centre: DVec3,
     /// An upper bound of the distances of the node's points from the centre.
     pub(crate) radius: f64,
@@ -23,10 +23,11 @@ pub(crate) struct PlacedNode {
 
 enum Shape {
     Box {
-        /// The axes of the box at that pose.
+        /// The unit axes of the box, in the body's frame.
         axes: [DVec3; 3],
         half: [f64; 3],
-        /// The pieces' rounding radius, plus the error of the axes and half extents.
+        /// The distance by which the node's points may lie outside the box: the radius of rounded pieces, plus the
+        /// error of axes and half extents.
         slack: f64,
     },
     /// A triangle, by its corners relative to the centre.
@@ -88,7 +89,7 @@ impl PlacedNode {
         }
     }
 
-    /// Rotates a vector from the body's frame.
+    /// Rotates a vector from the body's frame to the problem's coordinates.
     pub(crate) fn rotated(&self, vector: DVec3) -> DVec3 {
         self.frame.rotation * vector
     }
@@ -107,7 +108,7 @@ impl PlacedNode {
         self.centre + self.rotated(along(0) + along(1) + along(2))
     }
 
-    /// Returns the axis of the box that is nearest in direction to `n`, oriented like it; `n` itself for a triangle.
+    /// Returns the box axis with the least angle to `n`, in the orientation of `n`; `n` itself for a triangle.
     pub(crate) fn axis_along(&self, n: DVec3) -> DVec3 {
         let Shape::Box { axes, .. } = &self.shape else {
             return n;
@@ -139,13 +140,13 @@ impl PlacedNode {
     }
 }
 
-/// Upper bounds of the rate at which a node of A and a node of B approach.
+/// Upper bounds of the rate at which a node of A and a node of B approach along a direction, and of its derivative.
 pub(crate) struct ApproachRateBounds {
     /// The rate at which the nodes' centres approach each other.
     pub(crate) straight: f64,
-    /// An upper bound of the rate at which any two points of the nodes approach.
+    /// An upper bound of the rate at which any two points of the nodes approach along the direction.
     rate: f64,
-    /// An upper bound of the second derivative of the approach; negative if the nodes accelerate away from each other.
+    /// An upper bound of the derivative of that rate; negative if the nodes accelerate away from each other.
     second_derivative: f64,
 }
 
@@ -175,7 +176,7 @@ impl ApproachRateBounds {
         }
     }
 
-    /// Returns a time in which the nodes certainly do not use up a gap.
+    /// Returns a time in which the nodes certainly approach by less than `gap`.
     pub(crate) fn free_time(&self, gap: f64) -> f64 {
         let gap = Gap {
             gap,

@@ -1,5 +1,5 @@
-//! Searches one period instead of all, for bodies that turn many times. A *round* is a number of periods that are
-//! searched together.
+//! Searches one period of the motions instead of all periods, for bodies that turn many times. A *round* is a number of
+//! periods that are searched together.
 //!
 //! The distances in each period of a round differ from those in the first by at most a known
 //! change, see `motion/period.rs`. Bodies that keep that change beyond the margin in the first period keep the margin
@@ -20,33 +20,34 @@ use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
 use crate::tuning::{MAX_PERIOD_SHARE, MAX_SCREW_DRIFT, PERIOD_CHANGE_SHARE};
 use std::ops::ControlFlow;
 
-/// A problem with periodic motions, and what is proven of it so far.
+/// A problem with periodic motions, and the time until which the bodies are proven apart.
 #[derive(Debug)]
 pub(crate) struct Rounds<'a> {
     whole: Problem<'a>,
     period: Period,
-    /// The error of distances in a part of the duration, in addition to the error in the whole.
+    /// The error of distances in a single period, in addition to the error of distances in the whole problem.
     rounding: f64,
     /// The clock until which the bodies are proven apart.
     from: f64,
     round: Round,
-    /// The number of periods to search one after the other, if they differ too much to be represented by one.
+    /// The number of periods of the next round that is searched in full, because its periods differ too much.
     patience: f64,
     /// A lower bound of the distance of the bodies up to the clock `from`.
     gap: f64,
 }
 
-/// The periods of a round, as a number of periods, and how they are searched.
+/// The number of periods of a round, and the way they are searched.
 #[derive(Clone, Copy, Debug)]
 enum Round {
-    /// The first period is searched, and represents all others.
+    /// Only the first of this number of periods is searched; it represents the others.
     FirstPeriod(f64),
-    /// All periods are searched.
+    /// All of this number of periods are searched.
     AllPeriods(f64),
 }
 
 impl<'a> Rounds<'a> {
-    /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
+    /// Creates the rounds of a problem; `None` if the motions are not periodic, or the periods are too long to save
+    /// work.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         if problem.turns_at_least_twice() && free_by_bounding_volumes(problem).is_none() {
@@ -56,7 +57,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Searches round by round, until one of them has the outcome.
+    /// Searches one round after the other, until a round gives the outcome of the problem.
     #[cold]
     pub(crate) fn run(
         mut self,
@@ -110,7 +111,7 @@ impl<'a> Rounds<'a> {
         Some(rounds)
     }
 
-    /// Returns the problem to search in this round.
+    /// Returns the problem to search in the present round: its first period or all periods, with a raised margin.
     pub(crate) fn between_clocks(&self) -> Problem<'a> {
         let tolerance = self.whole.tolerance;
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
@@ -128,7 +129,7 @@ impl<'a> Rounds<'a> {
         )
     }
 
-    /// Processes the outcome of a round, and starts the next round or returns the outcome of the query.
+    /// Processes the outcome of a round: starts the next round, or breaks with the outcome of the whole problem.
     pub(crate) fn on_outcome(
         &mut self,
         outcome: &Outcome,
@@ -159,7 +160,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Records that the bodies keep a gap in a round, and continues with the next.
+    /// Records that the bodies keep a gap in the present round, and starts the next round or ends the search.
     fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
         self.gap = lesser(self.gap, (gap - self.raised_margin()).next_down());
         self.from = self.end_clock();
@@ -180,7 +181,7 @@ impl<'a> Rounds<'a> {
         ControlFlow::Continue(())
     }
 
-    /// Processes a contact in a round: the bodies are in contact, or the round was too long and is shortened.
+    /// Processes a contact in the present round: returns it if the bodies are in contact, or else shortens the round.
     fn process_contact(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
         let within = self.whole.contact_distance();
         let contact = widened(contact, self.rounding);
@@ -199,7 +200,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Starts a round of `count` periods, or of all that are left.
+    /// Starts a round of `count` periods, or of the remaining periods if fewer are left.
     fn start_round(&mut self, count: f64) {
         let left = ((1.0 - self.from) / self.period.length).ceil();
         self.round = match lesser(count, left) {
@@ -220,7 +221,8 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Returns a bound of the difference between distances in the round and those in the searched part.
+    /// Returns a bound of the difference between distances in the searched part of the round and at the same phase of
+    /// its other periods.
     fn distance_change(&self) -> f64 {
         match self.round {
             Round::FirstPeriod(count) => count * self.period.change,
@@ -228,25 +230,26 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Returns the distance beyond the margin that the searched part has to keep.
+    /// Returns the distance that the bodies have to keep beyond the margin in the searched part of the round.
     fn raised_margin(&self) -> f64 {
         self.distance_change() + self.rounding
     }
 }
 
-/// A period that represents the whole duration, for questions about distances.
+/// One period that represents the whole duration, for queries for the closest approach.
 #[derive(Debug)]
 pub(crate) struct Sample<'a> {
-    /// The problem in that period, with a tolerance that leaves room for the change.
+    /// The problem restricted to this period, with a tolerance that leaves room for `change`.
     pub(crate) part: Problem<'a>,
-    /// A bound of how much distances in other periods differ from those in this one.
+    /// A bound of the difference between distances in this period and in any other.
     pub(crate) change: f64,
-    /// The error of distances in the period, in addition to that of the whole problem.
+    /// The error of distances in this period, in addition to the error of distances in the whole problem.
     pub(crate) rounding: f64,
 }
 
 impl<'a> Sample<'a> {
-    /// Returns the first period if all others are equal to it, up to a part of the tolerance; `None` otherwise.
+    /// Returns the first period if its distances differ from those in all other periods by at most a part of the
+    /// tolerance; `None` otherwise.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         if problem.turns_at_least_twice() {
@@ -270,7 +273,7 @@ impl<'a> Sample<'a> {
         })
     }
 
-    /// Converts a lower bound of the distance in the period to one for the whole duration.
+    /// Converts a lower bound of the distance in this period to a lower bound for the whole duration.
     pub(crate) fn lower(&self, distance: f64) -> f64 {
         greater(0.0, (distance - (self.change + self.rounding)).next_down())
     }
@@ -281,7 +284,7 @@ impl<'a> Sample<'a> {
     }
 }
 
-/// Widens the bounds of a contact by an error.
+/// Widens the bounds of a contact's distance by `rounding` on either side.
 fn widened(contact: Contact, rounding: f64) -> Contact {
     let Separation { lower, upper, .. } = contact.separation;
     contact.with_bounds((lower - rounding).next_down(), (upper + rounding).next_up())
@@ -294,8 +297,8 @@ fn path_with_radius<'p>(side: &'p BodyWithPath<'_>) -> PathWithRadius<'p> {
     }
 }
 
-/// Returns the period that leaves the least time to search, if rounds end once distances have changed by `change`;
-/// `None` if no period saves time.
+/// Returns the period with the least total time to search, if each round lasts until distances have changed by
+/// `change`; `None` if no period saves enough time.
 fn period_with_least_work(bodies: [PathWithRadius<'_>; 2], change: f64) -> Option<Period> {
     let searched = |period: &Period| {
         let rounds = greater(1.0, period.change / (period.length * change));

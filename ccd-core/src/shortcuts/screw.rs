@@ -1,5 +1,5 @@
-//! Proves nodes apart if one body turns about an axis at rest relative to the other: a bolt in a nut, a shaft in a
-//! sleeve, a wheel, a hinge.
+//! Proves nodes apart if one body turns about an axis that hardly moves relative to the other body, such as a bolt in a
+//! nut, a shaft in a sleeve, a wheel or a hinge.
 //!
 //! With `r` the distance of a point from the axis, `φ` its azimuth, `z` its height along the axis
 //! and `p` the advance per radian, neither `r` nor `ζ = z − p φ` changes while the point moves. A
@@ -29,7 +29,8 @@ use std::ops::Range;
 pub(crate) struct Screw {
     turning_body: WhichBody,
     axis: ScrewAxis,
-    /// The whole path along the screw, and the distance to keep on it. The distance includes the drift of the axis.
+    /// The part of the screw motion from the start to the end of the query, and the distance to keep. The distance
+    /// includes the drift of the axis.
     path: ScrewPath,
 }
 
@@ -44,13 +45,13 @@ struct BodyProfiles {
     known: Vec<Profile>,
 }
 
-/// The value of `profile_indices` for a profile that is not computed yet.
+/// The entry of `profile_indices` for a node whose profile is not computed yet.
 const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
 impl Screw {
-    /// Returns the screw motion of the problem, and clears all profiles; `None` unless one body turns, and the axis
-    /// hardly moves relative to the other.
+    /// Returns the screw motion of one body relative to the other, and clears all profiles. It is `None` unless exactly
+    /// one body turns, and its axis hardly moves relative to the other body.
     pub(crate) fn for_problem(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
         let turning = match (problem.a.path.is_turning(), problem.b.path.is_turning()) {
             (true, false) => WhichBody::A,
@@ -93,8 +94,8 @@ impl Screw {
         })
     }
 
-    /// Returns whether a node of A and a node of B certainly keep the gap of nodes, from clock `s` to the end; `None`
-    /// if one of them surrounds the axis, or nearly does.
+    /// Returns whether a node of A and a node of B certainly keep the required gap from clock `s` to the end; `None` if
+    /// one of them surrounds the axis, or nearly does.
     pub(crate) fn keeps_apart(
         &self,
         problem: &Problem<'_>,
@@ -119,7 +120,8 @@ impl Screw {
         }))
     }
 
-    /// Like `Screw::keeps_apart`, without a test of the triangles below the nodes.
+    /// Returns whether the nodes certainly keep the required gap, like [`Screw::keeps_apart`], but without a test of
+    /// the triangles below the nodes.
     fn keeps_nodes_apart(
         &self,
         problem: &Problem<'_>,
@@ -150,7 +152,7 @@ impl BodyProfiles {
         self.profile_indices.resize(count, UNKNOWN);
     }
 
-    /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly does.
+    /// Returns the profile of a node or triangle; `None` if the node surrounds the axis, or nearly does.
     fn profile_of(
         &mut self,
         side: &BodyWithPath<'_>,
@@ -171,8 +173,8 @@ impl BodyProfiles {
     }
 }
 
-/// Computes the profile of a node at its pose at the start. A profile of a few triangles is smaller than that of their
-/// box.
+/// Computes the profile of a node in its pose at the start of the query; `None` if the node surrounds the axis, or
+/// nearly does. A profile of a few triangles is smaller than that of their box.
 fn profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| PlacedNode::new(side, id, 0.0);
     match triangles(side, id) {
@@ -181,7 +183,7 @@ fn profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Prof
     }
 }
 
-/// Returns the ids of the triangles of a node with few triangles; `None` for other nodes.
+/// Returns the ids of the triangles of a lowest node, or of a single triangle; `None` for all other nodes.
 fn triangles(side: &BodyWithPath<'_>, id: NodeId) -> Option<Range<NodeId>> {
     let tree = side.body.tree();
     match tree.get(id) {

@@ -19,7 +19,8 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut ExhaustiveOracle)
 }
 
-/// Checks that at the earlier of two times of contact the bodies are still as far apart as the later answer proves.
+/// Checks that two times of contact agree: at the earlier one, the bodies are as far apart as the answer with the later
+/// one proves.
 fn assert_times_agree(problem: &Problem<'_>, earlier: f64, number: usize) {
     let near = distance(problem, earlier);
     assert!(
@@ -79,7 +80,7 @@ fn moving(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
     Motion::new(at(place), velocity, spin).unwrap()
 }
 
-/// Returns two triangles for each square of a grid with corners at `point(i, j)`.
+/// Returns the triangles of a grid surface with corners at `point(i, j)`, two for each square of the grid.
 fn sheet(rows: usize, columns: usize, point: impl Fn(f64, f64) -> [f64; 3]) -> Vec<Triangle> {
     let point = |i: usize, j: usize| {
         DVec3::from_array(point(i as f64 / rows as f64, j as f64 / columns as f64))
@@ -121,7 +122,7 @@ fn disc(segments: usize) -> Body {
     body(&fan)
 }
 
-/// Returns the scene for which a shortcut is made.
+/// Returns the scene that a shortcut is made for, which the README of the shortcuts describes.
 fn scene_of(shortcut: Shortcut) -> Pair {
     let still = Motion::STILL;
     match shortcut {
@@ -166,7 +167,8 @@ fn scene_of(shortcut: Shortcut) -> Pair {
     }
 }
 
-/// Reads from the README for each shortcut the work without any shortcut, and with this one alone.
+/// Reads from the README the documented work in the scene of each shortcut: without any shortcut, and with this
+/// shortcut alone.
 fn documented_work() -> Vec<[u64; 2]> {
     let rows = include_str!("README.md")
         .lines()

@@ -17,21 +17,21 @@ use crate::rounding::{LEAST_SECOND_DERIVATIVE_F32, RATE_ERROR_F32, SECOND_DERIVA
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// A node of one body in the frame of a plane that turns with the other body.
+/// The motion of a node relative to a plane that turns with the other body, for eight pairs of nodes at once.
 struct TurningNode<L: Simd> {
-    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus a bound for the
-    /// points around it.
+    /// An upper bound of the rate at which the node's points approach the plane. It is the rate `n·(v_S − v_O)` at the
+    /// node's centre, with both velocities taken at that point, plus a bound for the points around it.
     rate: f32x8<L>,
-    /// The largest distance of the node's points from the turning body's centre.
+    /// The largest distance of the node's points from the centre of the body that the plane turns with.
     distance: f32x8<L>,
-    /// An upper bound of the speeds of the node's points due to its own body's rotation.
+    /// An upper bound of the speeds of the node's points due to the rotation of the node's own body.
     speed: f32x8<L>,
     /// The angular speed `|ω|` of the node's own body.
     own_angular_speed: f32,
 }
 
 impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
-    /// Returns the times for which planes that turn with the split body keep the pairs apart.
+    /// Returns times for which planes that turn with the body of the split node certainly keep the eight pairs apart.
     #[inline(always)]
     pub(crate) fn free_with_split(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, other) = (self.motion, self.other);
@@ -54,7 +54,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         )
     }
 
-    /// Returns the times for which planes that turn with the other body keep the pairs apart.
+    /// Returns times for which planes that turn with the body of the unsplit node certainly keep the eight pairs apart.
     #[inline(always)]
     pub(crate) fn free_with_other(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);

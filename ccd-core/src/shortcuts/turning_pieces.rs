@@ -26,7 +26,7 @@ pub(crate) struct MovingPiece<'p> {
     pub(crate) frame: &'p Frame,
     pub(crate) piece: Piece<'p>,
     pub(crate) clock: f64,
-    /// An upper bound of the rate at which any point moves relative to the first one, along any fixed axis.
+    /// An upper bound of the speed of any point of the piece relative to the piece's first point.
     pub(crate) relative_speed: f64,
 }
 
@@ -51,46 +51,46 @@ impl<'p> MovingPiece<'p> {
         }
     }
 
-    /// Returns an upper bound of the rate at which any point moves relative to the first one along one fixed axis; at
-    /// most `relative_speed`, which holds for every axis.
+    /// Returns an upper bound of the rate at which any point of the piece moves along `normal`, relative to the piece's
+    /// first point. It is at most `relative_speed`, which holds for every axis.
     pub(crate) fn relative_speed_along(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
         self.relative_speed * path.spin.cross(normal).length() / path.rate
     }
 }
 
-/// A piece of one body in the frame of a plane that turns with the other body.
+/// A piece of one body, as seen from a plane that turns with the other body.
 pub(crate) struct TurningPiece<'p> {
     /// The plane's normal `n`, which turns at `ω`.
     normal: RotatingVector,
     unit: DVec3,
     angular_speed: f64,
-    /// The vector `D` at the present time.
+    /// The vector `D`, from the turning body's centre to the reference point, at the present clock.
     offset: DVec3,
     velocity: DVec3,
     speed: f64,
-    /// The derivative `V'` of `V`, which is constant.
+    /// The acceleration `V'` of the reference point relative to the turning body's centre, which is constant.
     acceleration: DVec3,
     /// The direction of the angular velocity `ω_s` of the piece's own body.
     own_rotation_axis: DVec3,
     own_angular_speed: f64,
-    /// The relative angular velocity `Δ`.
+    /// The relative angular velocity `Δ = ω − ω_s`.
     relative: DVec3,
     piece: Piece<'p>,
     frame: &'p Frame,
-    /// The point at the end of `D`, in the frame of the piece's body.
+    /// The reference point at the end of `D`, in the frame of the piece's body.
     reference_point: DVec3,
     radius: f64,
     /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
     reach: f64,
-    /// A bound of the displacement of points by rounding, for both bodies together.
+    /// A bound of the error of the points' positions by rounding, for both bodies together.
     rounding_displacement: f64,
-    /// The number of evaluations of the plane against a point.
+    /// The number of times that a point's height above the plane was computed; it is counted as work.
     pub(crate) evaluations: Cell<u64>,
 }
 
-/// The terms of heights and rates after some time. A point with the vector `arm` in its body's frame has the height
-/// `height + axis·arm` and the rate `rate + closing·arm`.
+/// The coefficients of a point's height above the plane, and of the rate of the height, at one time. A point with the
+/// vector `arm` in its body's frame has the height `height + axis·arm` and the rate `rate + rate_axis·arm`.
 struct HeightTerms {
     height: f64,
     axis: DVec3,
@@ -99,8 +99,8 @@ struct HeightTerms {
 }
 
 impl<'p> TurningPiece<'p> {
-    /// Creates the view of a piece that moves past a plane which turns with the body of `holder`. The `normal` points
-    /// from that body to the piece, and `rounding` is the problem's.
+    /// Creates the description of the piece `other` relative to a plane that turns with the body of `holder`. The
+    /// `normal` points from that body to the piece, and `rounding` is the problem's.
     pub(crate) fn new(
         holder: &MovingPiece<'_>,
         other: &MovingPiece<'p>,
@@ -140,8 +140,8 @@ impl<'p> TurningPiece<'p> {
         }
     }
 
-    /// Returns a time for which the plane certainly keeps the required gap; `None` if it does up to the horizon.
-    /// `slack` is the present excess over that gap.
+    /// Returns a time for which the pieces certainly keep the required gap along the plane's normal; `None` if they do
+    /// up to `horizon`. `slack` is the present excess over that gap.
     pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least_start_height();
@@ -173,7 +173,7 @@ impl<'p> TurningPiece<'p> {
         })
     }
 
-    /// Returns bounds of the rounding of height changes, and of rates.
+    /// Returns a bound of the rounding of changes of height, and a bound of the rounding of their rates.
     fn allowances(&self) -> (f64, f64) {
         let turns = self.angular_speed + self.own_angular_speed;
         let rounding = turning_axis_rounding(turns);
@@ -185,13 +185,13 @@ impl<'p> TurningPiece<'p> {
         )
     }
 
-    /// Returns the least height of the points at the start.
+    /// Returns the least height of the piece's points along the plane's normal at the present clock.
     fn least_start_height(&self) -> f64 {
         let HeightTerms { height, axis, .. } = self.turned(0.0);
         height + self.least_height_along(axis)
     }
 
-    /// Returns the least height along a direction over the vectors to the points.
+    /// Returns the least height along a direction of the piece's points, measured from the reference point.
     fn least_height_along(&self, direction: DVec3) -> f64 {
         if self.piece.bounding_ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
@@ -201,7 +201,7 @@ impl<'p> TurningPiece<'p> {
         heights.fold(f64::INFINITY, lesser)
     }
 
-    /// Returns the vectors from the point `reference` to the piece's points.
+    /// Returns the vectors from the reference point to the piece's points, in the body's frame.
     fn arms(&self) -> impl Iterator<Item = DVec3> {
         let reference = self.reference_point;
         self.piece.points.iter().map(move |&y| y - reference)
@@ -226,7 +226,8 @@ impl<'p> TurningPiece<'p> {
         }
     }
 
-    /// Returns the vectors `D` and `V` after a time `tau`.
+    /// Returns the offset `D` and the velocity `V` of the reference point from the turning body's centre, at the time
+    /// `tau` after the present clock.
     fn offset_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);
         (
@@ -235,7 +236,8 @@ impl<'p> TurningPiece<'p> {
         )
     }
 
-    /// Returns a bound of the second derivative of heights, for [`MAX_TURNING_PLANE_TIME`] from `tau` on.
+    /// Returns a bound of the second derivative of the points' heights, which holds for a time
+    /// [`MAX_TURNING_PLANE_TIME`] from `tau` on.
     fn second_derivative(&self, tau: f64) -> f64 {
         let (offset, _) = self.offset_and_velocity_after(tau);
         let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);

@@ -99,7 +99,7 @@ fn half_contact_distance_of(scene: &Scene, k: usize) -> f64 {
     half_contact_distance(&side, &scene.config.terms())
 }
 
-/// Tests that bodies do not touch if their boxes are apart, also if the boxes are hardly apart.
+/// Tests that bodies do not touch if their boxes are disjoint, even if the boxes are barely disjoint.
 #[test]
 fn bodies_whose_boxes_are_apart_are_free() {
     let mut rng = rng(2);

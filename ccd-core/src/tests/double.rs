@@ -1,5 +1,5 @@
-//! Double-double arithmetic, the reference for tests of rounding. A number is the unevaluated sum of two f64, with a
-//! relative error of about 1e-31.
+//! Double-double arithmetic, which gives the exact values for tests of rounding. A number is the unevaluated sum of two
+//! f64, with a relative error of about 1e-31.
 //!
 //! A separate crate of tests could not provide it: that crate would depend on this one, which would be built twice.
 
@@ -46,7 +46,7 @@ impl Double {
         (root + self / root) * Double::from(0.5)
     }
 
-    /// Returns the angle with this sine and the given cosine, both at least 0.
+    /// Returns the angle whose sine is `self` and whose cosine is `cosine`, up to a common factor; both are at least 0.
     pub(crate) fn atan2(self, cosine: Double) -> Double {
         let angle = Double::from(self.high.atan2(cosine.high));
         // One Newton step doubles the digits of the f64 angle.
@@ -54,7 +54,8 @@ impl Double {
         angle + (self * cos - cosine * sin) / (self * sin + cosine * cos)
     }
 
-    /// Returns the sine and cosine, by Taylor's series of a small fraction of the angle, which is doubled repeatedly.
+    /// Returns the sine and the cosine of the angle, by Taylor series for a small fraction of the angle and repeated
+    /// doubling.
     pub(crate) fn sin_cos(self) -> (Double, Double) {
         let mut halvings = 0;
         let mut angle = self;
@@ -182,7 +183,7 @@ impl Double3 {
         Double3(self.0.map(|x| x / length))
     }
 
-    /// Returns the vector rotated by a quaternion of any length.
+    /// Returns the vector rotated by a quaternion, which need not be normalised.
     fn rotated(self, q: DQuat) -> Double3 {
         let v = Double3::from(q.xyz());
         let w = Double::from(q.w);
@@ -192,7 +193,7 @@ impl Double3 {
         self + Double3(moved.0.map(|x| x / square))
     }
 
-    /// Returns the vector rotated about a unit axis.
+    /// Returns the vector rotated by `angle` about a unit axis.
     pub(crate) fn turned(self, axis: Double3, angle: Double) -> Double3 {
         let (sin, cos) = angle.sin_cos();
         let along = axis.scale(axis.dot(self));
@@ -224,7 +225,7 @@ pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Dou
     start + Double3::from(motion.velocity()).scale(time) + arm
 }
 
-/// Returns a vector of the body's frame in the world's frame, at time `s · duration`.
+/// Rotates a vector from the body's frame to the world's frame at time `s · duration`.
 fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
     let vector = vector.rotated(motion.start().rotation());
@@ -235,7 +236,7 @@ fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     vector.turned(spin.unit(), spin.length() * time)
 }
 
-/// The given poses of a body at both ends of a motion, with quaternions of any length.
+/// The given poses of a body at both ends of a motion; the quaternions need not be normalised.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EndPoses {
     pub(crate) positions: [DVec3; 2],
@@ -245,7 +246,7 @@ pub(crate) struct EndPoses {
 }
 
 impl EndPoses {
-    /// Returns the world position of a body's point after a share of the duration.
+    /// Returns the exact world position of a body's point after the share `share` of the duration.
     pub(crate) fn place(&self, share: Double, point: DVec3) -> Double3 {
         let centre = Double3::from(self.centre);
         let [start, end] =
@@ -262,7 +263,8 @@ impl EndPoses {
         start + (end - start).scale(share) + arm
     }
 
-    /// Returns the quaternion from the first orientation to the second, of any length, with a non-negative real part.
+    /// Returns a quaternion that rotates the first orientation to the second; it is not normalised, and its real part
+    /// is not negative.
     fn turn(&self) -> ([Double; 3], Double) {
         let [from, to] = self.turned;
         let [v, u] = [from.xyz(), to.xyz()].map(Double3::from);

@@ -1,5 +1,5 @@
-//! Tests motions between poses far from the world's origin. Answers hold for the motion between the given poses, not
-//! for the rounded one.
+//! Tests that answers hold for the exact motion between given poses far from the world's origin, not only for the
+//! rounded motion.
 
 use super::double::{Double, Double3, EndPoses};
 use super::oracle::ExhaustiveOracle;
@@ -15,7 +15,8 @@ use crate::schedule::{BestFirst, Naive};
 use crate::settings::Settings;
 use glam::DVec3;
 
-/// Draws poses at both ends near a point in the world, with quaternions of any length, sometimes equal.
+/// Draws the poses at both ends of a motion near a point in the world; the orientations are sometimes equal, and the
+/// quaternions not normalised.
 pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> EndPoses {
     let at = |rng: &mut R| world + point_in_ball(rng, size);
     let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
@@ -32,13 +33,13 @@ pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> EndPoses 
     }
 }
 
-/// Creates the engine's motion between two poses.
+/// Creates the motion between two poses that the engine searches, with velocities rounded to f64.
 pub(crate) fn between(ends: &EndPoses, duration: f64) -> Motion {
     let [start, end] = [0, 1].map(|k| Pose::new(ends.positions[k], ends.turned[k]).unwrap());
     Motion::between(start, end, ends.centre, duration).unwrap()
 }
 
-/// Two balls, each with its centre off its body's origin.
+/// Two balls that move between given poses, each with its centre away from its body's origin.
 struct Scene {
     ends: [EndPoses; 2],
     centres: [DVec3; 2],
@@ -55,7 +56,7 @@ impl Scene {
         }
     }
 
-    /// Returns the exact distance of the balls after a share of the duration.
+    /// Returns the exact distance of the balls after the share `share` of the duration.
     fn distance(&self, share: Double) -> Double {
         let [a, b] = [0, 1].map(|k| self.ends[k].place(share, self.centres[k]));
         let way: Double3 = b - a;

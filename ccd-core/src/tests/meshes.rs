@@ -3,7 +3,8 @@
 use super::nearest::Triangle;
 use glam::{DVec2, DVec3};
 
-/// Returns a cube from −half to half, with outward normals, each face cut into `n × n` squares.
+/// Returns a cube of edge length `2 half` about the origin, with outward normals. Each face is cut into `n × n` squares
+/// of two triangles.
 pub(crate) fn cube(half: f64, n: usize) -> Vec<Triangle> {
     let mut out = Vec::new();
     for axis in 0..3 {
@@ -46,12 +47,12 @@ pub(crate) fn torus(n: usize, m: usize) -> Vec<Triangle> {
     squares.flat_map(|(i, j)| square(i, j)).collect()
 }
 
-/// Returns the `k`th of `n` points of the unit circle.
+/// Returns the `k`th of `n` equally spaced points on the unit circle.
 fn turn(k: usize, n: usize) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * (k % n) as f64 / n as f64)
 }
 
-/// Returns the same surface with reversed orientation.
+/// Returns the triangles with reversed orientation, so that normals point inward.
 pub(crate) fn inside_out(triangles: &[Triangle]) -> Vec<Triangle> {
     triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
 }

@@ -1,5 +1,5 @@
-//! Finds the nearest points of two triangles by brute force: every edge with every edge, every corner with the other's
-//! plane, and whether an edge pierces the other triangle.
+//! Finds the nearest points of two triangles by brute force. It compares every edge with every edge, and every corner
+//! and every edge of each triangle with the other triangle.
 //!
 //! A separate crate of tests could not provide it: that crate would depend on this one, which would be built twice.
 
@@ -8,7 +8,7 @@ use glam::DVec3;
 
 pub(crate) type Triangle = [DVec3; 3];
 
-/// The nearest points of two triangles as weights of the corners, and their distance.
+/// The nearest points of two triangles, by their barycentric coordinates, and their distance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) a: [f64; 3],
@@ -16,7 +16,7 @@ pub(crate) struct Nearest {
     pub(crate) distance: f64,
 }
 
-/// Finds the nearest points of two triangles, which may be segments or points.
+/// Finds the nearest points of two triangles, which may be degenerate: segments or points.
 ///
 /// Every candidate is a pair of points of the two triangles, so that rounding can only make the
 /// distance too large.
@@ -73,7 +73,7 @@ fn on_edge(k: usize, t: f64) -> [f64; 3] {
     weights
 }
 
-/// Returns the parameters of the nearest points of two segments.
+/// Returns the parameters, from 0 to 1, of the nearest points of two segments.
 fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     let (d, e, r) = (p_end - p, q_end - q, p - q);
     let (dd, ee, de) = (d.dot(d), e.dot(e), d.dot(e));
@@ -89,7 +89,8 @@ fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     (s, t)
 }
 
-/// Projects a point onto a triangle, and returns the weights of its corners; `None` if the projection is outside.
+/// Projects a point onto a triangle's plane, and returns the barycentric coordinates of the projection; `None` if it is
+/// outside the triangle.
 fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     let (u, v) = (t[1] - t[0], t[2] - t[0]);
     let normal = u.cross(v);
@@ -100,7 +101,7 @@ fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     inside(weights_u, weights_v)
 }
 
-/// Returns the point where a segment meets a triangle, as a parameter and weights.
+/// Returns the point where a segment meets a triangle, by its parameter on the segment and its barycentric coordinates.
 fn piercing_point(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]);
     let (from, to) = (normal.dot(p - t[0]), normal.dot(q - t[0]));

@@ -6,7 +6,8 @@ use crate::distance::oracle::{Claim, DistanceOracle, GiveUpReason, PiecePair};
 use crate::distance::separation::support_gap;
 use glam::DVec3;
 
-/// A slow oracle that compares all pairs of features of two pieces. Balls and capsules are represented by their cores.
+/// A slow oracle for pieces of up to three points, which compares all pairs of their vertices, edges and faces. Balls
+/// and capsules are represented by their cores.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ExhaustiveOracle;
 
@@ -28,8 +29,8 @@ impl DistanceOracle for ExhaustiveOracle {
     }
 }
 
-/// Returns the axis of widest gap among these: the vector between the nearest points, its components perpendicular to
-/// an edge, the normals, and the products of edges.
+/// Returns the axis along which two triangles have the widest gap, among a list of candidates. These are the vector
+/// between the nearest points, its components perpendicular to an edge, the normals, and the cross products of edges.
 fn widest_gap_axis(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let normal = |t: &Triangle| (t[1] - t[0]).cross(t[2] - t[0]);

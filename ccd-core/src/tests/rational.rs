@@ -1,4 +1,4 @@
-//! Exact fractions for sums and products of numbers of any magnitude.
+//! Exact fractions, to compute sums and products of numbers of any magnitude without rounding.
 //!
 //! Other crates of the workspace include this file by its path.
 
@@ -13,7 +13,7 @@ pub(crate) fn exact(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite number")
 }
 
-/// Returns how much a number differs from an exact one.
+/// Returns the absolute difference of a number from the exact value `truth`.
 pub(crate) fn error_of(x: f64, truth: &Relaxed) -> f64 {
     (exact(x) - truth).to_f64().value().abs()
 }

@@ -1,4 +1,4 @@
-//! Random bodies and motions of every shape and size; the same seed gives the same scene.
+//! Random bodies and motions of every kind and size for tests; the same seed gives the same scene.
 
 use super::nearest::{Triangle, nearest};
 use super::worst::RandomCase;
@@ -18,7 +18,7 @@ pub(crate) use rand::{RngExt, SeedableRng};
 pub(crate) use rand_pcg::Pcg64;
 use std::convert::Infallible;
 
-/// The shapes and sizes of a soup's triangles.
+/// The shapes and sizes of the triangles of a soup, a set of unconnected triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SoupKind {
     WellShaped,
@@ -28,7 +28,7 @@ pub(crate) enum SoupKind {
     Flat,
     /// All triangles are along one line, up to 1e-7 of their size.
     Stretched,
-    /// The sizes extend over six orders of magnitude.
+    /// The sizes of the triangles extend over six orders of magnitude.
     Mixed,
 }
 
@@ -46,7 +46,8 @@ pub(crate) fn rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
 
-/// Draws random numbers from the tape of a search, so that scenes can be searched too.
+/// Draws random numbers from a case of a search for the worst rounding error, so that scenes can be drawn in such a
+/// search.
 impl TryRng for RandomCase {
     type Error = Infallible;
 
@@ -89,7 +90,8 @@ pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
     DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
 }
 
-/// Draws the corners of a box with half extents of up to 1: long, flat, or any.
+/// Draws the corners of a box in any orientation, with a half extent of 1 along one axis and of at most 1 along the
+/// others.
 pub(crate) fn random_box_corners(tape: &mut RandomCase) -> Vec<DVec3> {
     let frame = glam::DMat3::from_quat(rotation(tape));
     let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
@@ -100,7 +102,7 @@ pub(crate) fn random_box_corners(tape: &mut RandomCase) -> Vec<DVec3> {
     (0..8).map(corner).collect()
 }
 
-/// Draws triangles about the origin, none of which extends much beyond `size`.
+/// Draws `count` triangles near the origin, none of which extends much farther than `size` from it.
 pub(crate) fn soup(
     rng: &mut impl RngExt,
     look: SoupKind,
@@ -130,7 +132,7 @@ pub(crate) fn soup(
         .collect()
 }
 
-/// Draws two triangles of any shape, or two plump ones that often cross.
+/// Draws two triangles, either of any kind of soup, or with random corners in one ball so that they often cross.
 pub(crate) fn two_random_triangles(rng: &mut Pcg64) -> [Triangle; 2] {
     if rng.random_bool(0.5) {
         return [(); 2].map(|()| [(); 3].map(|()| point_in_ball(rng, 1.0)));
@@ -153,15 +155,15 @@ pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
     Pieces::triangles(&points, &faces, &ids).unwrap()
 }
 
-/// The motion of a body, given by its pose at some clock.
+/// The motion of a body with constant velocities, given by its pose at the clock `clock`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passage {
     pub(crate) clock: f64,
     pub(crate) rotation: DQuat,
-    /// The position of the body's point `middle` at that clock.
+    /// The position of the body's point `middle` at the clock `clock`.
     pub(crate) place: DVec3,
     pub(crate) middle: DVec3,
-    /// The displacement of the centre of rotation over the whole duration.
+    /// The velocity of the centre of rotation, for a duration of 1.
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
     /// The centre of rotation in the body's frame.
@@ -177,7 +179,7 @@ impl Passage {
         Motion::about(pose, self.velocity, self.spin, self.centre).unwrap()
     }
 
-    /// Returns the velocity of the point `middle` at the clock.
+    /// Returns the velocity of the body's point `middle` at the clock `clock`.
     fn velocity_of_middle(&self) -> DVec3 {
         self.velocity + self.spin.cross(self.rotation * (self.middle - self.centre))
     }
@@ -203,7 +205,7 @@ impl Scene {
         Problem::accelerated(bodies, self.accelerations, 1.0, &self.config.terms()).unwrap()
     }
 
-    /// Adds accelerations of the bodies in every third case.
+    /// Adds accelerations of both bodies with a probability of a third.
     pub(crate) fn with_random_accelerations(self, rng: &mut Pcg64) -> Self {
         match rng.random_range(0..3) {
             0 => self.accelerating(rng),
@@ -211,8 +213,8 @@ impl Scene {
         }
     }
 
-    /// Adds accelerations of the bodies, of the order of the scene's size or of the bodies' displacements. The bodies
-    /// have the same poses and velocities at the clock.
+    /// Adds random accelerations of both bodies, without a change of their poses and velocities at the clock `clock`.
+    /// The accelerations are of the order of the scene's size or of the bodies' displacements.
     pub(crate) fn accelerating(mut self, rng: &mut Pcg64) -> Self {
         let clock = self.clock;
         let size = self.bodies[0].tree().span() + self.bodies[1].tree().span();
@@ -233,7 +235,7 @@ impl Scene {
     }
 }
 
-/// Returns the least distance of any two triangles at a clock.
+/// Returns the distance of the two bodies at a clock, as the least distance of any two triangles.
 pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     let [a, b] = [&problem.a, &problem.b].map(|side| {
         let frame = side.path.frame(s);
@@ -247,20 +249,20 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// How two bodies move while they are near each other.
+/// The kind of motion of two bodies while they are near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// Any behaviour: still, translating, turning, one or both, about any centre.
+    /// Each body rests, translates or turns at random, about any centre.
     Any,
     /// The bodies overlap, and move apart without turning.
     Receding,
-    /// The bodies slide past each other at a thousand sizes per duration, without turning.
+    /// One body slides past the other, without turning, by a thousand times its size in the duration.
     Sliding,
-    /// A big body turns, and a tiny one is near it.
+    /// A large body turns, and a small body is near it, at rest or in motion.
     NearRim,
 }
 
-/// Draws a scene of up to `most` triangles per body.
+/// Draws a scene of two bodies with up to `most` triangles each, which come near each other.
 pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let size = magnitude(rng, -6.0, 6.0);
     let ratio = match kind {
@@ -317,7 +319,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     }
 }
 
-/// Draws an offset of 0, of about the size, or of up to a million sizes; never beyond 1e6 for small bodies.
+/// Draws a distance from the origin: 0, up to a thousand times `size`, or up to the greater of 1e6 and `size`.
 fn offset(rng: &mut Pcg64, size: f64) -> f64 {
     match rng.random_range(0..4) {
         0 | 1 => 0.0,
@@ -379,7 +381,7 @@ fn set_moving(
 }
 
 impl<'a> Problem<'a> {
-    /// Creates the problem of a query about two motions.
+    /// Creates the problem that a query about two bodies with constant velocities solves.
     pub(crate) fn about(
         a: impl Into<MovingBody<'a>>,
         b: impl Into<MovingBody<'a>>,

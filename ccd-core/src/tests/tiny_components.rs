@@ -1,4 +1,5 @@
-//! Tests needles whose widths have squares that underflow: bodies that approach along their normals keep the margin.
+//! Tests that a body which approaches a needle keeps the margin, for needles so thin that the squares of their widths
+//! underflow.
 
 use super::nearest::nearest;
 use super::oracle::ExhaustiveOracle;
@@ -16,13 +17,13 @@ use crate::schedule::BestFirst;
 use crate::settings::Settings;
 use glam::DVec3;
 
-/// Draws a vector of small integers.
+/// Draws a vector of integers from −2 to 2 that is not zero.
 fn whole(rng: &mut Pcg64) -> DVec3 {
     let v = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-2..3))));
     if v == DVec3::ZERO { DVec3::X } else { v }
 }
 
-/// Draws needles that share a corner, and returns the normal of the first one too.
+/// Draws triangles of tiny width that share a corner, and returns them with the unit normal of the first.
 fn needles(rng: &mut Pcg64) -> (Vec<[DVec3; 3]>, DVec3) {
     let width = magnitude(rng, -162.0, -161.0);
     let count = rng.random_range(1..4);

@@ -20,12 +20,12 @@ pub(crate) struct SwingingTrajectory {
     turn: f64,
     start: DQuat,
     centre: DVec3,
-    /// True if the trajectory provides the acceleration of its centre.
+    /// Whether the trajectory provides the acceleration of its centre, not only bounds of it.
     provides_acceleration: bool,
 }
 
 impl SwingingTrajectory {
-    /// Draws a trajectory of this size.
+    /// Draws a random trajectory whose position and swings are of up to the given size.
     pub(crate) fn draw(rng: &mut Pcg64, size: f64) -> Self {
         SwingingTrajectory {
             place: point_in_ball(rng, size),

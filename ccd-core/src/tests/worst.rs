@@ -1,4 +1,4 @@
-//! Searches for the cases in which a rounding error takes the largest share of its bound.
+//! A search for the test case in which a rounding error is the largest share of its bound.
 //!
 //! Random cases come nowhere near a bound that adds up the worst of every operation. Here each case is a tape of
 //! words, which become numbers when it is read. The search changes the words of the worst case so far, and keeps each
@@ -12,36 +12,37 @@
 
 use std::ops::RangeInclusive;
 
-/// A random case, as a list of random words that grows as the case reads them.
+/// A random test case: a list of random words from which its numbers are read. It grows as more words are read.
 pub(crate) struct RandomCase {
     words: Vec<u64>,
     read: usize,
     rng: SplitMix64,
 }
 
-/// A search for the worst case of one error bound.
+/// A search for the case in which the error is the largest share of one bound.
 pub(crate) struct Worst {
     name: &'static str,
     cases: f64,
 }
 
-/// The worst case that a search found.
+/// The largest error that a search found, relative to its bound.
 pub(crate) struct Found {
     name: &'static str,
     /// The largest error, as a share of the bound.
     share: f64,
-    /// True if the search was run in full length.
+    /// Whether the search examined so many cases (more than 1,000) that its largest error should be near the bound.
     whole: bool,
 }
 
-/// The number of cases without a worse one after which a search restarts, and the number added for each word.
+/// The number of cases in a row without a larger error after which a search restarts: a base, and an addition for each
+/// word of the case.
 const PATIENCE: [u64; 2] = [200, 10];
 
-/// The number of random cases at the start of a climb, which continues from the worst of them.
+/// The number of random cases that are drawn when a search restarts; it continues from the worst of them.
 const RANDOM_CASE_COUNT: u64 = 24;
 
 impl Worst {
-    /// Creates a search of this many cases, multiplied by `CCD_TEST_CASES`.
+    /// Creates a search of `cases` cases, multiplied by the environment variable `CCD_TEST_CASES` if it is set.
     pub(crate) fn of(name: &'static str, cases: u32) -> Self {
         let given = std::env::var("CCD_TEST_CASES").ok();
         let times: f64 = given.and_then(|text| text.parse().ok()).unwrap_or(1.0);
@@ -51,8 +52,8 @@ impl Worst {
         }
     }
 
-    /// Searches for the case with the largest share. `judge` returns the share of a case, or `None` if the bound is not
-    /// for such a case.
+    /// Searches for the case in which `judge` returns the largest value: the error as a share of its bound, or `None`
+    /// if the bound does not apply to a case.
     ///
     /// # Panics
     /// If a share is NaN, or if most cases give `None`.
@@ -126,7 +127,7 @@ impl Found {
     }
 }
 
-/// Returns an error as a share of an allowance. If the allowance is 0, any error takes an infinite share.
+/// Returns the quotient of an error and its allowance; infinite for an error above an allowance of 0.
 pub(crate) fn share(error: f64, allowance: f64) -> f64 {
     if allowance > 0.0 {
         error / allowance
@@ -139,7 +140,7 @@ pub(crate) fn share(error: f64, allowance: f64) -> f64 {
 }
 
 impl RandomCase {
-    /// Reads the next word, and draws it if necessary.
+    /// Reads the next word of the case, and draws a random word at the end of the list.
     pub(crate) fn word(&mut self) -> u64 {
         if self.read == self.words.len() {
             self.words.push(self.rng.next());
@@ -148,7 +149,7 @@ impl RandomCase {
         self.words[self.read - 1]
     }
 
-    /// Draws a number of any sign and mantissa, with a binary exponent in a range; sometimes 0.
+    /// Reads a number of any sign and mantissa, with a binary exponent in the given range; sometimes 0.
     pub(crate) fn any(&mut self, exponents: RangeInclusive<i32>) -> f64 {
         let word = self.word();
         let (field, mantissa) = (word >> 52 & 0x7ff, word & MANTISSA_MASK);
@@ -164,12 +165,12 @@ impl RandomCase {
         signed * 2f64.powi(half) * 2f64.powi(exponent - half)
     }
 
-    /// Draws three numbers of any sign and mantissa, with binary exponents in a range.
+    /// Reads three numbers of any sign and mantissa, with binary exponents in the given range; sometimes 0.
     pub(crate) fn vector(&mut self, exponents: RangeInclusive<i32>) -> [f64; 3] {
         [(); 3].map(|()| self.any(exponents.clone()))
     }
 
-    /// Draws a positive number with a binary exponent in a range.
+    /// Reads a positive number with a binary exponent in the given range.
     pub(crate) fn size(&mut self, exponents: RangeInclusive<i32>) -> f64 {
         let least = 2f64.powi(*exponents.start());
         match self.any(exponents).abs() {
@@ -178,17 +179,17 @@ impl RandomCase {
         }
     }
 
-    /// Draws a number that differs from `x` by anything from nothing to its own size.
+    /// Reads a number that differs from `x` by a relative amount of any magnitude, from 0 to about 1.
     pub(crate) fn near(&mut self, x: f64) -> f64 {
         x + x * self.any(-54..=0)
     }
 
-    /// Draws a number in [0, 1).
+    /// Reads a number in [0, 1).
     pub(crate) fn fraction(&mut self) -> f64 {
         (self.word() >> 11) as f64 * 0.5f64.powi(53)
     }
 
-    /// Draws a whole number below `count`.
+    /// Reads a whole number from 0 to `count − 1`.
     pub(crate) fn pick(&mut self, count: usize) -> usize {
         (self.word() % count as u64) as usize
     }
@@ -197,7 +198,7 @@ impl RandomCase {
 const MANTISSA_MASK: u64 = (1 << 52) - 1;
 const ONE: u64 = 1023 << 52;
 
-/// The Splitmix random number generator, which suffices for a search.
+/// The SplitMix64 random number generator.
 struct SplitMix64(u64);
 
 impl SplitMix64 {
@@ -224,7 +225,8 @@ impl SplitMix64 {
         words
     }
 
-    /// Returns a word to replace `word` with.
+    /// Returns a random variation of `word`, such as one with a changed bit or with changes in the last digits of the
+    /// number.
     fn other(&mut self, word: u64, all: &[u64]) -> u64 {
         let digits = self.next() & MANTISSA_MASK;
         // The change is a few units in the last place if the word is a number.

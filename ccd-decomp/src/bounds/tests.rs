@@ -3,8 +3,8 @@ use ccd_core::order::lesser;
 use proptest::prelude::*;
 
 proptest! {
-    /// Tests the search for boxes that meet a box against a scan of all boxes. Coordinates are whole numbers, so that
-    /// many boxes touch.
+    /// Tests that the search tree finds the same boxes that meet a given box as a scan of all boxes. Coordinates are
+    /// whole numbers, so that many boxes touch.
     #[test]
     fn boxes_that_meet_a_box_are_those_of_the_twin(
         size in prop::sample::select(vec![[30, 2, 2], [2, 2, 30], [6, 6, 6]]),

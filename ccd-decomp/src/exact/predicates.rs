@@ -8,8 +8,8 @@ use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::order::greater;
 use std::cmp::Ordering;
 
-/// Returns the exact [side] of the triangle's plane on which a point lies, by indices into `points`. A corner of the
-/// triangle needs no computation, which would be the predicate's slowest.
+/// Returns the [side] of a triangle's plane on which a point lies, exactly. Corners and point are indices into
+/// `points`. A corner of the triangle needs no computation, which would be the predicate's slowest.
 #[inline]
 pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
     if triangle.contains(&point) {
@@ -20,7 +20,8 @@ pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Order
     side(corners, points[point as usize])
 }
 
-/// A coordinate plane on which a triangle projects to a non-zero area, and its orientation there.
+/// The projection along a coordinate axis under which a triangle has a non-zero area, with the orientation of its
+/// image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Projection {
     /// The coordinate axis along which the triangle is projected.
@@ -29,7 +30,8 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// Chooses a coordinate plane on which the triangle has a non-zero area; `None` if the triangle is degenerate.
+    /// Chooses a coordinate axis along which the triangle projects to a non-zero area; `None` if the triangle is
+    /// degenerate.
     pub(crate) fn new(triangle: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = triangle;
         (0..3).find_map(|axis| match line_side_along(axis, [a, b], c) {
@@ -41,8 +43,8 @@ impl Projection {
         })
     }
 
-    /// Compares a point with the line from `a` to `b` in the triangle's plane. `Greater` is to the left, seen from
-    /// the triangle's front.
+    /// Returns on which side of the line from `a` to `b` a point of the triangle's plane lies. `Greater` is to the
+    /// left, seen from the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         if self.turned {
@@ -53,8 +55,8 @@ impl Projection {
     }
 }
 
-/// Returns whether a triangle is degenerate. Coordinates may be arbitrarily near to 0. Each axis is first scaled by a
-/// power of two until its largest coordinate is about 1, which does not change the answer. Exact, unless coordinates
+/// Returns whether a triangle has zero area; its coordinates may be arbitrarily near to 0. Each axis is first scaled by
+/// a power of two until its largest coordinate is about 1, which does not change the answer. Exact, unless coordinates
 /// along one axis differ by a factor of more than 1e90.
 pub(crate) fn has_zero_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
@@ -77,8 +79,8 @@ fn unit_scale_factor(x: f64) -> f64 {
     }
 }
 
-/// Returns the sign of the determinant of a matrix, by its columns. Each column is first scaled by a power of two
-/// until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
+/// Returns the sign of the determinant of the matrix with the given columns. Each column is first scaled by a power of
+/// two until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
 /// differ by a factor of more than 1e90.
 pub(crate) fn determinant_sign(columns: [DVec3; 3]) -> Ordering {
     let [x, y, z] = columns.map(|column| column * unit_scale_factor(column.abs().max_element()));
@@ -92,7 +94,7 @@ pub(crate) fn first_out_of_range(points: &[DVec3]) -> Option<usize> {
     points.iter().position(|p| !is_good(p))
 }
 
-/// Compares points by x, then y, then z. On a plane or a line this is the order along some direction.
+/// Compares points by x, then y, then z. For points on a line this is their order along the line.
 pub(crate) fn compare_lexicographically(p: DVec3, q: DVec3) -> Ordering {
     let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
     by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))

@@ -4,8 +4,8 @@ use super::predicates::side;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Returns how a segment crosses a triangle: 1 from back to front, −1 from front to back, 0 if it misses. Returns
-/// `None` if it meets an edge or ends on the triangle.
+/// Returns the direction in which a segment crosses a triangle: 1 from back to front, −1 from front to back, 0 if the
+/// segment misses the triangle. Returns `None` if it meets an edge or ends on the triangle.
 pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
     let [a, b, c] = triangle;
     let ends = [from, to].map(|p| side(triangle, p));
@@ -24,7 +24,8 @@ pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i
     }
 }
 
-/// Returns the `k`-th segment to try from the point `from` to the outside of a mesh of length `size`.
+/// Returns the `k`-th of a sequence of segments that lead from the point `from` to the outside of a mesh of length
+/// `size`.
 ///
 /// It is nearly parallel to an axis, so that few boxes meet its box, but slightly tilted to avoid degenerate cases.
 pub(crate) fn probe_segment(from: DVec3, size: f64, k: usize) -> [DVec3; 2] {

@@ -4,8 +4,8 @@ use super::predicates::{Projection, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Returns whether two non-degenerate triangles meet outside their shared corners. Corners are given by number and by
-/// point.
+/// Returns whether two non-degenerate triangles of a mesh have a common point other than the corners and the edge that
+/// they share. Corners are given by number and by point.
 pub(crate) fn meet_outside_shared_corners(
     corners: [[u32; 3]; 2],
     triangles: [[DVec3; 3]; 2],
@@ -42,7 +42,7 @@ pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
         })
 }
 
-/// Returns whether two triangles that share an edge lie in one plane, on one side of it.
+/// Returns whether two triangles that share an edge are coplanar and lie on the same side of this edge.
 fn are_folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
     let far = |which: usize| (0..3).find(|&k| !corners[1 - which].contains(&corners[which][k]));
     let (Some(k), Some(l)) = (far(0), far(1)) else {

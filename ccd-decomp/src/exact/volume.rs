@@ -3,26 +3,26 @@
 use crate::tolerance::volume_rounding;
 use ccd_core::glam::DVec3;
 
-/// A sum of signed volumes, and the sum of magnitudes that bounds its rounding error.
+/// A sum of signed volumes of tetrahedra, with a bound of its rounding error.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SignedVolume {
     sum: f64,
-    /// The sum of the rounding errors of the additions.
+    /// The sum of the exact rounding errors of all additions, which corrects `sum`.
     addition_errors: f64,
     size: f64,
     terms: f64,
 }
 
 impl SignedVolume {
-    /// Sums six times the signed volumes of the tetrahedra between each triangle and the point `near`, which is near
-    /// the surface.
+    /// Sums six times the signed volumes of the tetrahedra that the triangles of a surface span with a point `near` the
+    /// surface.
     pub(crate) fn from_triangles(triangles: impl Iterator<Item = [DVec3; 3]>, near: DVec3) -> Self {
         let mut volume = SignedVolume::default();
         triangles.for_each(|triangle| volume.add(triangle, near));
         volume
     }
 
-    /// Adds six times the signed volume of the tetrahedron between a triangle and the point `near`.
+    /// Adds six times the signed volume of the tetrahedron that a triangle spans with the point `near`.
     fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
         let (arm, sides) = (p - near, [q - p, r - p]);
         let term = arm.dot(sides[0].cross(sides[1]));
@@ -35,7 +35,7 @@ impl SignedVolume {
         self.terms += 1.0;
     }
 
-    /// Returns whether the sum is positive; `None` if [rounding](volume_rounding) could change the sign.
+    /// Returns whether the exact sum is positive; `None` if [rounding](volume_rounding) leaves its sign open.
     pub(crate) fn is_positive(&self) -> Option<bool> {
         let sum = self.sum + self.addition_errors;
         let rounding = volume_rounding(self.size, self.terms);

@@ -4,7 +4,7 @@ use crate::messages::{FileError, LFS_ADVICE};
 use std::fmt;
 use std::io;
 
-/// An error of loading or storing a body.
+/// The error of loading or storing a body: the file, and the fault.
 pub type StoreError = FileError<StoreFault>;
 
 /// The reason why a body cannot be stored or loaded.
@@ -20,7 +20,7 @@ pub enum StoreFault {
     /// The file does not begin with the magic bytes of a stored body.
     #[error("holds no stored body; give a mesh, or {PREPARE_ADVICE}")]
     NotStoredBody,
-    /// The file is a pointer of Git LFS.
+    /// The file is a Git LFS pointer, whose content was not fetched.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
     /// The file has a version of the format that this build does not read.
@@ -29,18 +29,18 @@ pub enum StoreFault {
         FORMAT_VERSION
     )]
     UnsupportedVersion {
-        /// The version that the file states.
+        /// The version of the format that the file states.
         version: u32,
     },
     /// The file ends before the length that it announces.
     #[error("is cut short; copy it again, or {PREPARE_ADVICE}")]
     Truncated,
-    /// The checksum does not match.
+    /// The stored checksum is not that of the file's bytes: the file is damaged.
     #[error(
         "is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE_ADVICE}"
     )]
     ChecksumMismatch,
-    /// The checksum matches, but the content is no valid body.
+    /// The checksum matches, but the content is not a valid body.
     #[error("holds no valid body: {problem}; {PREPARE_ADVICE}")]
     Invalid {
         /// The description of the part that is not valid.

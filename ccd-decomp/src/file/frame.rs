@@ -1,4 +1,5 @@
-//! The frame of a stored payload, which detects foreign, truncated and damaged files.
+//! The header and checksum around the stored bytes of a body, by which foreign, truncated and damaged files are
+//! detected.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -12,13 +13,13 @@ use super::error::{FORMAT_VERSION, StoreFault};
 use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
-/// The magic bytes at the start of a file, as in PNG. No text begins with them, and a transfer that converts line
-/// ends or strips the eighth bit damages them.
+/// The magic bytes at the start of the file of a stored body, modelled on those of PNG. No text begins with them, and a
+/// transfer that converts line ends or strips the eighth bit damages them.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 
 const HEADER_BYTES: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
 
-/// Writes a payload between the header and the checksum that [`read`] verifies.
+/// Writes the header, the payload and the checksum of both, which [`read`] verifies.
 pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     let mut header = Vec::with_capacity(HEADER_BYTES);
     header.extend(MAGIC);
@@ -74,7 +75,7 @@ fn read_up_to(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault>
     Ok(bytes)
 }
 
-/// Splits the next `N` bytes off the front of a slice.
+/// Removes the first `N` bytes from a slice and returns them; [`StoreFault::Truncated`] if there are fewer.
 fn split_array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
     let (first, rest) = from.split_first_chunk().ok_or(StoreFault::Truncated)?;
     *from = rest;

@@ -4,7 +4,8 @@ use crate::mesh::TriangleMesh;
 use ccd_core::{Piece, Pieces};
 use std::io::{self, BufWriter, Write};
 
-/// Writes the vertices and triangles of a mesh as an OBJ that reads back to the same bits.
+/// Writes the vertices and triangles of a mesh as Wavefront OBJ; reading it back gives the same coordinates to the last
+/// bit.
 ///
 /// # Errors
 /// The writer's errors.

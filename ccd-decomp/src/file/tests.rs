@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// An OBJ of a tetrahedron with a dent, a duplicate face and an unused vertex, which the report mentions.
+/// The OBJ text of a tetrahedron with a dent, with a duplicate face and an unused vertex that the report mentions.
 const DENTED_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 
@@ -204,7 +204,7 @@ fn parts_that_do_not_belong_together_are_reported() {
     ));
 }
 
-/// Checks that bytes either give an error or load as a valid body.
+/// Checks that arbitrary bytes either give an error or load as a valid body.
 fn check(bytes: &[u8]) {
     if let Ok(model) = Model::read(bytes) {
         let body = model.body().unwrap();
@@ -213,7 +213,7 @@ fn check(bytes: &[u8]) {
     }
 }
 
-/// Wraps a changed payload in a frame with a matching checksum.
+/// Wraps a changed payload in a header and a matching checksum.
 fn frame_payload(payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     frame::write(&mut bytes, payload).unwrap();

@@ -1,7 +1,8 @@
 use super::{Edges, HalfEdge, twins};
 use proptest::prelude::*;
 
-/// Generates triangles over few vertices, whose numbers are far apart in half of the cases.
+/// Generates lists of triangles over few vertices; in half of the lists the vertex numbers are multiples of
+/// 100,000,000.
 fn triangles() -> impl Strategy<Value = Vec<[u32; 3]>> {
     let corner = prop_oneof![0u32..6, 0u32..40];
     let faces = prop::collection::vec(prop::array::uniform3(corner), 0..30);
@@ -9,7 +10,8 @@ fn triangles() -> impl Strategy<Value = Vec<[u32; 3]>> {
         .prop_map(|(faces, step)| faces.into_iter().map(|f| f.map(|v| v * step)).collect())
 }
 
-/// Returns all half-edges, sorted by their ends: lower end, upper end, half-edge, whether it starts at the upper end.
+/// Returns all half-edges sorted by their ends, each as smaller end, larger end, half-edge, and whether it starts at
+/// the larger end.
 fn sorted_half_edges(triangles: &[[u32; 3]]) -> Vec<([u32; 2], HalfEdge, bool)> {
     let mut all = Vec::new();
     for (t, [a, b, c]) in (0..).zip(triangles.iter().copied()) {

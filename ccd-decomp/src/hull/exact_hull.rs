@@ -19,10 +19,10 @@ pub(crate) struct ExactHull {
     corners: Vec<u32>,
 }
 
-/// The change of a hull by the insertion of one point.
+/// The change of a hull when one point is inserted: the facets to remove and to add.
 #[derive(Clone, Debug)]
 pub(crate) struct Growth {
-    /// By facet, whether the point sees it. Seen facets are replaced.
+    /// For each facet, whether the inserted point is in front of it. Such facets are removed.
     seen: Vec<bool>,
     /// The new triangles, all of which have the inserted point as a corner.
     fan: Vec<[u32; 3]>,
@@ -48,7 +48,7 @@ impl ExactHull {
         ExactHull { facets, corners }
     }
 
-    /// Computes the facets of the hull of all points; `None` if they are coplanar. O(n log n).
+    /// Computes the facets of the hull of all points; `None` if all points are coplanar. O(n log n).
     pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         let simplex = ExactHull::simplex(points)?;
         Some(conflicts::facets(points, simplex))
@@ -75,13 +75,14 @@ impl ExactHull {
         &self.facets
     }
 
-    /// Returns the vertices of the hull without duplicates, in ascending order except for a polygon.
+    /// Returns the indices of the hull's vertices without duplicates, in ascending order unless the hull was made from
+    /// a polygon.
     pub(crate) fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// Computes the change by the insertion of a point; `None` if the point is inside. O(f log f) in the number of
-    /// facets.
+    /// Computes the change of the hull by the insertion of a point; `None` if the point is inside or on the hull. O(f
+    /// log f) in the number of facets.
     pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<Growth> {
         let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
         let seen: Vec<bool> = self.facets.iter().map(sees).collect();
@@ -111,7 +112,7 @@ impl ExactHull {
         Bounds::enclosing(corners.map(|&v| points[v as usize]))
     }
 
-    /// Applies a change that [`growth`](Self::growth) computed.
+    /// Changes the hull as [`growth`](Self::growth) computed for the insertion of a point.
     pub(crate) fn grow(&mut self, growth: Growth) {
         let mut seen = growth.seen.into_iter();
         self.facets.retain(|_| !seen.next().unwrap_or(false));

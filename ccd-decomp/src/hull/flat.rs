@@ -6,7 +6,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Hull, PolygonList};
 use std::cmp::Ordering;
 
-/// Computes the hull of distinct coplanar points: a front and a back polygon, or the ends of points on a line.
+/// Computes the hull of distinct coplanar points: a polygon with two opposite facets or, for points on a line, the two
+/// end points.
 pub(super) fn hull(points: &[DVec3]) -> Hull {
     let by_order = |p: &DVec3, q: &DVec3| compare_lexicographically(*p, *q);
     let ends = [
@@ -28,8 +29,8 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
     }
 }
 
-/// Returns the projection of the common plane of some points; `None` if all are on a line. `a` and `b` are two of the
-/// points.
+/// Returns a projection of the plane that contains some points; `None` if all points are on a line. `a` and `b` are two
+/// of the points.
 fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
     let area = |p: &DVec3| (b - a).cross(*p - a).length_squared();
     let is_proper = |p: &DVec3| !is_degenerate([a, b, *p]);
@@ -43,7 +44,7 @@ fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
     Projection::new([a, b, corner])
 }
 
-/// Computes the front and the back polygon by Andrew's monotone chain.
+/// Computes the front and the back facet of a flat hull, by Andrew's monotone chain algorithm.
 fn facets(points: &[DVec3], projection: Projection) -> PolygonList {
     let at = |k: u32| points[k as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();

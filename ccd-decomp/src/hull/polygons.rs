@@ -1,4 +1,4 @@
-//! Coplanar triangles of a convex surface, merged into polygons.
+//! Merges coplanar triangles of a convex surface into polygons.
 
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::{Projection, side_of};
@@ -44,7 +44,7 @@ pub(crate) fn for_each_polygon(
     }
 }
 
-/// Returns the corners of a convex polygon without those at which it is straight.
+/// Returns the corners of a convex polygon, except those at which the interior angle is 180°.
 pub(crate) fn strictly_convex_corners(
     points: &[DVec3],
     rim: &[u32],
@@ -57,7 +57,7 @@ pub(crate) fn strictly_convex_corners(
         .collect()
 }
 
-/// Rotates a triangle so that its smallest corner comes first.
+/// Rotates the corners of a triangle cyclically so that the smallest index comes first.
 pub(crate) fn with_smallest_corner_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a <= b && a <= c {
         [a, b, c]
@@ -68,7 +68,7 @@ pub(crate) fn with_smallest_corner_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// Chains the directed edges of one closed loop into a list of vertices.
+/// Sorts the directed edges of one closed loop into a list of consecutive vertices.
 fn chain_edges(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     rim.sort_unstable();
     let Some(&(first, mut at)) = rim.first() else {
@@ -85,7 +85,7 @@ fn chain_edges(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     corners
 }
 
-/// Returns the boundary edges of a group of triangles, each by its two ends.
+/// Returns the directed boundary edges of a group of triangles, each as its two end vertices.
 fn boundary_edges(
     triangles: &[[u32; 3]],
     twins: &[HalfEdge],
@@ -105,7 +105,7 @@ fn boundary_edges(
     edges.filter(is_outer).map(ends).collect()
 }
 
-/// Returns the group number of each triangle. A group is a set of connected coplanar triangles.
+/// Returns, for each triangle, the number of its group of connected coplanar triangles.
 fn coplanar_groups(points: &[DVec3], triangles: &[[u32; 3]], twins: &[HalfEdge]) -> Vec<u32> {
     let mut groups = DisjointSets::new(triangles.len());
     for (edge, &twin) in (0..).zip(twins).filter(|(edge, twin)| edge < *twin) {

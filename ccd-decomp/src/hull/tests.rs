@@ -5,11 +5,11 @@ use rstest::rstest;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// The hull of a few points, found by testing every triple of points for a facet. A triple of points spans a facet if
-/// no point is in front of its plane.
+/// The hull of a few points, found by testing for every triple of points whether it spans a facet. A triple of points
+/// spans a facet if no point is in front of its plane.
 struct BruteForceHull {
     corners: Vec<DVec3>,
-    /// The indices of the points on each facet, corners or not.
+    /// For each facet, the indices of all points on it, also of those that are not corners.
     facet_points: BTreeSet<Vec<u32>>,
 }
 
@@ -65,7 +65,8 @@ fn is_in_coplanar_hull(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     others().any(|a| others().any(|b| amid(a, b)))
 }
 
-/// Checks the guarantees of a hull one by one, in exact arithmetic.
+/// Checks, in exact arithmetic, that a hull is a closed convex polytope that contains all points, without superfluous
+/// corners.
 fn assert_valid_hull(points: &[DVec3], hull: &Hull) {
     let at = |v: u32| hull.points[v as usize];
     let mut edges = BTreeSet::new();
@@ -91,7 +92,7 @@ fn assert_valid_hull(points: &[DVec3], hull: &Hull) {
     assert_eq!(v + f, e + 2, "Euler's formula");
 }
 
-/// Checks the hull of any points, and that it has no facets exactly if all points are on a line.
+/// Checks the hull of some points against the brute-force hull; it may have no facets only if all points are on a line.
 fn assert_hull_of(points: &[DVec3]) {
     let (hull, twin) = (
         hull(points).expect("in range"),
@@ -112,7 +113,7 @@ fn checked_hull(points: &[DVec3]) -> Hull {
     hull
 }
 
-/// Returns a generator of pseudo-random numbers in −1..1, by a linear congruence.
+/// Returns a linear congruential generator of pseudorandom numbers in −1..1.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(2).wrapping_add(1);
     move || {
@@ -247,7 +248,7 @@ fn a_coordinate_out_of_range_is_an_error(#[case] bad: DVec3) {
 }
 
 proptest! {
-    /// Tests the hulls of points with few different coordinates, of which many are coplanar, collinear or equal.
+    /// Tests the hulls of points with small integer coordinates, many of which are coplanar, collinear or equal.
     #[test]
     fn coarse_points(points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 1..18)) {
         let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();

@@ -1,4 +1,4 @@
-//! Adjustments of a mesh that is read from a file: unit, scale, mirroring, hollowness.
+//! Adjustments that a caller makes to a mesh that is read from a file: unit, scale, mirroring, hollowness.
 
 use super::affine::AffineMap;
 use super::unit::Unit;
@@ -6,7 +6,7 @@ use ccd_core::InputError;
 use ccd_core::glam::{DAffine3, DVec3};
 use std::fmt;
 
-/// Adjustments of a mesh that is read from a file: unit, scale, mirroring, and whether it is hollow.
+/// The adjustments of a mesh that is read from a file: unit, scale, mirroring, and whether it is hollow.
 ///
 /// ```
 /// use ccd_decomp::{Adjustments, Axis, Unit};
@@ -20,11 +20,12 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adjustments {
-    /// The unit of the numbers in the file.
+    /// The unit of the coordinates in the file; `None` uses the unit that the file states, if any.
     pub(crate) stated_unit: Option<Unit>,
-    /// The unit to convert the coordinates to.
+    /// The unit to convert the coordinates to; `None` leaves them in the file's unit.
     pub(crate) target_unit: Option<Unit>,
-    /// The factors by which the coordinates are multiplied along each axis, neither 0 nor infinite.
+    /// The factors by which the coordinates along each axis are multiplied; negative along mirrored axes, never 0 or
+    /// infinite.
     factors: DVec3,
     /// Whether a closed mesh is treated as a hollow surface.
     pub(crate) is_hollow: bool,
@@ -105,7 +106,7 @@ impl Adjustments {
         }
     }
 
-    /// Combines two adjustments, both of which apply. The units of `other` take precedence.
+    /// Returns the adjustments that apply both `self` and `other`. The units of `other` take precedence.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the product of the factors is 0 or not finite.
@@ -123,13 +124,13 @@ impl Adjustments {
         })
     }
 
-    /// Returns the map from the file's coordinates to the adjusted ones; `None` if it is the identity.
+    /// Returns the affine map that scales and mirrors the file's coordinates; `None` if it is the identity.
     pub(crate) fn map(&self) -> Option<AffineMap> {
         let map = || DAffine3::from_scale(self.factors).into();
         (self.factors != DVec3::ONE).then(map)
     }
 
-    /// Returns whether the adjustments apply to meshes only, not to prepared bodies.
+    /// Returns whether any adjustment is of a kind that applies to meshes only, and not to prepared bodies.
     pub(crate) fn apply_to_meshes_only(&self) -> bool {
         let others = Adjustments {
             target_unit: None,
@@ -149,7 +150,7 @@ impl Adjustments {
         axes.filter(move |&axis| factors[axis as usize] < 0.0)
     }
 
-    /// Adds the adjustment that a word after a file name describes, such as `scale=0.5`.
+    /// Returns the adjustments with another one added, which a word after a file name describes, such as `scale=0.5`.
     ///
     /// # Errors
     /// The word is no adjustment.
@@ -177,7 +178,7 @@ pub struct UnknownAdjustment {
     pub word: String,
 }
 
-/// Returns why a word describes no adjustment, and which words are accepted.
+/// Returns the message for a word that describes no adjustment: what is wrong, and which words are accepted.
 fn advice(word: &str) -> String {
     match word.strip_prefix("scale=") {
         Some(factor) => format!(

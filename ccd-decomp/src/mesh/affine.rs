@@ -22,10 +22,10 @@ use ccd_core::glam::{DAffine3, DVec3};
 pub struct AffineMap(DAffine3);
 
 impl AffineMap {
-    /// The map that leaves every point where it is.
+    /// The identity map, which leaves every point in its place.
     pub const IDENTITY: AffineMap = AffineMap(DAffine3::IDENTITY);
 
-    /// Creates the map that scales by a factor about the origin, then places at a pose.
+    /// Creates the map that scales by a factor about the origin, and then applies a pose.
     pub fn scaled(factor: f64, pose: Pose) -> Self {
         AffineMap(DAffine3::from_scale_rotation_translation(
             DVec3::splat(factor),
@@ -34,7 +34,7 @@ impl AffineMap {
         ))
     }
 
-    /// Returns the image of a point.
+    /// Returns the image of a point under the map.
     ///
     /// # Guarantee
     /// Exact for the identity. Otherwise each coordinate is off by at most `4u (|m x| + |n y| + |o z| + |t|)`, where
@@ -54,7 +54,7 @@ impl AffineMap {
         determinant_sign([matrix.x_axis, matrix.y_axis, matrix.z_axis]).is_lt()
     }
 
-    /// Returns the composition of two maps: `first` is applied before this one. Rounded, unless either is the
+    /// Returns the composition of two maps, which applies `first` before `self`. It is rounded, unless either is the
     /// identity.
     #[cfg(feature = "gltf")]
     pub(crate) fn compose_after(&self, first: &AffineMap) -> AffineMap {
@@ -65,7 +65,7 @@ impl AffineMap {
         }
     }
 
-    /// Returns whether the map takes all points to one point.
+    /// Returns whether the map takes all points to one point: its matrix is zero.
     #[cfg(feature = "gltf")]
     pub(crate) fn collapses_to_point(&self) -> bool {
         let matrix = self.0.matrix3;

@@ -11,8 +11,9 @@ use ccd_core::glam::DVec3;
 impl TriangleMesh {
     /// Returns the image of the mesh under an affine map. Vertices and faces keep their numbers.
     ///
-    /// A map that [reverses_orientation](AffineMap::reverses_orientation) reverses all triangles, so that a solid stays one. A map that flattens
-    /// may make faces without area, or several faces of the same points: they are repaired as in a file.
+    /// A map that [reverses_orientation](AffineMap::reverses_orientation) reverses all triangles, so that a solid stays
+    /// one. A map that flattens may make faces without area, or several faces of the same points: they are repaired as
+    /// in a file.
     ///
     /// # Guarantee
     /// Every vertex is the image of a vertex, rounded as [`AffineMap::apply`] says. The triangles cover the image of
@@ -49,8 +50,8 @@ impl TriangleMesh {
         ))
     }
 
-    /// Merges meshes: vertices and faces of each mesh are numbered after those of the meshes before it. Numbers of
-    /// dropped faces are not reused.
+    /// Merges meshes into one, which numbers the vertices and faces of each mesh after those of the preceding meshes.
+    /// Numbers of dropped faces are not reused.
     ///
     /// Faces with the same points are repaired as in a file. Meshes that touch in equal points are connected
     /// there; those that overlap are the sum of their solids.

@@ -1,4 +1,4 @@
-//! The content of a mesh file: faces in groups, or shapes that are placed.
+//! The content of a mesh file before it is checked: faces in groups, or shapes with their placements.
 
 pub(crate) mod allowance;
 pub(crate) mod assembly;
@@ -15,14 +15,14 @@ use std::ops::Range;
 /// The content of a mesh file as its reader returns it, not yet checked.
 #[derive(Debug)]
 pub(crate) struct Content {
-    /// The unit of the coordinates, if its format has one or the caller states one.
+    /// The unit of the coordinates; `None` if neither the file's format nor the caller states one.
     pub(crate) unit: Option<Unit>,
     pub(crate) layout: Layout,
     /// Remarks about content that was skipped or changed.
     pub(crate) remarks: Remarks,
 }
 
-/// The layout of the faces in a file.
+/// The faces of a file, in one of the two ways in which formats describe them.
 #[derive(Debug)]
 pub(crate) enum Layout {
     /// A list of vertices and faces. Each part of the file is a group of these faces.
@@ -48,7 +48,8 @@ impl Content {
         }
     }
 
-    /// Returns the faces of some parts, each separately. Vertices and faces of a part are numbered from 0.
+    /// Returns the faces of some parts of the file, in one list for each part. Vertices and faces of a part are
+    /// numbered from 0.
     pub(crate) fn separate_parts(&self, parts: Range<usize>) -> Result<Vec<Polygons>, MeshFault> {
         let mut separate: Vec<Polygons> = match &self.layout {
             Layout::FaceList(polygons, groups) => groups.copy_groups(polygons, parts)?,
@@ -64,8 +65,8 @@ impl Content {
         Ok(separate)
     }
 
-    /// Returns all faces as one list. Those of a list keep the file's numbers; those of an assembly are numbered part
-    /// by part.
+    /// Returns all faces of the file as one list. Faces of a list keep the file's numbers; faces of an assembly are
+    /// numbered part by part.
     pub(crate) fn all_faces(self) -> Result<Polygons, MeshFault> {
         let faces = match self.layout {
             Layout::FaceList(polygons, _) => polygons,

@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh file: its content, its size, or a format that is not read.
+//! Errors of reading a mesh file, due to its content, its size or its format.
 
 use crate::messages::{FileError, LFS_ADVICE};
 use ccd_core::limits::MAX_COORDINATE;
@@ -8,17 +8,18 @@ use std::io;
 /// The error of reading a mesh: the file, and its fault, which names the line and the element.
 pub type MeshError = FileError<MeshFault>;
 
-/// The fault of a mesh. Lines are numbered from 1; faces and vertices from 0, both in the file's order.
+/// The reason why a mesh cannot be read. Lines are numbered from 1; faces and vertices from 0, both in the file's
+/// order.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFault {
-    /// The operating system reports an error on reading the file.
+    /// The operating system reported an error when the file was read.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
     /// The path leads to a folder, not to a file.
     #[error("is a folder; name a mesh in it, such as a .glb, .obj, .stl, .ply or .off")]
     Folder,
-    /// The file's extension names no known format.
+    /// The file's extension is not that of a known format.
     #[error("{}", extension_advice(.extension))]
     UnknownExtension {
         /// The file extension after the last dot; empty without a dot.
@@ -27,12 +28,12 @@ pub enum MeshFault {
     /// The format is known, but this variant of it is not supported.
     #[error("holds {what}, which is not supported; export it as {alternative}")]
     Unsupported {
-        /// The description of the unsupported content.
+        /// The content that is not supported, as a noun phrase for the message.
         what: String,
-        /// The content that can be read instead.
+        /// The content to export instead, which is supported.
         alternative: &'static str,
     },
-    /// The file is a STEP file under another extension.
+    /// The file is a STEP file, but has the extension of a mesh format.
     #[error("is a STEP file, whatever its name says: {}", cad_advice("step"))]
     Step,
     /// The format is known, but this build has no reader for it.
@@ -46,7 +47,7 @@ pub enum MeshFault {
     /// A file that the mesh refers to, such as a buffer of a glTF, cannot be read.
     #[error("refers to the file {name:?}, which cannot be read: {reason}")]
     UnreadableLinkedFile {
-        /// The name of the referenced file, as the mesh has it.
+        /// The name of the referenced file, as written in the mesh.
         name: String,
         /// The reason why the file cannot be read, and the remedy.
         reason: String,
@@ -54,12 +55,12 @@ pub enum MeshFault {
     /// One element of a scene has a fault.
     #[error("{place}: {fault}")]
     At {
-        /// The element, such as a node or a mesh.
+        /// The element that has the fault, such as a node or a mesh.
         place: String,
         /// The fault of the element.
         fault: Box<MeshFault>,
     },
-    /// The file has no part of that name or number.
+    /// The file has no part of the requested name or number.
     #[error("has no part {part:?}; {}", list_of_parts(.parts))]
     NoSuchPart {
         /// The name or number that was requested.
@@ -75,7 +76,7 @@ pub enum MeshFault {
         /// The numbers of the parts with this name, from 0.
         numbers: Vec<usize>,
     },
-    /// Instances or repeated elements expand a small file beyond the limit.
+    /// Repeated references expand a small file to more triangles than its size allows.
     #[error(
         "repeats the same vertices and faces too often for its size, by instances or by naming them again: more than about {} triangles come of it; choose one of its parts, or split it", .limit / 3
     )]
@@ -83,7 +84,7 @@ pub enum MeshFault {
         /// The limit for a file of this size, in corners of faces.
         limit: u64,
     },
-    /// The file is a pointer of Git LFS, not the mesh itself.
+    /// The file is a Git LFS pointer, not the mesh itself.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
     /// The file was read, but contains no vertices: it may be cut off, or not be a mesh.
@@ -97,7 +98,7 @@ pub enum MeshFault {
     Syntax {
         /// The line number, if the format is text.
         line: Option<usize>,
-        /// The text that was found, and the text that was expected.
+        /// The description of the fault: what was found, and what was expected.
         problem: String,
     },
     /// The file ends before the elements that it announces.

@@ -14,26 +14,26 @@ use crate::messages::is_lfs_pointer;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// A mesh file format. Texts are in UTF-8, or in UTF-16 with a byte order mark; any line ending is accepted.
-/// [`Remarks`](crate::Remarks) list skipped content that may matter.
+/// A format of mesh files that can be read. Texts are in UTF-8, or in UTF-16 with a byte order mark; any line ending is
+/// accepted. [`Remarks`](crate::Remarks) list skipped content that may matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
     /// Wavefront OBJ: statements `v` and `f`, in f64. Normals, texture coordinates, colours and materials are skipped;
-    /// lines, points, curves and unknown statements are skipped with a remark. A fourth number of a vertex divides the others,
-    /// with a remark unless it is 1. Free-form surfaces and calls of other files are errors.
+    /// lines, points, curves and unknown statements are skipped with a remark. A fourth number of a vertex divides the
+    /// others, with a remark unless it is 1. Free-form surfaces and calls of other files are errors.
     ///
     /// Its parts are its objects (`o`) or, in a file without any, its groups (`g`).
     Obj,
     /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in order of
     /// appearance; normals are passed over.
     Stl,
-    /// PLY, binary or text: elements `vertex`, `face` and `tristrips`, strips of triangles, which −1 separates; others
-    /// are passed over with a remark.
+    /// PLY, binary or text: the elements `vertex`, `face` and `tristrips`. The last are strips of triangles, separated
+    /// by −1. Other elements are passed over with a remark.
     Ply,
-    /// Object File Format, text, with or without normals and colours, which are passed over.
+    /// Object File Format, as text. Normals and colours are passed over.
     Off,
-    /// glTF 2.0, text (`.gltf`) or binary (`.glb`), in metres; with the feature `gltf`.
+    /// glTF 2.0, text (`.gltf`) or binary (`.glb`), in metres; it is read only with the Cargo feature `gltf`.
     ///
     /// Numbers are read in f64, and rotations are normalized. Transforms of nested nodes are multiplied in f64 before
     /// they are applied: each product rounds as [`AffineMap::apply`](crate::AffineMap::apply) does.
@@ -50,7 +50,7 @@ pub enum Format {
 /// The contents of the files that a mesh refers to, by file name.
 pub(crate) type LinkedFiles = BTreeMap<String, Vec<u8>>;
 
-/// A reference from a mesh to another file.
+/// A reference from a mesh to another file, such as a buffer of a glTF.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Reference {
     /// The path of the file relative to the mesh, as written in the mesh.
@@ -77,12 +77,12 @@ impl Format {
         }
     }
 
-    /// Returns whether a file of this format may refer to others.
+    /// Returns whether a file of this format may refer to other files.
     pub(crate) fn refers_to_files(self) -> bool {
         self == Format::Gltf
     }
 
-    /// Returns the references to other files in the content, which [`Format::parse`] needs.
+    /// Returns the references in a mesh to other files, whose contents [`Format::parse`] needs.
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
@@ -95,8 +95,8 @@ impl Format {
         }
     }
 
-    /// Parses a file's content as this format; pointers of Git LFS and STEP files are recognised and refused first.
-    /// `linked` holds the contents of the files that it refers to.
+    /// Parses a file's content in this format; Git LFS pointers and STEP files are recognised by their content and
+    /// refused. `linked` holds the contents of the files that it refers to.
     pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
         let unmarked = text::to_utf8(bytes);
         if is_lfs_pointer(&unmarked) {
@@ -118,7 +118,7 @@ impl Format {
     }
 }
 
-/// Returns whether the bytes begin like a STEP file.
+/// Returns whether the bytes begin with the signature of a STEP file.
 fn is_step_file(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
 }

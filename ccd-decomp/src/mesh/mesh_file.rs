@@ -43,7 +43,7 @@ pub struct NamedMesh {
 }
 
 impl MeshFile {
-    /// Reads a file in the format of its extension, with the buffer files of a glTF.
+    /// Reads a mesh file in the format that its extension names, including the buffer files of a glTF.
     ///
     /// # Errors
     /// [`MeshError`], which names the file and the element. No bytes panic, and few bytes take little memory.
@@ -93,13 +93,15 @@ impl MeshFile {
         }
     }
 
-    /// Returns the unit of the coordinates: that of the last call of [`MeshFile::in_unit`] or [`MeshFile::stated_in`], else
-    /// that of the format. A glTF is in metres; the other formats have no unit.
+    /// Returns the unit of the coordinates; `None` if it is unknown. It is the unit of the last call of
+    /// [`MeshFile::in_unit`] or [`MeshFile::stated_in`], else that of the format. A glTF is in metres; the other
+    /// formats have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
     }
 
-    /// Sets the unit of the file's coordinates. It takes precedence over that of the format.
+    /// States the unit in which the file's coordinates are written, without converting them. It takes precedence over
+    /// that of the format.
     ///
     /// ```
     /// use ccd_decomp::{Format, MeshFile, Unit};
@@ -142,12 +144,12 @@ impl MeshFile {
         self
     }
 
-    /// Returns the names of the parts, by number.
+    /// Returns the names of the parts in the order of their numbers; `None` for a part without a name.
     pub fn part_names(&self) -> impl ExactSizeIterator<Item = Option<&str>> {
         (0..self.content.parts()).map(|part| self.content.name(part))
     }
 
-    /// Returns the mesh of the part with a name or, if no part has that name, with that number.
+    /// Returns the mesh of the part with the given name or, if no part has that name, with the given number.
     ///
     /// # Errors
     /// [`MeshFault::NoSuchPart`] with all names, [`MeshFault::AmbiguousPart`] if several parts have the name, and
@@ -216,7 +218,7 @@ impl MeshFile {
         }
     }
 
-    /// Returns the name of a part for messages.
+    /// Returns the number and the name of a part for messages.
     fn part_label(&self, part: usize) -> String {
         element_name("part", part, self.content.name(part))
     }
@@ -246,7 +248,7 @@ fn error(fault: MeshFault, path: &Option<PathBuf>) -> MeshError {
     }
 }
 
-/// Creates the mesh of polygons, with their coordinates converted.
+/// Creates a mesh from polygons, after converting their coordinates to another unit.
 fn mesh(mut polygons: Polygons, conversion: Conversion) -> Result<TriangleMesh, MeshFault> {
     if conversion != Conversion::NONE {
         for vertex in &mut polygons.vertices {

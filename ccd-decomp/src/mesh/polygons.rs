@@ -13,9 +13,10 @@ pub(crate) struct Polygons {
     pub(crate) vertices: Vec<DVec3>,
     /// The vertex numbers of the corners of all faces, one face after the other, from 0; not yet checked.
     pub(crate) corners: Vec<i64>,
-    /// By face, the end of its range in `corners`.
+    /// For each face, the end of its range in `corners`.
     pub(crate) ends: Vec<usize>,
-    /// The line numbers of vertices and faces in the file, from 1; empty if the format has no lines.
+    /// The line number of each vertex in the file, from 1; empty if the format has no lines. `face_lines` has the line
+    /// numbers of the faces.
     pub(crate) vertex_lines: Vec<usize>,
     pub(crate) face_lines: Vec<usize>,
     pub(crate) remarks: Remarks,
@@ -36,7 +37,7 @@ impl Polygons {
         self.check_corners()
     }
 
-    /// Checks that every face has at least three corners, and that each is a valid vertex.
+    /// Checks that every face has at least three corners, and that every corner names an existing vertex.
     pub(super) fn check_corners(&self) -> Result<(), MeshFault> {
         let vertices = self.vertices.len();
         for (face, corners) in self.faces().enumerate() {
@@ -119,7 +120,7 @@ impl Polygons {
     }
 }
 
-/// Checks that a number of elements can be indexed in 32 bits.
+/// Checks that there are few enough vertices or corners for 32-bit indices.
 pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFault> {
     // A fan makes less than one triangle per corner; pieces name corners by u32.
     if count < u32::MAX as usize / 12 {
@@ -142,13 +143,13 @@ pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), 
     })
 }
 
-/// Returns whether a triangle of a fan is degenerate.
+/// Returns whether any triangle of a fan has zero area.
 fn has_degenerate_triangle(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     fan.iter()
         .any(|face| has_zero_area(face.map(|v| vertices[v as usize])))
 }
 
-/// Returns whether a triangle of a fan is oriented against the sum of the fan's normals.
+/// Returns whether the normal of any triangle of a fan points against the sum of the fan's normals.
 fn has_flipped_triangle(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     let normal = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| vertices[v as usize]);

@@ -8,7 +8,7 @@ use std::fmt;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Remarks(Vec<Remark>);
 
-/// A remark about one kind of elements.
+/// A remark that elements of one kind were skipped or changed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Remark {
     /// The kind of elements and their treatment, such as `lines passed over`.
@@ -19,7 +19,7 @@ pub struct Remark {
     pub line: Option<usize>,
 }
 
-/// The maximum number of kinds that are listed separately, to keep the report short.
+/// The maximum number of kinds of elements that have a remark of their own, to keep the report short.
 const KINDS: usize = 8;
 
 impl Remarks {
@@ -33,7 +33,7 @@ impl Remarks {
         self.0.is_empty()
     }
 
-    /// Adds `count` elements to the remark about `what`, or makes a new remark unless there are none.
+    /// Adds `count` elements to the remark about `what`, which is created if it is missing. A count of 0 adds nothing.
     pub(crate) fn add(&mut self, what: &str, count: usize, line: Option<usize>) {
         let full = self.0.len() >= KINDS;
         match self.0.iter_mut().find(|remark| remark.what == what) {
@@ -48,13 +48,13 @@ impl Remarks {
         }
     }
 
-    /// Adds a number of elements to the remark of a kind that is named in the file.
+    /// Adds `count` skipped elements to the remark about their kind and their name in the file.
     pub(crate) fn add_named(&mut self, kind: &str, name: &str, count: usize, line: Option<usize>) {
         let what = format!("{kind} {:?} passed over", Quote(name));
         self.add(&what, count, line);
     }
 
-    /// Appends the remarks about another file.
+    /// Adds the counts of the remarks about another file, without its line numbers.
     pub(crate) fn append(&mut self, other: &Self) {
         for Remark { what, count, .. } in other.iter() {
             self.add(what, *count, None);
@@ -62,7 +62,7 @@ impl Remarks {
     }
 }
 
-/// The kind that stands for all kinds beyond [`KINDS`].
+/// The text of the remark that counts all kinds of elements beyond the first [`KINDS`].
 const OTHER_KINDS: &str = "others passed over";
 
 impl fmt::Display for Remark {

@@ -1,4 +1,4 @@
-//! Faults of a mesh: which faces are dropped, and the report.
+//! Finds the faces of a mesh that are dropped, and reports the faults of a mesh.
 
 use super::remark::Remarks;
 use crate::hull::polygons::with_smallest_corner_first;
@@ -24,7 +24,7 @@ pub struct Repairs {
     /// Faces that were dropped because they collapse to a segment or point on an edge of another face. Two of their
     /// corners are the same point. Collapsed faces elsewhere are kept.
     pub collapsed_faces: Tally<u32>,
-    /// Faces without area. They are kept, because a segment or point can be touched, too.
+    /// Faces without area, which are kept. A segment or point can be touched, too.
     pub zero_area_faces: Tally<u32>,
     /// Vertices that no face uses.
     pub unreferenced_vertices: Tally<u32>,
@@ -40,8 +40,8 @@ impl Repairs {
         self == &Repairs::default()
     }
 
-    /// Returns the repairs that happened before triangulation. Rebuilding the mesh from its triangles would not find
-    /// them again.
+    /// Returns all repairs except the faces without area. Rebuilding the mesh from its triangles finds these faces
+    /// again, but not the other repairs.
     pub(crate) fn before_triangulation(&self) -> Self {
         Repairs {
             zero_area_faces: Tally::default(),

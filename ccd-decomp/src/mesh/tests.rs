@@ -59,7 +59,8 @@ fn a_face_without_area_is_kept_and_reported() {
     assert_eq!(mesh.repairs().unreferenced_vertices.first(), [3, 4]);
 }
 
-/// Tests a face whose coordinates are so small that their products underflow.
+/// Tests that exactly the collinear triangles count as faces without area, even if products of their coordinates
+/// underflow.
 #[test]
 fn the_finest_face_has_an_area() {
     for unit in [1e-170, 1e-300, f64::MIN_POSITIVE, f64::from_bits(1)] {
@@ -93,8 +94,8 @@ fn a_concave_polygon_is_filled() {
     assert!(mesh.repairs().overhanging_fans.is_empty());
 }
 
-/// Tests that a polygon with corners on a line with the first one gets no degenerate triangles. Other polygons keep
-/// their fan.
+/// Tests that a polygon whose first three corners are collinear is triangulated without degenerate triangles. Other
+/// polygons keep their fan.
 #[test]
 fn a_polygon_with_straight_corners_is_filled() {
     let file = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4 5\nf 4 5 1 3\n";

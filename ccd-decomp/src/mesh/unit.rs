@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 use std::fmt;
 use std::str::FromStr;
 
-/// A unit of length.
+/// A unit of length in which the coordinates of a mesh can be given.
 ///
 /// ```
 /// use ccd_decomp::Unit;
@@ -31,7 +31,7 @@ pub enum Unit {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no unit {name:?}; use um, mm, cm, m, in or ft")]
 pub struct UnknownUnit {
-    /// The text that names no unit.
+    /// The text that was read as the name of a unit.
     pub name: String,
 }
 
@@ -79,11 +79,11 @@ impl FromStr for Unit {
     }
 }
 
-/// A conversion of coordinates between units: a multiplication by a whole number, then a division by one.
+/// A conversion of coordinates between units: a multiplication by a whole number, then a division by a whole number.
 ///
-/// Between metric units one of them is 1, so that a coordinate is rounded once. A 32-bit float converts exactly to a
-/// smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between metric units and inches
-/// or feet a coordinate is rounded up to twice.
+/// Between metric units one of the two numbers is 1, so that a coordinate is rounded once. A 32-bit float converts
+/// exactly to a smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between metric
+/// units and inches or feet a coordinate is rounded up to twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Conversion {
     numerator: f64,

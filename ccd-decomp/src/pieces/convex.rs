@@ -15,7 +15,7 @@ use ccd_core::Polytope;
 /// is convex, and a closed connected set that is locally convex is convex `[TIE28]`.
 ///
 /// # Errors
-/// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotInOnePart`] with the number of parts.
+/// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotConnected`] with the number of parts.
 pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
     if let Some([v, w]) = first_non_convex_edge(manifold) {
         let edge = Edge(v.min(w), v.max(w));
@@ -43,7 +43,7 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
     Ok(polytope(manifold, &facets))
 }
 
-/// Returns the first edge that is reflex or folded, by its vertices; `None` for a convex surface.
+/// Returns the end vertices of the first reflex or folded edge; `None` if no edge is reflex or folded.
 fn first_non_convex_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
     let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
     (0..3 * manifold.faces().len() as u32)

@@ -25,11 +25,12 @@ use target::Target;
 #[derive(Clone, Debug)]
 pub(crate) struct OuterHull {
     pub(crate) polytope: Polytope,
-    /// A bound on how far the hull extends beyond S, in the mesh's unit of length; 0 for a convex solid.
+    /// An upper bound on how far the hull extends beyond the solid or the open surface, in the mesh's unit of length; 0
+    /// for a convex solid.
     pub(crate) excess_bound: f64,
 }
 
-/// Computes the hull of a mesh and a bound on its excess.
+/// Computes the convex hull of a mesh, and an upper bound on how far the hull extends beyond the mesh.
 ///
 /// # Errors
 /// [`HullError`] with the number of the mesh's vertex.
@@ -65,7 +66,7 @@ fn polytope(hull: Hull) -> Polytope {
     }
 }
 
-/// Returns 0 for a convex solid, else the least of the bounds that apply.
+/// Returns an upper bound on how far the hull extends beyond the mesh; 0 for a convex solid.
 fn excess_bound(mesh: &TriangleMesh, topology: &Topology, hull: &Hull) -> f64 {
     let target = Target::new(mesh, topology);
     let mut by_shrinking = f64::INFINITY;

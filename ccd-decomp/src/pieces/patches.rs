@@ -100,9 +100,10 @@ struct PatchGrower<'a, 'm> {
     polygons: &'a ConvexPolygons,
     order: PatchOrder,
     work: &'a Work,
-    /// By polygon, whether it belongs to a patch.
+    /// For each polygon, whether it belongs to a patch.
     is_in_patch: Vec<bool>,
-    /// By polygon, the last patch that it was tested with. A refusal is final, because the hull only grows.
+    /// For each polygon, the number of the last patch that tried to add it. A refusal is final, because the hull only
+    /// grows.
     last_tested_patch: Vec<u32>,
 }
 
@@ -142,7 +143,7 @@ impl PatchGrower<'_, '_> {
         region
     }
 
-    /// Adds the neighbours of a polygon to the frontier, except beyond reflex edges.
+    /// Adds the neighbours of a polygon to the frontier, except those across a reflex edge.
     fn push_neighbours(&self, frontier: &mut VecDeque<u32>, flat: u32) {
         for &edge in &self.polygons.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {

@@ -1,4 +1,4 @@
-//! Polytopes whose facets name the faces of a mesh.
+//! Makes polytopes whose facets carry the numbers of the mesh faces that lie in them.
 
 use crate::solid::manifold::Manifold;
 use ccd_core::{Face, Facet, FacetOrigin, Polytope};
@@ -8,11 +8,12 @@ pub(super) struct CoveredFacet {
     /// The vertex numbers of the corners, counter-clockwise seen from outside.
     pub(super) corners: Vec<u32>,
     pub(super) faces: Vec<u32>,
-    /// Whether the faces of the mesh cover the facet.
+    /// Whether the faces of the mesh cover the whole facet.
     pub(super) is_covered: bool,
 }
 
-/// Creates a polytope from facets. Its points are the mesh vertices at the corners.
+/// Creates a polytope from its facets and the mesh faces that lie in them. Its points are the mesh vertices at the
+/// corners.
 pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[CoveredFacet]) -> Polytope {
     let mut vertices: Vec<u32> = facets.iter().flat_map(|f| &f.corners).copied().collect();
     vertices.sort_unstable();

@@ -56,8 +56,8 @@ fn triangle_parts(error: DecomposeError) -> (Parts, PieceReason) {
 }
 
 impl PlanarRegion {
-    /// Estimates the mean time of a query, with triangles and with patches as pieces, if this region rests on another
-    /// body in a fixed share of the queries.
+    /// Estimates the mean time of a query with triangles and with patches as pieces. In a fixed share of the queries
+    /// this region is assumed to rest flat on another body.
     fn estimate_query_times(self) -> QueryTimes {
         let cost = |of: PieceCost, count: usize| {
             of.typical_time + RESTING_QUERY_SHARE * of.resting_time * count as f64

@@ -18,7 +18,7 @@ pub enum PrepareError {
     /// The hull tree over the pieces cannot be built.
     #[error(transparent)]
     BuildHullTree(#[from] BuildError),
-    /// The hull tree does not have the pieces of the body.
+    /// The hull tree does not fit the pieces of the body.
     #[error(transparent)]
     HullTree(#[from] HullTreeError),
     /// The constructors of `ccd_core` reject the pieces.

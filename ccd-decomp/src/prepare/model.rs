@@ -1,4 +1,4 @@
-//! Models, which can be stored, and bodies built from them.
+//! Models, which can be stored in a file, and the bodies built from them.
 
 use super::error::PrepareError;
 use super::report::{PieceReason, PiecesKind, Report};
@@ -7,7 +7,7 @@ use crate::tree::hierarchy::build_hierarchy;
 use crate::tree::hull_tree::build_hull_tree;
 use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, SolidOfRevolution, Volume};
 
-/// A prepared body before its tree is built. A `.ccd` file stores it.
+/// The pieces of a body and a hierarchy over them, from which the body is built. A `.ccd` file stores a model.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// The convex pieces that the body is made of.
@@ -16,7 +16,7 @@ pub struct Model {
     pub hierarchy: Hierarchy,
     /// Whether the body is solid. A solid is in contact with bodies inside it.
     pub volume: Volume,
-    /// The hull tree over the pieces, for the schedules that use one.
+    /// The hull tree over the pieces, for the schedules that use a hull tree; `None` if it was not built.
     pub hull_tree: Option<HullTree>,
     /// The triangles of a convex solid and a hierarchy over them. Queries use them against bodies of many triangles.
     pub surface: Option<(Pieces, Hierarchy)>,
@@ -27,7 +27,7 @@ pub struct Model {
 /// A body that is ready for queries, and the report on its preparation.
 #[derive(Clone, Debug)]
 pub struct PreparedBody {
-    /// The body, ready for queries.
+    /// The body, which any number of queries can share.
     pub body: Body,
     /// The report on the kind of the pieces, and the reason for it.
     pub report: Report,
@@ -36,7 +36,7 @@ pub struct PreparedBody {
 }
 
 impl Model {
-    /// Builds the body for queries. O(n log n) in the number of pieces.
+    /// Builds the body from the pieces and the hierarchy, in O(n log n) in the number of pieces.
     ///
     /// Its [excess](Body::excess) is [`Report::excess`].
     ///
@@ -112,8 +112,8 @@ impl PreparedBody {
         }
     }
 
-    /// Creates the body of a cylinder or a cone. `excess` is the upper bound on how far its polytope extends beyond
-    /// the shape.
+    /// Creates a body that encloses a cylinder or a cone. `excess` is the upper bound on how far its polytope extends
+    /// beyond the shape.
     pub(crate) fn from_solid_of_revolution(
         round: &SolidOfRevolution,
         excess: Option<f64>,

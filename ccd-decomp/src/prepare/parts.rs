@@ -10,7 +10,7 @@ use crate::solid::topology::Topology;
 use crate::tree::hierarchy::build_hierarchy;
 use ccd_core::{Hierarchy, Pieces, Polytope, Volume};
 
-/// The pieces that were made of a mesh, by kind.
+/// The pieces that were made of a mesh. Each variant is one kind of pieces.
 pub(super) enum Parts {
     Triangles,
     Patches(Decomposition),

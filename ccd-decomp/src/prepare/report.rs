@@ -10,15 +10,15 @@ use std::fmt;
 /// A report on the pieces of a body. It formats as one line of text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// The kind of the body's pieces.
+    /// The kind of the body's pieces, such as triangles or convex patches.
     pub kind: PiecesKind,
-    /// The reason for the kind of pieces.
+    /// The reason why the pieces are of this kind, such as speed or the caller's request.
     pub why: PieceReason,
     /// The number of triangles of the mesh; 0 for a body without a mesh.
     pub triangles: usize,
     /// The number of pieces of the body.
     pub pieces: usize,
-    /// The number of facets of pieces that are not part of the mesh.
+    /// The number of the pieces' facets that are not part of the mesh.
     pub virtual_facets: usize,
     /// The number of nodes of the hierarchy over the pieces.
     pub tree_nodes: usize,
@@ -57,13 +57,13 @@ pub enum PieceReason {
     /// The solid is convex, so that one piece is exact. Against bodies of many triangles its own triangles are used,
     /// which is faster.
     Convex,
-    /// Only the triangles are exact.
+    /// Only the triangles are exact pieces, for the reason that the error states.
     OnlyTrianglesExact(DecomposeError),
     /// Testing whether other pieces are exact exceeds the work budget. They can be requested.
     WorkBudgetExceeded,
     /// Queries are estimated to be faster over triangles than over patches.
     TrianglesFaster(QueryTimes),
-    /// Queries are estimated to be faster over patches.
+    /// Queries are estimated to be faster over patches than over triangles.
     PatchesFaster(QueryTimes),
 }
 
@@ -71,9 +71,9 @@ pub enum PieceReason {
 /// microseconds on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QueryTimes {
-    /// The estimated time with triangles as pieces.
+    /// The estimated time of a query with triangles as pieces, in microseconds.
     pub triangles: f64,
-    /// The estimated time with patches as pieces.
+    /// The estimated time of a query with patches as pieces, in microseconds.
     pub patches: f64,
 }
 
@@ -140,7 +140,7 @@ impl fmt::Display for Report {
 }
 
 impl PiecesKind {
-    /// Returns the name of the kind, of one piece, and of several.
+    /// Returns three terms for messages: for the kind, for one piece, and for several pieces.
     fn names(self) -> [&'static str; 3] {
         match self {
             PiecesKind::Primitive => ["primitive", "primitive", "primitives"],

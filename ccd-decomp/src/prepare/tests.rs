@@ -52,7 +52,8 @@ fn features_carry_the_numbers_of_the_file() {
     assert_eq!(feature(&[0, 1, 2]), "f1");
 }
 
-/// Tests that the hull trees of points near a plane are exact, which `ccd_core` proves on loading.
+/// Tests that `ccd_core` accepts the hull tree of a rotated block, whose coplanar vertices are no longer exactly
+/// coplanar.
 #[test]
 fn hull_trees_of_nearly_flat_meshes_are_proven() {
     use crate::test_meshes::{block, cubes, placed};

@@ -32,7 +32,7 @@ struct Node {
 const LEAF: usize = 2;
 
 impl BoxTree {
-    /// Builds a tree over some faces in O(n log n).
+    /// Builds a tree over the faces with the numbers `some`, in O(n log n).
     pub(crate) fn of_faces(
         points: &[DVec3],
         faces: &[[u32; 3]],
@@ -45,7 +45,7 @@ impl BoxTree {
         BoxTree::new(some.into_iter().map(element).collect())
     }
 
-    /// Builds a tree over some elements in O(n log n).
+    /// Builds a tree over the given elements, in O(n log n).
     pub(super) fn new(mut elements: Vec<Element>) -> Self {
         let mut nodes = Vec::with_capacity(2 * elements.len());
         if !elements.is_empty() {
@@ -59,8 +59,8 @@ impl BoxTree {
         self.nodes.first().map(|node| node.bounds)
     }
 
-    /// Calls `holds` for the faces of all elements that may meet a region, and some others. Stops when `holds`
-    /// returns false or the work is spent.
+    /// Calls `holds` for the face of every element that conservative tests do not separate from a region. Stops when
+    /// `holds` returns false or the work is spent.
     pub(crate) fn all_meeting(
         &self,
         region: &Region,
@@ -132,8 +132,8 @@ impl BoxTree {
 /// The number of elements above which subtrees are built in parallel.
 const MIN_PARALLEL_ELEMENTS: usize = 4096;
 
-/// Appends the subtree over `elements` to `nodes`, and reorders `elements` so that those of each node are consecutive;
-/// `first` is the index of `elements[0]` in the list of the whole tree.
+/// Appends the subtree over `elements` to `nodes`. It reorders `elements`, so that the elements of each node are
+/// consecutive; `first` is the index of `elements[0]` in the list of the whole tree.
 ///
 /// Each level halves the count: the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {

@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 pub(super) struct Fan {
     hub: DVec3,
     rim: BoxTree,
-    /// One of the triangles, if all of them are coplanar.
+    /// The corners of one triangle of the fan, if all its triangles are coplanar; else `None`.
     plane: Option<[DVec3; 3]>,
 }
 
@@ -45,8 +45,8 @@ pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>
 }
 
 impl Fan {
-    /// Creates a fan, and returns the faces that are not in it. If most faces are coplanar, these are the faces off
-    /// that plane.
+    /// Creates a fan from the faces around a vertex, and returns the faces that it leaves out. If most faces are
+    /// coplanar, the fan leaves out the faces off that plane.
     fn new(points: &[DVec3], faces: &[[u32; 3]], members: &[(u32, u32)]) -> (Self, Vec<u32>) {
         let number = members[0].0;
         let hub = points[number as usize];

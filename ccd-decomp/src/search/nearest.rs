@@ -5,11 +5,13 @@ use crate::bounds::Bounds;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 
-/// The cost of a node in a search by distance, in steps: nodes of a search by region.
+/// The cost of visiting one node in a search by distance, in steps. Visiting one node in a search by region is one
+/// step.
 const STEPS_PER_NODE: usize = 4;
 
 impl BoxTree {
-    /// Returns the triangle nearest to a point; `measure` computes the distance of a triangle from the point.
+    /// Returns the face nearest to a point, and its distance. `measure` computes the distance of a triangle from the
+    /// point.
     ///
     /// # Guarantee
     /// No other triangle is nearer, up to rounding of the order of a coordinate's.
@@ -49,8 +51,8 @@ impl BoxTree {
         best
     }
 
-    /// Calls `holds` for the triangles whose bounding boxes meet a box. Stops when `holds` returns false or the work
-    /// is spent.
+    /// Calls `holds` for the triangles whose bounding boxes meet a given box. Stops when `holds` returns false or the
+    /// work is spent.
     pub(crate) fn all_triangles_meeting_box(
         &self,
         bounds: &Bounds,

@@ -14,7 +14,7 @@ pub(super) struct OrientedBox {
     pub(super) axes: [DVec3; 3],
     pub(super) halves: DVec3,
     pub(super) slack: f64,
-    /// The largest absolute coordinate of any point of the box.
+    /// An upper bound of the absolute coordinates of all points of the box.
     pub(super) reach: f64,
 }
 
@@ -68,7 +68,7 @@ impl OrientedBox {
         self.axes[(hi - lo).max_position()]
     }
 
-    /// Returns an upper bound of the dot product of a vector with any vector from the centre to the box.
+    /// Returns an upper bound of the dot product of a vector with the offset of any point of the box from the centre.
     #[inline]
     pub(super) fn support(&self, vector: DVec3) -> f64 {
         let along = dot_with_each(&self.axes, vector).abs();
@@ -82,7 +82,7 @@ impl OrientedBox {
         (along - self.halves).max_element() - 2.0 * self.slack
     }
 
-    /// Returns whether an axis of the box certainly separates it from all points.
+    /// Returns whether an axis of the box certainly separates the box from all given points.
     pub(super) fn is_separated_from(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.reach, greater);

@@ -1,4 +1,4 @@
-//! Tests by planes that separate oriented boxes from a shape.
+//! Planes, and tests that separate oriented boxes from a shape.
 
 use super::oriented_box::OrientedBox;
 use super::region::{Hull, Shape};
@@ -43,10 +43,10 @@ impl Plane {
     }
 }
 
-/// The maximum number of facets of a hull whose planes are tested with boxes.
+/// The maximum number of facets of a hull against whose planes boxes are tested.
 const MAX_TESTED_FACETS: usize = 16;
 
-/// Returns planes that have the shape on or behind them and the hub on or in front of them, exactly. A triangle of
+/// Returns planes with the shape on or behind them and the hub of a fan on or in front of them, exactly. A triangle of
 /// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
 pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
@@ -90,9 +90,9 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
 
 /// The tests by which oriented boxes are separated from a shape.
 pub(super) enum SeparationTests<'a> {
-    /// The axes of a box against the points that span the shape.
+    /// The box's axes are tested as separating axes against these points, which span the shape.
     Points(&'a [DVec3]),
-    /// Planes that have the shape behind them.
+    /// The box is tested to be in front of one of these planes, which have the shape behind them.
     Planes(Vec<Plane>),
 }
 
@@ -120,8 +120,8 @@ impl<'a> SeparationTests<'a> {
     }
 }
 
-/// Adds the separating planes through the line `p q`, parallel to a coordinate axis. They have some points on or
-/// behind them and the hub on or in front of them.
+/// Adds the planes through the line `p q` and parallel to a coordinate axis that separate the hub from the points
+/// `behind`. The points are on or behind each plane, and the hub is on or in front of it.
 fn add_axis_parallel_planes(
     planes: &mut Vec<Plane>,
     [p, q]: [DVec3; 2],
@@ -140,7 +140,7 @@ fn add_axis_parallel_planes(
     }
 }
 
-/// Returns whether a triangle contains a point of its plane.
+/// Returns whether a triangle contains a point. A triangle without area counts as containing every point.
 fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
@@ -149,7 +149,8 @@ fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
     side(triangle, point) == Ordering::Equal && Projection::new(triangle).is_none_or(within)
 }
 
-/// Adds the plane through the hub and an edge, if `rest`, the triangle's third corner, is behind it.
+/// Adds the planes through the hub and the edge `p q`, in either orientation, that have the triangle's third corner
+/// `rest` on or behind them.
 fn add_plane_through_edge(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {

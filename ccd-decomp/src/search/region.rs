@@ -14,11 +14,11 @@ pub(crate) struct Region {
 pub(super) enum Shape {
     Segment([DVec3; 2]),
     Triangle([DVec3; 3]),
-    /// The interior of a hull, within the box.
+    /// The part of a hull's interior that is in the region's bounding box.
     Inside(Hull),
 }
 
-/// The maximum number of facets that separation tests use.
+/// The maximum number of facets of a hull that a region stores for separation tests.
 const MAX_SEPARATION_FACETS: usize = 64;
 
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ impl Region {
         }
     }
 
-    /// Creates the region inside both a box and a hull, given by its corners and facets.
+    /// Creates the region inside both a box and a hull; the hull is given by its corners and facets.
     pub(crate) fn inside(corners: Vec<DVec3>, mut facets: Vec<[DVec3; 3]>, bounds: Bounds) -> Self {
         // A triangle near a hull but outside is most likely in front of a large facet.
         let area = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).length_squared();

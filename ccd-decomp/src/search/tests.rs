@@ -23,7 +23,7 @@ fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     found
 }
 
-/// Tests that few triangles are reported near a triangle or hull among fans of any size.
+/// Tests that at most 24 triangles are reported near a triangle of a fan, for fans of up to 4,096 slivers.
 #[test]
 fn slivers_are_near_few_others() {
     for corners in [64, 512, 4096] {
@@ -40,7 +40,7 @@ fn slivers_are_near_few_others() {
     }
 }
 
-/// Tests that an omitted triangle shares no point with the query, exactly and over all pairs.
+/// Tests that every triangle that meets a query triangle is reported, against an exact test of all pairs.
 #[test]
 fn nothing_that_meets_is_left_out() {
     let mesh = star_bipyramid(64, 0.5);
@@ -87,7 +87,7 @@ fn corner() -> impl Strategy<Value = DVec3> {
     (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
-/// Generates triangles around a common vertex, and other triangles; in some cases slim ones in one plane.
+/// Generates triangles around a common vertex, and other triangles; in some cases many triangles are coplanar.
 fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     let corners = prop::collection::vec(corner(), 50..120);
     (corners, any::<bool>(), 0..100u32).prop_map(|(mut points, flat, fan)| {
@@ -159,7 +159,8 @@ fn skipped_triangles_meet_nothing() {
     assert!(near < asked / 10 * 9, "{near} of {asked}");
 }
 
-/// Tests the nearest triangle, and the triangles whose boxes meet a box, against a scan of every triangle.
+/// Tests that a search finds the nearest triangle, and the triangles whose boxes meet a box, as a scan of every
+/// triangle does.
 #[test]
 fn the_nearest_triangle_is_found() {
     let given = (soup(), prop::collection::vec([corner(), corner()], 40));

@@ -21,7 +21,7 @@ pub enum DecomposeError {
     /// Some faces of the mesh have no area.
     #[error("faces without area: {faces}; remove them, or use triangles")]
     ZeroAreaFaces {
-        /// The numbers of these faces.
+        /// The numbers of the faces without area.
         faces: Tally<u32>,
     },
     /// Faces intersect outside shared vertices and edges.
@@ -39,15 +39,16 @@ pub enum DecomposeError {
     /// The volume of a part is too small to determine its orientation.
     #[error("the part with face {face} holds no volume to speak of; use triangles")]
     NoVolume {
-        /// The number of a face of the part.
+        /// The number of a face of the part without volume.
         face: u32,
     },
-    /// The nesting of a part is unknown, because every tested corner of it lies on another part.
+    /// It is unknown which other parts surround a part, because every ray tried from its corners starts on another part
+    /// or meets an edge of it.
     #[error(
         "the part with face {face} touches other parts at its corners; take the parts for themselves, or use triangles"
     )]
     UnknownNesting {
-        /// The number of a face of the part.
+        /// The number of a face of the part whose nesting is unknown.
         face: u32,
     },
     /// The mesh was to be one convex piece, but an edge of it is reflex.
@@ -70,7 +71,7 @@ pub enum DecomposeError {
         "vertex {vertex} has a coordinate nearer to 0 than {LEAST_NONZERO_COORDINATE:e}; make it 0"
     )]
     TooFine {
-        /// The number of the vertex.
+        /// The number of the vertex with that coordinate.
         vertex: usize,
     },
 }

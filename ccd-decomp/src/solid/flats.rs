@@ -14,7 +14,7 @@ use std::cmp::{Ordering, Reverse};
 /// The partition of a mesh's faces into convex polygons.
 pub(crate) struct ConvexPolygons {
     flats: Vec<Flat>,
-    /// By face, the number of its polygon.
+    /// For each face, the number of its polygon.
     polygon_of_face: Vec<u32>,
 }
 
@@ -25,12 +25,12 @@ pub(crate) struct Flat {
     pub(crate) faces: Vec<u32>,
     /// The half-edges of the polygon's boundary, counter-clockwise.
     pub(crate) rim: Vec<HalfEdge>,
-    /// The vertices of the boundary at which it is not straight.
+    /// The boundary vertices at which the boundary is not straight, counter-clockwise.
     pub(crate) corners: Vec<u32>,
 }
 
 impl ConvexPolygons {
-    /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
+    /// Merges adjacent coplanar faces to convex polygons, by [`RegionMerger`].
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
         RegionMerger::merge_all_regions(manifold).into_polygons()
     }
@@ -58,11 +58,11 @@ pub(crate) struct PlanarRegion {
     pub(crate) polygons: usize,
 }
 
-/// Coplanar regions that are merged to convex polygons. Two disjoint convex regions share a single run of edges.
-/// Their union is convex if it is convex at both ends of the run.
+/// Coplanar regions of faces, which are merged as long as their union is convex. Two disjoint convex regions share a
+/// single run of edges. Their union is convex if it is convex at both ends of the run.
 pub(crate) struct RegionMerger<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    /// By half-edge, the next and the previous half-edge on the boundary of its region.
+    /// For each half-edge, the next half-edge on the boundary of its region; `previous` holds the previous one.
     next: Vec<HalfEdge>,
     previous: Vec<HalfEdge>,
     regions: DisjointSets,
@@ -93,7 +93,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         merger
     }
 
-    /// Returns the planar part with the most triangles.
+    /// Returns the size of the planar part with the most triangles.
     pub(crate) fn largest_planar_region(&mut self) -> PlanarRegion {
         let faces = self.manifold.faces().len();
         let mut planes = vec![PlanarRegion::default(); faces];
@@ -178,8 +178,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         true
     }
 
-    /// Follows the boundary of a region to the last half-edge that borders another given region. Returns `None` if
-    /// the whole boundary borders it.
+    /// Follows the boundary of a region to the last half-edge that borders the region `beyond`. Returns `None` if the
+    /// whole boundary borders `beyond`.
     fn last_half_edge_beside_region(
         &mut self,
         edge: HalfEdge,
@@ -199,7 +199,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         }
     }
 
-    /// Returns whether a boundary is straight or turns left between two half-edges.
+    /// Returns whether a boundary is straight or turns left from one half-edge to the next.
     fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
         let Some(plane) = Projection::new(self.manifold.triangle(before / 3)) else {
             return false;
@@ -209,7 +209,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         plane.turn(a, b, c) != Ordering::Less
     }
 
-    /// Returns the polygons that the regions have become.
+    /// Converts the merged regions to convex polygons.
     pub(crate) fn into_polygons(mut self) -> ConvexPolygons {
         let flat_of = self.regions.numbers();
         let flat = |faces: Vec<u32>| Flat {

@@ -15,13 +15,13 @@ use std::sync::OnceLock;
 /// A closed 2-manifold of triangles: every half-edge has exactly one twin.
 ///
 /// # Invariants
-/// Equal points are one vertex. No triangle is degenerate. Coordinates are in the range of exact predicates. Of one
-/// that [bounds a solid](super::bounding_solid), no two triangles meet except in the vertices and edges they share, and
-/// behind each of them, against its normal, is the solid.
+/// Equal points are one vertex. No triangle is degenerate. Coordinates are in the range of exact predicates. If the
+/// manifold [bounds a solid](super::solid_surface), two triangles meet only in shared vertices and edges, and the
+/// solid is behind every triangle, against its normal.
 pub(crate) struct Manifold<'m> {
     mesh: &'m TriangleMesh,
     faces: Vec<[u32; 3]>,
-    /// By half-edge, its twin: the half-edge on the same edge in the opposite direction.
+    /// For each half-edge, its twin: the half-edge on the same edge in the opposite direction.
     twins: Vec<HalfEdge>,
     /// The search trees over the faces, created on demand.
     boxes: OnceLock<TriangleBoxes>,
@@ -32,7 +32,7 @@ pub(crate) struct Manifold<'m> {
 pub(crate) enum Dihedral {
     /// The interior angle is less than half a turn.
     Convex,
-    /// The faces lie in one plane.
+    /// The faces lie in one plane, on opposite sides of the edge.
     Flat,
     /// The interior angle is more than half a turn.
     Reflex,
@@ -41,8 +41,8 @@ pub(crate) enum Dihedral {
 }
 
 impl<'m> Manifold<'m> {
-    /// Creates the manifold of a mesh by its edges alone: triangles may intersect, and parts may be inside out. It
-    /// takes a tenth of the time of [`solid_surface`](super::solid_surface).
+    /// Creates the manifold of a mesh after a check of its edges and areas. Triangles may intersect, and parts may be
+    /// inside out. It takes a tenth of the time of [`solid_surface`](super::solid_surface).
     pub(crate) fn without_intersection_check(
         mesh: &'m TriangleMesh,
         topology: &Topology,
@@ -99,7 +99,7 @@ impl<'m> Manifold<'m> {
         [self.point(a), self.point(b), self.point(c)]
     }
 
-    /// Returns the search trees over the faces.
+    /// Returns the search trees over the faces, which the first call builds.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
         self.boxes
             .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))

@@ -27,11 +27,11 @@ use closed_parts::closed_part_numbers;
 /// orientation; otherwise they are unclear.
 #[derive(Debug, Default)]
 pub(crate) struct Nesting {
-    /// The faces to reverse, so that the solid is behind all faces or in front of all faces.
+    /// The faces to reverse, so that the solid is behind all faces of the mesh or in front of all faces.
     pub(crate) turned: Vec<u32>,
-    /// The wrongly oriented shells, if other shells are right: one face of each, by the file's number.
+    /// One face of each wrongly oriented shell, by the file's number; empty if all shells are wrongly oriented.
     pub(crate) wrong_shells: Tally<u32>,
-    /// The shells that may bound a solid or a cavity: one face of each, by the file's number.
+    /// One face, by the file's number, of each shell for which it is unclear whether it bounds a solid or a cavity.
     pub(crate) unclear_shells: Tally<u32>,
 }
 
@@ -64,7 +64,7 @@ struct Shells<'m> {
 #[derive(Clone, Debug, Default)]
 struct Surroundings {
     shells: Vec<u32>,
-    /// Whether a surrounding shell intersects this one.
+    /// Whether another shell intersects the surrounded shell; false if no shell winds about it.
     is_crossed: bool,
 }
 
@@ -190,7 +190,8 @@ impl<'m> Shells<'m> {
         })
     }
 
-    /// Returns the centre of a face, up to rounding; `None` if another shell is within that rounding.
+    /// Returns the rounded centre of a face; `None` if another shell is so near that rounding may move the centre
+    /// across it.
     fn isolated_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
         let (middle, across) = centre_and_sides(face, size)?;
         let is_of_shell = |face: u32| self.shell_of_face[face as usize] == shell;

@@ -47,7 +47,7 @@ pub(crate) fn check_orientation(
     Ok(())
 }
 
-/// Returns the shell number of each face. Shells are connected over edges.
+/// Returns for each face the number of the shell that the face belongs to. Shells are connected over edges.
 pub(crate) fn shell_numbers(manifold: &Manifold<'_>) -> Vec<u32> {
     let faces = manifold.faces().len();
     let mut shells = DisjointSets::new(faces);

@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_NONZERO_COORDINATE;
 use std::cmp::Ordering;
 
-/// Returns one of a few candidate points from which the whole surface is visible, if there is one. A point sees the
-/// surface if it is behind every face, and no face hides another.
+/// Returns a point from which the whole surface is visible; `None` if no candidate point is such a point. A point sees
+/// the surface if it is behind every face, and no face hides another.
 ///
 /// # Guarantee
 /// Exact: faces then share only vertices and edges, and the solid is behind them. From a point behind all
@@ -49,7 +49,7 @@ fn with_tiny_coordinates_zeroed(p: DVec3) -> DVec3 {
     )
 }
 
-/// Returns whether a ray from `middle` that avoids all edges meets exactly one triangle.
+/// Returns whether the ray from `middle` to the centre of the first triangle meets exactly one triangle, and no edge.
 fn ray_meets_one_triangle(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
     let mut triangles = triangles.peekable();
     let Some(&[a, b, c]) = triangles.peek() else {

@@ -22,7 +22,8 @@ pub struct Topology {
     /// Wrongly oriented shells, if other shells are right; one face of each. Bodies are made with these shells
     /// reversed.
     pub wrong_shells: Tally<u32>,
-    /// Shells inside one shell that cross another, so that they may bound a solid or a cavity; one face of each.
+    /// Shells for which it is unclear whether they bound a solid or a cavity; one face of each. They are inside a shell
+    /// and cross another shell, or their nesting cannot be determined.
     pub unclear: Tally<u32>,
     /// The enclosed volume after wrong shells are reversed, in cubic units of length. It is negative if all normals
     /// point inward, and meaningful for closed meshes only.
@@ -45,7 +46,7 @@ pub enum Orientation {
 }
 
 impl Topology {
-    /// Computes the topology of a mesh: every edge, and the nesting of its shells. O(n log n) in the number of faces,
+    /// Computes the topology of a mesh from its edges and the nesting of its shells. O(n log n) in the number of faces,
     /// where few boxes of faces of different shells meet.
     ///
     /// ```
@@ -58,8 +59,8 @@ impl Topology {
         Topology::with_reoriented_mesh(mesh).0
     }
 
-    /// Computes the topology like [`Topology::of`]. Also returns the mesh with wrong shells reversed, if there are
-    /// any.
+    /// Computes the topology like [`Topology::of`], and the mesh with wrong shells reversed. The mesh is `None` if no
+    /// shell is wrong.
     pub(crate) fn with_reoriented_mesh(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
         let edges = Edges::new(&mesh.welded_faces());
         let mut topology = Topology {
@@ -107,7 +108,7 @@ impl Topology {
         self.is_closed() && self.shared_edges.is_empty()
     }
 
-    /// Returns the change that would make the mesh a manifold, as advice in messages.
+    /// Returns advice on how to make the mesh a manifold, as a part of error messages.
     pub(crate) fn advice(&self) -> &'static str {
         if !(self.boundary.is_empty() && self.branching_edges.is_empty()) {
             "close the mesh"

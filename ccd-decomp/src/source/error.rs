@@ -30,7 +30,7 @@ pub enum BodyError {
     /// No body can be made of the content of a file.
     #[error("{}: {error}", .file.display())]
     InFile {
-        /// The path of the file.
+        /// The path of the file whose content is at fault.
         file: PathBuf,
         /// The reason why no body can be made.
         error: PrepareError,
@@ -69,7 +69,7 @@ pub enum SourceError {
     /// A stored body has adjustments, which apply only to meshes.
     #[error("{}: {PREPARED_ADVICE}", .file.display())]
     Prepared {
-        /// The path of the stored body.
+        /// The path of the file of the stored body.
         file: PathBuf,
     },
     /// A length exceeds the largest supported coordinate.

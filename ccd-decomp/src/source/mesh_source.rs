@@ -13,7 +13,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// A mesh file or a part of one, with adjustments: `FILE`, `FILE#PART`, `FILE@mm`, `FILE#PART@scale=0.5@mirror=x`.
+/// A mesh file or a part of a mesh file, with adjustments: `FILE`, `FILE#PART`, `FILE@mm`,
+/// `FILE#PART@scale=0.5@mirror=x`.
 ///
 /// The part follows the first `#` after a mesh extension, the adjustments follow `@`. After a part, only valid
 /// adjustments are not part of its name. If a file has the whole text as its name, it is that file.
@@ -73,7 +74,7 @@ impl MeshSource {
     }
 }
 
-/// Splits a text into file name, mark (`#` or `@`), and rest.
+/// Splits a text into the file name, the mark after the file name (`#` or `@`), and the rest; `None` without a mark.
 fn split_at_mark(text: &str) -> Option<(&str, char, &str)> {
     let mut ends = text.match_indices(['#', '@']);
     let (at, mark) = ends.find(|&(at, mark)| {
@@ -117,7 +118,7 @@ impl FromStr for MeshSource {
     }
 }
 
-/// Describes a whole mesh file without adjustments.
+/// Creates the description of a whole mesh file, without adjustments.
 impl From<PathBuf> for MeshSource {
     fn from(file: PathBuf) -> Self {
         MeshSource {
@@ -128,7 +129,8 @@ impl From<PathBuf> for MeshSource {
     }
 }
 
-/// Parses the description in a path. A path that is not UTF-8 is a file name without a part.
+/// Parses a description given as a string of the operating system, such as a command-line argument. A path that is not
+/// UTF-8 is a file name without a part.
 impl TryFrom<OsString> for MeshSource {
     type Error = UnknownAdjustment;
 

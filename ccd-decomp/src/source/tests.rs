@@ -26,7 +26,7 @@ fn descriptions_are_parsed(#[case] text: &str, #[case] expected: BodySource) {
     assert_eq!(text.parse(), Ok(expected));
 }
 
-/// Returns the description of a mesh with the given adjustments, as text.
+/// Returns the description of a mesh file, its part, and adjustments given as text.
 fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
     let mut words = adjusted.split('@').skip(1);
     let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_adjustment_word);
@@ -56,7 +56,7 @@ fn unknown_words_after_a_file_are_reported(#[case] text: &str, #[case] message: 
     assert!(error.starts_with(message), "{error}");
 }
 
-/// A mesh file of a tetrahedron, by its path.
+/// The path of a temporary mesh file of a tetrahedron, which is deleted on drop.
 struct TetrahedronFile(PathBuf);
 
 impl TetrahedronFile {
@@ -68,7 +68,7 @@ impl TetrahedronFile {
         TetrahedronFile(path)
     }
 
-    /// Loads the file with words appended to its name.
+    /// Loads the body that the file's path followed by `words` describes.
     fn load_with_words(&self, words: &str) -> PreparedBody {
         self.try_load_with_words(words).unwrap()
     }
@@ -221,7 +221,7 @@ fn primitives_are_single_solid_pieces() {
     }
 }
 
-/// Tests that the reported excess of a polytope is at most the requested one.
+/// Tests that the reported excess of a cylinder or cone is at most the maximum excess, and at least half of it.
 #[rstest]
 #[case("cylinder:2,1", 2.0 / 4096.0)]
 #[case("cone:2,1,1e-5", 1e-5)]
@@ -283,7 +283,7 @@ fn a_mesh_that_is_not_what_was_asked_for_is_named_with_its_file() {
     assert!(error.starts_with(&expected), "{error}");
 }
 
-/// Tests that messages about one length use the singular.
+/// Tests that the message about a wrong number of lengths says 1 length, but 2 lengths.
 #[test]
 fn the_number_of_lengths_is_worded() {
     for (text, start) in [

@@ -3,9 +3,10 @@
 use ccd_core::glam::DVec3;
 use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 
-/// The distance between shells below which the centre of a face does not represent its shell. It is relative to the
-/// mesh's size and its distance from the origin. Rounding moves the centre off the face by 8 [`UNIT_ROUNDOFF_F64`] at most, and the
-/// face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
+/// The distance to another shell below which the centre of a face is not used to find the nesting of its shell. It is
+/// relative to the mesh's size and its distance from the origin. Rounding moves the centre off the face by 8
+/// [`UNIT_ROUNDOFF_F64`] at most, and the face's normal is accurate to a hundredth even for needles of an aspect of
+/// 1e6.
 pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
 /// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along an
@@ -32,8 +33,8 @@ pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
     (32.0 + 4.0 * terms * (terms * UNIT_ROUNDOFF_F64)) * UNIT_ROUNDOFF_F64 * size
 }
 
-/// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. The rounding error is 1e-15
-/// for well-shaped triangles, and less than a tenth of this for triangles that are just no
+/// A bound on the error of the distance from a point to the nearest triangle, in units of half the mesh's diagonal. The
+/// rounding error is 1e-15 for well-shaped triangles, and less than a tenth of this for triangles that are just no
 /// [needles](MAX_NEEDLE_RATIO).
 pub(crate) const NEAREST_DISTANCE_ERROR: f64 = 1e-9;
 
@@ -52,6 +53,6 @@ pub(crate) fn excess_rounding(half_diagonal: f64, farthest: f64) -> f64 {
 /// with the inverse: it exceeds [`NEAREST_DISTANCE_ERROR`] at 1e-6.
 pub(crate) const MAX_NEEDLE_RATIO: f64 = 1e-4;
 
-/// The minimum sine of the angle at a corner of a facet whose plane is used. The error of the facet's normal is then
-/// at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`NEAREST_DISTANCE_ERROR`].
+/// The minimum sine of the angle between two sides of a facet for the facet's plane to be used. The error of the
+/// facet's normal is then at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`NEAREST_DISTANCE_ERROR`].
 pub(crate) const MIN_CORNER_SINE: f64 = 1e-6;

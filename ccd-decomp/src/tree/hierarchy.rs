@@ -140,7 +140,8 @@ fn build_subtree(leaves: &[Node], centres: &mut [Centre], slot: Slot<'_, Node>) 
     }
 }
 
-/// Splits pieces at the median of their centres along the longest axis, builds both halves by `make`, and joins them.
+/// Splits pieces at the median of their centres along the longest axis, calls `make` to build both halves, and joins
+/// them under a node.
 fn split_at_median(
     centres: &mut [Centre],
     mut slot: Slot<'_, Node>,

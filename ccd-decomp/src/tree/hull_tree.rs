@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::{HullNode, HullTree, HullTreeError, InputError, Pieces};
 use split::Splitter;
 
-/// Builds the convex hull tree of pieces.
+/// Builds a binary tree of convex hulls over pieces.
 ///
 /// Pieces are split across the longest direction of the hull of their centres: at the middle or, if that leaves too few
 /// on one side, at the median. The hull of a node is that of its children's corners.

@@ -3,7 +3,8 @@
 /// The slot of a subtree in the node list: its root and the range of its descendants.
 pub(super) struct Slot<'n, N> {
     pub(super) node: &'n mut N,
-    /// The descendants: the two children, then the descendants of the second child, then those of the first.
+    /// The descendants: the two children, then the descendants of the second child, then the descendants of the first
+    /// child.
     pub(super) below: &'n mut [N],
     /// The index of the first descendant.
     pub(super) first: u32,

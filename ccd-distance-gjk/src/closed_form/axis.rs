@@ -14,7 +14,7 @@ use ccd_core::vector::unit;
 #[derive(Debug)]
 pub(crate) struct SeparatingAxisCandidates<L: Simd> {
     directions: [Lanes3<L>; LANE_GROUP_COUNT],
-    /// The support gaps along the unit vectors, −∞ for directions that are zero.
+    /// The support gaps along the unit vectors of the directions; −∞ for a zero direction.
     gaps: [f64x4<L>; LANE_GROUP_COUNT],
 }
 
@@ -100,7 +100,8 @@ fn normal(edges: &[DVec3; 3]) -> DVec3 {
     }
 }
 
-/// Returns axes along and perpendicular to the longest edge of both triangles, for segments on one line and for points.
+/// Returns axes along and perpendicular to the longest edge of both triangles. They serve for segments on one line and
+/// for points.
 #[inline(always)]
 fn axes_of_longest_edge<L: Simd>(
     level: L,

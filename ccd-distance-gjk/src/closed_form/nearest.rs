@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
 
-/// The corners of a triangle, a segment or a point; fewer than three repeat the last.
+/// The three corners of a triangle; for a segment or a point, the last corner is repeated.
 pub(crate) type Corners = [DVec3; 3];
 
 /// Returns the support gap `min_Q n·y − max_P n·x` of two triangles along `n`, not divided by the length of `n`.
@@ -17,7 +17,7 @@ pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
     lesser(lesser(d, e), f) - greater(greater(a, b), c)
 }
 
-/// The nearest points of two triangles, by the weights of their corners.
+/// The nearest points of two triangles, in barycentric coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) a: [f64; 3],
@@ -25,7 +25,7 @@ pub(crate) struct Nearest {
 }
 
 impl Nearest {
-    /// Returns the vector from the first triangle's point to the second's.
+    /// Returns the vector from the first triangle's nearest point to the second triangle's.
     #[inline(always)]
     pub(crate) fn difference(&self, p: &Corners, q: &Corners) -> DVec3 {
         at(q, self.b) - at(p, self.a)
@@ -61,7 +61,7 @@ fn nearest_at<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
     }
 }
 
-/// For every edge of the second triangle, the nearest edge of the first one.
+/// For every edge of the second triangle, one per lane, the nearest edge of the first triangle.
 struct EdgeEdge<L: Simd> {
     square: f64x4<L>,
     /// The index of the first triangle's edge.
@@ -121,16 +121,16 @@ fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<
     best
 }
 
-/// For every corner of one triangle, its projection onto the face of the other.
+/// For every corner of one triangle, one per lane, its projection onto the face of the other triangle.
 struct CornerFace<L: Simd> {
-    /// The squared distance; infinite if the corner's projection is outside of the face.
+    /// The squared distance of the corner from its projection; infinite if the projection is outside of the face.
     square: f64x4<L>,
     u: f64x4<L>,
     v: f64x4<L>,
 }
 
 impl<L: Simd> CornerFace<L> {
-    /// Returns the weights of the face's corners, and of the other triangle's corners.
+    /// Returns the barycentric coordinates of the projection in the face, and of the corner in its own triangle.
     #[inline(always)]
     fn weights(&self, lane: usize) -> ([f64; 3], [f64; 3]) {
         let (u, v) = (self.u[lane], self.v[lane]);
@@ -163,7 +163,7 @@ fn project_corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners)
     }
 }
 
-/// Returns the least of four values and its lane.
+/// Returns the least of four values, and the lane that holds it.
 #[inline(always)]
 fn least_lane<L: Simd>(x: f64x4<L>) -> (f64, usize) {
     let low = if x[1] < x[0] { 1 } else { 0 };
@@ -180,7 +180,7 @@ fn on_edge(start: usize, t: f64) -> [f64; 3] {
     out
 }
 
-/// Returns the point with the given weights of the corners, of sum one.
+/// Returns the point with the given barycentric coordinates.
 #[inline(always)]
 pub(crate) fn at(corners: &Corners, [u, v, w]: [f64; 3]) -> DVec3 {
     u * corners[0] + v * corners[1] + w * corners[2]

@@ -26,8 +26,8 @@ pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
         })
 }
 
-/// Intersects the edges of the triangle `of` with the plane of `face`. Returns the weights of both triangles' corners
-/// for each intersection.
+/// Intersects the edges of the triangle `of` with the plane of `face`, clamped to the edges and to the face. Returns
+/// the weights of both triangles' corners for each intersection.
 fn edge_plane_intersections(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);
@@ -46,7 +46,7 @@ fn edge_plane_intersections(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3
     })
 }
 
-/// Projects `x` onto a face, clamped to it, and returns the weights of the face's corners.
+/// Returns the barycentric coordinates of the projection of `x` onto a face, clamped to the face.
 fn projected_weights(e: DVec3, f: DVec3, n: DVec3, x: DVec3) -> [f64; 3] {
     let per = n.length_squared().recip();
     let part = |weight: f64| match weight {

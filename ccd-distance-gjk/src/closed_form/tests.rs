@@ -32,7 +32,7 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// Tests that claims name only the features' points: a corner has weight one.
+/// Tests that claims use only the points of the nearest features, for instance a single point for a corner.
 #[rstest]
 #[case::corner_above_face([v(1.0, 1.0, 1.0), v(1.0, 2.0, 3.0), v(2.0, 1.0, 3.0)], &[0, 1, 2], &[0])]
 #[case::corner_beside_edge([v(1.0, -1.0, 0.0), v(1.0, -2.0, 1.0), v(2.0, -2.0, 1.0)], &[0, 1], &[0])]
@@ -53,7 +53,7 @@ fn claims_name_the_nearest_features(
     assert_eq!(sorted(claim.b.support()), of_b);
 }
 
-/// Tests that indices are those of the piece if it has fewer than three points.
+/// Tests that claims about segments and points use the indices of the pieces' own points.
 #[test]
 fn segments_and_points_keep_their_indices() {
     let segment = [v(1.0, 1.0, 2.0), v(1.0, 1.0, 1.0)];
@@ -76,7 +76,7 @@ fn refuses_other_numbers_of_points() {
     assert_eq!(claim(&BASE_TRIANGLE, &[]), Err(GiveUpReason::TooManyPoints));
 }
 
-/// Tests triangles that intersect although their boundaries are far apart.
+/// Tests that a common point is found for triangles that intersect although their boundaries are far apart.
 #[test]
 fn finds_the_point_where_an_edge_passes_through() {
     let spear = [v(1.0, 1.0, 5.0), v(1.0, 1.0, -5.0), v(1.1, 1.1, 5.0)];
@@ -90,7 +90,7 @@ fn finds_the_point_where_an_edge_passes_through() {
     assert!(common.difference(&spear, &BASE_TRIANGLE).length() < 1e-15);
 }
 
-/// Tests a point behind the plane that is nearest to another part of the boundary, which is no intersection.
+/// Tests that no common point is found for a triangle that crosses the other triangle's plane outside of the face.
 #[test]
 fn does_not_pierce_outside_of_the_face() {
     let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];

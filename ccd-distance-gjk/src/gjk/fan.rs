@@ -7,7 +7,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use ccd_core::vector::unit;
 
-/// Vertices of the Minkowski difference, relative to the vertex with the largest weight in the nearest point.
+/// Vertices of the Minkowski difference that span candidates for a separating axis. The first vertex has the largest
+/// weight in the nearest point.
 pub(crate) struct AxisCandidates {
     /// The point of the difference that is nearest to the origin.
     point: DVec3,
@@ -16,7 +17,7 @@ pub(crate) struct AxisCandidates {
 }
 
 impl AxisCandidates {
-    /// Starts with the vertices of the nearest point; `None` if there are none.
+    /// Creates the candidates from the simplex that a search found; `None` if the simplex is empty.
     pub(crate) fn new(found: &Best) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = AxisCandidates {
@@ -40,7 +41,8 @@ impl AxisCandidates {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex to the candidates. Returns `false` if it is a duplicate, or there are too many vertices.
+    /// Adds a vertex to the candidates, and returns whether the vertex was added. A duplicate is refused, and so is a
+    /// vertex beyond [`MAX_AXIS_VERTICES`].
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| v.point == vertex.point;
         let room = self.len < MAX_AXIS_VERTICES && !self.vertices().iter().any(same);
@@ -51,10 +53,10 @@ impl AxisCandidates {
         room
     }
 
-    /// Returns the axis along which the vertices are farthest from the origin, and that distance.
+    /// Returns the unit axis along which the lowest vertex is highest, and the height of that vertex above the origin.
     ///
-    /// The candidates are the nearest point, a known axis, and an arbitrary one, as they are or
-    /// made perpendicular to an edge, and the perpendiculars of two edges.
+    /// The candidates are the nearest point, a known axis, and an arbitrary axis, as they are or made perpendicular to
+    /// an edge, and the perpendiculars of two edges.
     pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
         let mut edges = [DVec3::ZERO; MAX_AXIS_VERTICES];
         for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {
@@ -92,7 +94,7 @@ impl AxisCandidates {
         best
     }
 
-    /// Returns the four vertices with the least heights along an axis.
+    /// Returns the simplex of the up to four vertices with the least heights along an axis.
     pub(crate) fn lowest_vertices(mut self, axis: DVec3) -> Simplex {
         let height = |v: &Vertex| axis.dot(v.point);
         self.vertices[..self.len].sort_by(|v, w| height(v).total_cmp(&height(w)));

@@ -2,12 +2,12 @@
 
 use ccd_core::glam::DVec3;
 
-/// A point of a simplex's hull, usually the nearest to the origin.
+/// A point of a simplex, usually the point nearest to the origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestPoint {
     /// The weights of the vertices, none negative, of sum one.
     pub(crate) weights: [f64; 4],
-    /// The combination of the vertices with these weights.
+    /// The position of the point: the sum of the vertices times `weights`.
     pub(crate) point: DVec3,
     /// The direction of `point`, of any length; `None` if the origin is inside. It is computed from the nearest
     /// feature, so that it is accurate for a short `point`.
@@ -15,7 +15,7 @@ pub(crate) struct NearestPoint {
 }
 
 impl NearestPoint {
-    /// Creates the foot that is a vertex.
+    /// Creates the foot that is the vertex with the given index.
     pub(crate) fn corner(point: DVec3, index: usize) -> Self {
         let mut weights = [0.0; 4];
         weights[index] = 1.0;
@@ -26,7 +26,8 @@ impl NearestPoint {
         }
     }
 
-    /// Converts the foot on a sub-simplex to one on the whole simplex, of which vertex `k` is `indices[k]`.
+    /// Converts the foot on a sub-simplex to a foot on the whole simplex. Vertex `k` of the sub-simplex is vertex
+    /// `indices[k]` of the whole simplex.
     pub(crate) fn with_indices(self, indices: &[usize]) -> Self {
         let mut weights = [0.0; 4];
         for (&index, &weight) in indices.iter().zip(&self.weights) {
@@ -35,7 +36,7 @@ impl NearestPoint {
         NearestPoint { weights, ..self }
     }
 
-    /// Returns the foot that is nearer to the origin; `other` if they are equal.
+    /// Returns `self` or `other`, whichever is nearer to the origin; `other` if both are equally near.
     pub(crate) fn nearer_of(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if !(self.point.length_squared() < other.point.length_squared()) => other,

@@ -7,13 +7,13 @@ use ccd_core::{Piece, PiecePair};
 
 /// The Minkowski difference of a pair's hulls, along A's axes.
 ///
-/// Points are relative to the first one of their piece: rounding depends on the sizes and the distance of the pieces,
-/// not on their positions.
+/// Points are relative to the first point of A's piece, and B's piece is rotated about its own first point: rounding
+/// depends on the sizes and the distance of the pieces, not on their positions.
 pub(crate) struct MinkowskiDifference<'a> {
     pair: &'a PiecePair<'a>,
     first_point_a: DVec3,
     first_point_b: DVec3,
-    /// The vector from the first point of A's piece to that of B's.
+    /// The vector from the first point of A's piece to the first point of B's piece.
     pub(crate) between: DVec3,
 }
 
@@ -29,13 +29,14 @@ impl<'a> MinkowskiDifference<'a> {
         })
     }
 
-    /// Returns a point of A's piece, relative to the piece's first point.
+    /// Returns a point of A's piece, relative to the first point of A's piece; `None` if the index is out of range.
     #[inline]
     pub(crate) fn point_a(&self, index: u32) -> Option<DVec3> {
         Some(*self.pair.a.points.get(index as usize)? - self.first_point_a)
     }
 
-    /// Returns a point of B's piece, relative to the piece's first point.
+    /// Returns a point of B's piece along A's axes, relative to the first point of A's piece; `None` if the index is
+    /// out of range.
     #[inline]
     pub(crate) fn point_b(&self, index: u32) -> Option<DVec3> {
         let turned = *self.pair.b.points.get(index as usize)? - self.first_point_b;
@@ -54,7 +55,7 @@ impl<'a> MinkowskiDifference<'a> {
         })
     }
 
-    /// Returns the vertex for a point of A and a point of B; `None` if a piece lacks its point.
+    /// Returns the vertex `b − a` for the points with these indices; `None` if an index is out of range.
     #[inline]
     pub(crate) fn vertex(&self, a: u32, b: u32) -> Option<Vertex> {
         let point = self.point_b(b)? - self.point_a(a)?;

@@ -57,14 +57,14 @@ impl DistanceOracle for Gjk {
     }
 }
 
-/// The claim for a pair with an empty piece.
+/// The claim for a pair in which a piece has no points: no axis and no witnesses.
 pub(crate) const EMPTY_CLAIM: Claim = Claim {
     axis: DVec3::ZERO,
     a: Combination::EMPTY,
     b: Combination::EMPTY,
 };
 
-/// Searches for the nearest point from the cached simplex, and again without it if the result is poor.
+/// Searches for the nearest point from the cached simplex, and again without the cache if the result is not certified.
 ///
 /// A cached simplex may be degenerate at the new positions, so that no step gets nearer.
 pub(crate) fn solve_from(difference: &MinkowskiDifference<'_>, cache: &Cache) -> Best {
@@ -105,7 +105,7 @@ pub(crate) fn solve(difference: &MinkowskiDifference<'_>, mut simplex: Simplex) 
     found
 }
 
-/// Returns whether the axis certifies the distance as well as rounding allows.
+/// Returns whether the support gap along the axis equals the distance found, up to rounding.
 pub(crate) fn is_certified(found: &Best) -> bool {
     found.gap > 0.0 && gap_equals_distance(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }

@@ -8,8 +8,8 @@ use ccd_core::Instructions;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Computes the nearest points of the two features that a simplex spans, by a closed form, and takes them if they are
-/// nearer than those found.
+/// Computes the nearest points of the two features that a simplex spans by a closed form, and stores them in `found` if
+/// they are nearer.
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.
@@ -29,14 +29,14 @@ pub(crate) fn witnesses(difference: &MinkowskiDifference<'_>, simplex: Simplex, 
     }
 }
 
-/// Up to three points of a piece; fewer repeat the last.
+/// Three points of a piece; the last point is repeated if there are fewer.
 struct Points {
     corners: Corners,
     indices: [u32; 3],
 }
 
 impl Points {
-    /// Creates the list of the first three distinct points.
+    /// Collects the first three distinct points; `None` if there is no point.
     fn new(points: impl Iterator<Item = (u32, Option<DVec3>)>) -> Option<Self> {
         let mut out = Points {
             corners: [DVec3::ZERO; 3],
@@ -54,7 +54,7 @@ impl Points {
     }
 }
 
-/// Returns vertices of the difference, and weights, whose combination equals given combinations of both pieces' points.
+/// Converts combinations of both pieces' points to the equal combination of vertices of the difference.
 fn pair_weights(
     difference: &MinkowskiDifference<'_>,
     p: &Points,
@@ -71,7 +71,8 @@ fn pair_weights(
     (simplex, weights)
 }
 
-/// Combines the weights of two lists of points to weights of pairs, in order.
+/// An iterator over weighted pairs of points from two lists. The weights of the pairs that contain a point add up to
+/// the point's weight.
 ///
 /// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
 /// and edge.

@@ -21,7 +21,7 @@ pub(crate) struct Best {
 }
 
 impl Best {
-    /// Creates the results before a search, without a simplex and an axis.
+    /// Creates the state before a search: an empty simplex, no axis, and an infinite distance.
     pub(crate) fn empty() -> Self {
         Best {
             simplex: Simplex::EMPTY,
@@ -32,7 +32,7 @@ impl Best {
         }
     }
 
-    /// Combines two results: the nearer point, and the axis of the larger gap.
+    /// Combines two results: takes the nearer point, and the axis with the larger gap.
     pub(crate) fn combine_results(self, other: Self) -> Self {
         let nearer = if other.square < self.square {
             other
@@ -47,7 +47,8 @@ impl Best {
         }
     }
 
-    /// Computes the support gap along an axis, and the vertex with the least height along it.
+    /// Computes the support gap along an axis, and the vertex with the least height. Stores the axis if its gap is the
+    /// largest so far.
     pub(crate) fn probe_axis(
         &mut self,
         difference: &MinkowskiDifference<'_>,

@@ -1,5 +1,5 @@
-//! Improves axes from the features that contain the nearest points, which are more accurate than the points'
-//! difference.
+//! Computes separating axes from the features that contain the nearest points. Such axes are more accurate than the
+//! difference of the points.
 
 use super::fan::AxisCandidates;
 use super::minkowski::MinkowskiDifference;
@@ -9,8 +9,7 @@ use crate::tolerance::MAX_AXIS_VERTICES;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Searches for an axis that certifies the distance, among those that vertices of the difference near the nearest point
-/// span.
+/// Searches for an axis that certifies the distance, among the axes that vertices near the nearest point span.
 ///
 /// Returns the four vertices that are least along the best axis. The nearest point should be a combination of them.
 ///
@@ -41,7 +40,8 @@ pub(crate) fn try_feature_axes(difference: &MinkowskiDifference<'_>, found: &mut
     fan.lowest_vertices(found.axis)
 }
 
-/// Tries the face normals of a simplex that encloses the origin as axes of least penetration.
+/// Tries the face normals of a tetrahedron around the origin as axes of least penetration, and stores the best in
+/// `found`.
 pub(crate) fn try_face_axes(difference: &MinkowskiDifference<'_>, found: &mut Best) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {

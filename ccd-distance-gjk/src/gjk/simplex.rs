@@ -4,7 +4,7 @@ use super::foot::NearestPoint;
 use super::{segment, tetrahedron, triangle};
 use ccd_core::glam::DVec3;
 
-/// A vertex `b − a` of the Minkowski difference, with its points of both pieces.
+/// A vertex `b − a` of the Minkowski difference, with the indices of both points in their pieces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) point: DVec3,
@@ -30,12 +30,13 @@ impl Simplex {
         len: 0,
     };
 
-    /// Returns the vertices of the simplex.
+    /// Returns the vertices of the simplex, of which there may be none.
     pub(crate) fn vertices(&self) -> &[Vertex] {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex to the simplex. Returns `false` if it is a duplicate, or there are four already.
+    /// Adds a vertex to the simplex, and returns whether the vertex was added. A duplicate and a fifth vertex are
+    /// refused.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| (v.a, v.b) == (vertex.a, vertex.b);
         let room = self.len < 4 && !self.vertices().iter().any(same);

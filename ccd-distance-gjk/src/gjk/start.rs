@@ -1,4 +1,4 @@
-//! Chooses the simplex from which a search starts: that of the last call on the pair, or a support vertex.
+//! Chooses the simplex from which a search starts: the result of the last search on the pair, or a support vertex.
 
 use super::minkowski::MinkowskiDifference;
 use super::search::Best;

@@ -26,16 +26,16 @@ pub(crate) fn is_at_origin(foot: &NearestPoint, simplex: &Simplex) -> bool {
     foot.point.length_squared() <= rounding * rounding * reach(simplex)
 }
 
-/// Returns whether a support gap equals the distance whose square is given, up to a share of rounding.
+/// Returns whether a support gap equals a distance, given by its square, up to a tolerance for rounding.
 ///
-/// They may differ by `share` units in the last place of the distance, plus rounding.
+/// The two may differ by `share` units in the last place of the distance, plus rounding.
 pub(crate) fn gap_equals_distance(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
     let distance = square.sqrt();
     let rounding = TOUCHING_ULPS * f64::EPSILON * reach(simplex).sqrt();
     distance - gap <= share * f64::EPSILON * distance + rounding
 }
 
-/// Returns the square of the longest vertex, to which rounding is relative.
+/// Returns the largest squared length of the simplex's vertices, to which rounding is relative.
 fn reach(simplex: &Simplex) -> f64 {
     let squares = simplex.vertices().iter().map(|v| v.point.length_squared());
     squares.fold(f64::MIN_POSITIVE, greater)

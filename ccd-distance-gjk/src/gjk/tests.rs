@@ -39,7 +39,8 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
     out
 }
 
-/// Checks that a foot is the nearest point: it is a convex combination, and no corner is nearer along it than the foot.
+/// Checks that a foot is a convex combination of the corners, and that no segment from the foot to a corner comes
+/// nearer to the origin.
 fn assert_nearest_point(corners: &[DVec3], foot: &NearestPoint) {
     let size = corners
         .iter()
@@ -144,7 +145,7 @@ fn a_simplex_takes_no_pair_twice_and_no_fifth() {
     assert!(!simplex.push(vertex(2, 2)));
 }
 
-/// Tests that the only axis that all edges of a pyramid's apex allow is found edge by edge.
+/// Tests that an axis is found along which no base corner of a flat pyramid is below its apex.
 #[test]
 fn a_fan_finds_the_axis_between_its_edges() {
     let mut found = Best::empty();
@@ -168,7 +169,7 @@ fn a_fan_finds_the_axis_between_its_edges() {
     assert!(low >= -1e-15 && axis.z > 0.99, "{axis} stands at {low}");
 }
 
-/// Tests that a search that stalls on nearly parallel edges is corrected by the next steps.
+/// Tests that `solve` certifies the distance of nearly parallel edges, on which a single search often stalls.
 #[test]
 fn stalled_searches_are_taken_up_again() {
     let (mut stalled, mut short) = (0, 0);
@@ -197,7 +198,8 @@ fn stalled_searches_are_taken_up_again() {
     );
 }
 
-/// Tests a box that turns slowly above another one, with faces that were parallel a moment ago.
+/// Tests that a search that fails from the cached simplex succeeds without it, on boxes whose faces were parallel at
+/// the last call.
 #[test]
 fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
     let a = Body::cuboid([0.5, 0.5, 1.0]).unwrap();

@@ -29,10 +29,11 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
         .fold(first, |best, foot| foot.nearer_of(Some(best)))
 }
 
-/// The index of each corner, followed by those of the opposite face.
+/// The index of each corner, followed by the indices of the opposite face's corners.
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
-/// Returns the weights of the origin inside the tetrahedron; `None` if rounding prevents it.
+/// Returns the weights of the origin inside the tetrahedron; `None` if their combination misses the origin by more than
+/// rounding.
 fn weights_of_origin(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<NearestPoint> {
     let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);

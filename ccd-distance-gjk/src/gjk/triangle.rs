@@ -32,7 +32,8 @@ pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> NearestPoint {
     best.unwrap_or(NearestPoint::corner(a, 0))
 }
 
-/// Returns the nearest point inside the face, from the areas opposite of each corner.
+/// Returns the point of the face nearest to the origin. Its barycentric coordinates are in proportion to `areas`, each
+/// opposite to its corner.
 fn nearest_in_face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> NearestPoint {
     let square = |k: usize| (corners[(k + 1) % 3] - corners[k]).length_squared();
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
@@ -56,8 +57,8 @@ fn nearest_in_face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> NearestPoi
     }
 }
 
-/// Returns the direction to the nearest point that rounding tilts less: the normal, oriented away from the origin, or
-/// the vector to `point`.
+/// Returns the triangle's normal, oriented away from the origin, or the vector to `point`: whichever rounding tilts
+/// less.
 ///
 /// The tilt of the normal is inverse to the triangle's height relative to the longest edge, that of the foot to its
 /// length relative to the corners'.

@@ -1,4 +1,4 @@
-//! Properties that hold for every backend, each written once.
+//! Properties that every backend must have. Each function checks one property on a pair of pieces.
 
 use super::scene::Scene;
 use super::twin;
@@ -13,7 +13,7 @@ pub(super) struct MeasuredClaim {
     pub(super) gap: f64,
 }
 
-/// Calls a new oracle with an empty cache.
+/// Returns the claim of a new oracle with an empty cache.
 pub(super) fn claim_with_empty_cache<O: DistanceOracle + Default>(scene: &Scene) -> Claim {
     ask(&mut O::default(), scene, &mut O::Cache::default())
 }
@@ -73,7 +73,7 @@ pub(super) fn agrees_with_brute_force<O: DistanceOracle + Default>(scene: &Scene
     );
 }
 
-/// Checks that both combinations of intersecting pieces are the same point, to a share of the size.
+/// Checks that the two claimed points of intersecting pieces coincide, up to the fraction `within` of the size.
 pub(super) fn finds_common_point<O: DistanceOracle + Default>(scene: &Scene, within: f64) {
     let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     assert!(
@@ -82,7 +82,7 @@ pub(super) fn finds_common_point<O: DistanceOracle + Default>(scene: &Scene, wit
     );
 }
 
-/// Checks that the axis separates the interiors of pieces that only just touch.
+/// Checks that pieces that only touch get a common point, and an axis that separates their interiors.
 pub(super) fn separates_touching_pieces<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     assert!(
@@ -95,7 +95,7 @@ pub(super) fn separates_touching_pieces<O: DistanceOracle + Default>(scene: &Sce
     );
 }
 
-/// Checks that exchanging the pieces exchanges the answer.
+/// Checks that the claimed points of a pair and of the exchanged pair have the same distance.
 pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
     let one = check(scene, &claim_with_empty_cache::<O>(scene));
     let swapped = scene.swapped();
@@ -107,8 +107,8 @@ pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
     );
 }
 
-/// Checks that the quality of a claim does not depend on the cache, and that a used oracle gives the same claim as a
-/// new one.
+/// Checks that a claim with a used cache is as good as with an empty cache, and that a used oracle gives the same claim
+/// as a new oracle if both caches are empty.
 pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     let (mut used, mut cache) = (O::default(), O::Cache::default());
     for scene in scenes {
@@ -133,8 +133,8 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     }
 }
 
-/// Checks that on any finite input the claimed points lie in the pieces, and that their distance is at least the gap
-/// along the claimed axis, up to rounding.
+/// Checks that on any finite input the claimed points have a finite distance, which is at least the gap along the
+/// claimed axis, up to rounding.
 pub(super) fn accepts_finite_input<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     let sound = checked.gap <= checked.distance + 1e-13 * scene.size;

@@ -1,4 +1,4 @@
-//! Pairs of pieces that are hard for distance algorithms, with known distances.
+//! Random pairs of pieces that are hard for distance algorithms.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -13,12 +13,12 @@ pub(crate) struct Scene {
     pub(crate) a: Vec<DVec3>,
     pub(crate) b: Vec<DVec3>,
     pub(crate) b_to_a: Frame,
-    /// The size of the pieces plus their distance.
+    /// The largest distance from A's first point to any point of the pieces, to which errors are relative.
     pub(crate) size: f64,
 }
 
 impl Scene {
-    /// Creates a pair from points that are both in A's frame.
+    /// Creates a pair from the points of both pieces in A's frame.
     fn new(a: Vec<DVec3>, b: Vec<DVec3>) -> Self {
         let reach = |x: DVec3| a.iter().chain(&b).map(|y| y.distance(x)).fold(0.0, greater);
         let size = greater(f64::MIN_POSITIVE, reach(a[0]));
@@ -66,7 +66,8 @@ impl Scene {
         self
     }
 
-    /// Moves both bodies to other frames, with origins `far` away. The points move by the rounding of that.
+    /// Expresses both pieces in random frames, whose origins are up to about `far` away. The relative position changes
+    /// only by rounding.
     pub(crate) fn in_random_frames(self, rng: &mut Pcg64, far: f64) -> Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
@@ -105,7 +106,7 @@ pub(crate) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
     (0..count).map(|_| vector(rng)).collect()
 }
 
-/// Draws points whose coordinates are far apart in size: zeros, units, the least and large numbers.
+/// Draws points whose coordinates are 0, 1, tiny or huge.
 pub(crate) fn extreme_coordinate_points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
     const EXTREME_VALUES: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e15, -1e15, f64::MIN_POSITIVE];
     let mut odd = || EXTREME_VALUES[rng.random_range(0..EXTREME_VALUES.len())];
@@ -114,7 +115,7 @@ pub(crate) fn extreme_coordinate_points(rng: &mut Pcg64, count: usize) -> Vec<DV
         .collect()
 }
 
-/// Draws a number between two powers of ten, with every order of magnitude equally likely.
+/// Draws a number between 10 to the power of `low` and of `high`, with every order of magnitude equally likely.
 pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
@@ -126,13 +127,13 @@ pub(crate) fn random_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     Scene::new(points(rng, a), b).in_random_frames(rng, 1.0)
 }
 
-/// Draws random hulls, moved so that an inner point of each coincides.
+/// Draws random hulls, moved so that a point inside A coincides with a point inside B.
 pub(crate) fn intersecting_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (a, b) = crossing(rng, a, b);
     Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
-/// Draws intersecting hulls, flattened along one or two directions, down to 1e-12 of their size.
+/// Draws intersecting hulls, flattened along two axes by random factors down to 1e-12.
 pub(crate) fn flattened_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (mut a, mut b) = crossing(rng, a, b);
     let thin = DVec3::new(1.0, magnitude(rng, -12.0, 0.0), magnitude(rng, -12.0, 0.0));
@@ -152,7 +153,7 @@ fn crossing(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
     (a, b)
 }
 
-/// The kinds of features that are nearest in [`near_contact`].
+/// The pair of features that is nearest in the triangles of [`near_contact`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum NearestFeatures {
     CornerFace,
@@ -162,8 +163,8 @@ pub(crate) enum NearestFeatures {
     CornerCorner,
 }
 
-/// Creates triangles at the distance `gap` along z, whose other corners rise or fall at slopes of any magnitude down to
-/// 1e-12.
+/// Draws triangles whose nearest features are `meeting`, at the distance `gap` along z. The other corners are farther
+/// by any magnitude from 1e-12 on.
 pub(crate) fn near_contact(rng: &mut Pcg64, meeting: NearestFeatures, gap: f64) -> Scene {
     let slope = |rng: &mut Pcg64| magnitude(rng, -12.0, 0.0);
     let flat = |rng: &mut Pcg64| {
@@ -211,7 +212,7 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: NearestFeatures, gap: f64) 
     Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
-/// Draws triangles that share a corner, an edge, or a plane, and nothing else.
+/// Draws triangles that touch at a corner, along an edge, or within a common plane, but do not pierce each other.
 pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
     let flat = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let up = rng.random_range(0.1..1.0) * DVec3::Z;

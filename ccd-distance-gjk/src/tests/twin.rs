@@ -1,5 +1,4 @@
-//! Computes distances by brute force, as a reference: from every point, edge and triangle that the points of a piece
-//! span.
+//! Computes reference distances by brute force, over all points, edges and triangles that the points of a piece span.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -37,7 +36,7 @@ fn distance_from_point(x: DVec3, points: &[DVec3]) -> f64 {
     corners.chain(feet).chain(faces).fold(f64::INFINITY, lesser)
 }
 
-/// Returns the height of `x` above a triangle; `None` if its projection is outside.
+/// Returns the distance of `x` from a triangle's plane; `None` if the projection of `x` is outside the triangle.
 fn height_above_triangle(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> {
     let n = (q - p).cross(r - p);
     let foot = x - (x - p).dot(n) / n.length_squared() * n;
@@ -47,7 +46,7 @@ fn height_above_triangle(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> 
     inside.then(|| foot.distance(x))
 }
 
-/// Returns the distance of two lines, if their common perpendicular meets both segments inside.
+/// Returns the distance of two segments' lines; `None` unless their common perpendicular meets both segments inside.
 fn crossing(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> Option<f64> {
     let (d, e, w) = (q - p, s - r, r - p);
     let n = d.cross(e);

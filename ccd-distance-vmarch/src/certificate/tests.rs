@@ -1,4 +1,4 @@
-//! Tests support gaps of cubes, and axes if the difference vector is rounding.
+//! Tests support gaps of cubes, and the axes found if the vector between the nearest points is mostly rounding.
 
 use super::{Axis, best_axis, gap};
 use crate::feature::{Feature, Pair};
@@ -28,7 +28,7 @@ fn gaps_are_those_of_the_supports() {
     assert!(!Axis::along(&placed, DVec3::ZERO).certifies(0.0, &placed));
 }
 
-/// Tests cubes that touch in a corner, an edge, a face, or nearly touch: the difference vector has no direction.
+/// Tests that a separating axis is found for cubes that touch or nearly touch at a corner, an edge or a face.
 #[rstest]
 fn touching_features_have_an_axis(
     #[values(

@@ -1,4 +1,4 @@
-//! Tests every recovery after a march that ended without a certain result.
+//! Tests that every march that ended without a certain result is certified afterwards.
 
 use super::certify_march_end;
 use crate::counters::Counters;
@@ -12,7 +12,7 @@ use crate::witness::Witness;
 use ccd_core::GiveUpReason;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// Checks that every kind of end, at every pair of features, is certified at the same distance.
+/// Checks that a march that ends in any way, at any pair of features, is certified at the distance `truth`.
 fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) {
     let place = |p: DVec3| placed.b.point(p - placed.b.shape().origin);
     for one in features(placed.a.0) {

@@ -1,4 +1,4 @@
-//! Tests lines over the top of a cube, and lines parallel to each other.
+//! Tests the clipping of needles to the prism of a cube's top, and the overlap of parallel segments.
 
 use super::{clip_to_prism, middle_of_overlap};
 use crate::placed::{Line, Placed};
@@ -6,7 +6,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// Returns the part of a needle over the cube's top, by the parameters and the cutting edges of its ends.
+/// Clips a needle to the prism of the cube's top, and returns the parameters and the cutting edges of both ends.
 fn clip_needle(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);

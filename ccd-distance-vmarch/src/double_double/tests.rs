@@ -1,4 +1,4 @@
-//! Tests digits that f64 alone would lose.
+//! Tests that products and differences keep the digits that f64 alone would lose.
 
 use super::*;
 

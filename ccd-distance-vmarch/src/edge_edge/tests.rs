@@ -1,4 +1,5 @@
-//! Tests needles around an edge of a cube, and nearest points of segments at every angle.
+//! Tests the march's step from an edge of a cube and a needle near it, and the nearest points of segments at every
+//! angle.
 
 use super::{nearest, next};
 use crate::feature::Certainty::{Sure, Tied};
@@ -10,7 +11,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use rstest::rstest;
 
-/// Tests the cube's edge along x at y = z = 1 against a needle.
+/// Returns the march's step from the cube's edge along x at y = z = 1 and a needle. Checks that exchanging the two
+/// gives the same step.
 fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);

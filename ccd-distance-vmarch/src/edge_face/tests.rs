@@ -1,4 +1,4 @@
-//! Tests needles over, through and next to the top of a cube.
+//! Tests the march's step from a needle over, through or next to the top of a cube.
 
 use super::next;
 use crate::feature::{Feature, MarchStep, WhichPolytope};
@@ -6,7 +6,8 @@ use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// Tests a needle against the cube's top.
+/// Returns the march's step from a needle and the cube's top. Checks that moving the cube instead of the needle gives
+/// the same step.
 fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);

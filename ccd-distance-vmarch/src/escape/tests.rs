@@ -1,4 +1,4 @@
-//! Tests corners and needles behind a face of a cube.
+//! Tests escapes from local minima, for points and needles behind a face of a cube.
 
 use super::{Escape, escape_local_minimum, farthest};
 use crate::feature::{Feature, LocalMinimum};

@@ -24,7 +24,7 @@ fn shapes() -> [Polytope; 9] {
     ]
 }
 
-/// Tests that every start ends at the same distance.
+/// Tests that the march ends at the same distance, whatever pair of features it starts from.
 #[test]
 fn every_start_leads_to_the_nearest_features() {
     let shapes = shapes();

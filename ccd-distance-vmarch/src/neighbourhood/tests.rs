@@ -1,4 +1,4 @@
-//! Tests that the features around a pair contain a nearer pair, if there is one.
+//! Tests that the search around a pair of features finds a nearer pair, if there is one.
 
 use super::nearer_pair;
 use crate::feature::{Feature, Pair};
@@ -20,8 +20,7 @@ fn the_nearest_pair_has_no_nearer_pair_around() {
     assert_eq!(nearer_pair(&placed, pair, distance), None);
 }
 
-/// Tests two cubes almost face to face, tilted so that the corners at one end are nearer by less than their edges'
-/// directions show.
+/// Tests that the nearer corner is found for two facing cubes that are tilted by 1e-10.
 #[test]
 fn slow_approaches_are_found() {
     let (one, other) = (cube(), prepared_polytope(&shape::cuboid(DVec3::splat(0.9))));

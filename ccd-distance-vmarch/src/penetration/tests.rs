@@ -1,4 +1,4 @@
-//! Tests common points of needles, tetrahedra and cubes, to the last bit.
+//! Tests that common points of needles, tetrahedra and cubes are found or excluded exactly, to the last bit.
 
 use super::{
     barycentric_coordinates, edge_face_crossing, inner_corner_crossing, search_crossing,
@@ -42,7 +42,7 @@ fn segments_meet_triangles_exactly(#[case] start: DVec3, #[case] end: DVec3, #[c
     }
 }
 
-/// Tests that both combinations are the same point, also for slivers.
+/// Tests that the weights of a segment and those of a triangle give the same point, also for very thin triangles.
 #[test]
 fn both_sides_name_the_same_point() {
     let mut rng = Pcg64::seed_from_u64(1);

@@ -7,14 +7,14 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{Frame, Piece};
 
-/// Draws three points, far from their origin or not.
+/// Draws three random points around a common centre, which may be far from the origin.
 fn corners(tape: &mut RandomCase) -> [DVec3; 3] {
     let (middle, small) = (DVec3::from(tape.vector(-8..=4)), tape.size(-30..=0));
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// Measures the largest rounding error of the difference of two placed vertices, by exact fractions. Errors of the
-/// rotation and translation are excluded: they move all vertices alike.
+/// Tests by exact fractions that the difference of two placed vertices has no rounding error above [`PLACEMENT_ERROR`].
+/// Errors of the rotation and translation are excluded: they move all vertices alike.
 #[test]
 fn worst_placing() {
     let found = Worst::of("PLACING", 6_000).search(|tape| {

@@ -1,4 +1,4 @@
-//! Prepares pieces for marching.
+//! Prepares pieces for marching: merges their facets into faces, and checks that they are convex.
 
 use super::facets::{Facets, distance_from_line};
 use super::support::DirectionTable;
@@ -9,7 +9,7 @@ use ccd_core::order::greater;
 use ccd_core::{GiveUpReason, Piece};
 
 impl Polytope {
-    /// Prepares a piece for marching.
+    /// Makes the polytope of a piece: merges coplanar facets into faces, and checks that the piece is convex.
     ///
     /// # Errors
     /// [`GiveUpReason::BadFacets`] for a piece without points, or with points that are not finite. Also
@@ -55,14 +55,15 @@ impl Polytope {
     }
 }
 
-/// The dimension of some points up to rounding: a point, a line, or more, with two points far from each other.
+/// The dimension of a set of points up to rounding; `Line` and `Wide` hold the indices of two points that are far
+/// apart.
 enum Spread {
     Point,
     Line([u32; 2]),
     Wide([u32; 2]),
 }
 
-/// Classifies points: within `rounding` of one point or of one line, or more.
+/// Returns whether all points are within `rounding` of one point, of one line, or of neither.
 fn classify_spread(points: &[DVec3], rounding: f64) -> Spread {
     let farthest = |from: DVec3| {
         let distances = points.iter().map(|p| p.distance(from)).zip(0..);

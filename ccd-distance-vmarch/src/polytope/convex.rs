@@ -1,4 +1,4 @@
-//! Tests whether faces cover the boundary of a convex polytope, each part of it once.
+//! Checks that faces cover the boundary of a convex polytope, and cover each part of it exactly once.
 
 use super::{NO_FACE, Polytope, Side, unit};
 use crate::tolerance::{CONVEXITY_TOLERANCE, COPLANARITY_TOLERANCE};
@@ -27,7 +27,7 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
 struct ConvexityCheck<'a> {
     points: &'a [DVec3],
     polytope: &'a Polytope,
-    /// The rounding of the corners.
+    /// The allowed error of a corner's position, as a length.
     rounding: f64,
 }
 
@@ -59,7 +59,7 @@ impl ConvexityCheck<'_> {
             })
     }
 
-    /// Returns whether all faces are connected over edges.
+    /// Returns whether any face can be reached from any other face over shared edges.
     fn is_connected(&self) -> bool {
         let mut reached = vec![false; self.polytope.faces.len()];
         reached[0] = true;
@@ -81,8 +81,7 @@ impl ConvexityCheck<'_> {
     }
 }
 
-/// Returns a lower estimate of a face's width, at least a quarter of it: the area over the extent from the first
-/// vertex.
+/// Returns a lower bound of a face's width, at least a quarter of it: the area over the extent from the first vertex.
 fn width(polytope: &Polytope, face: u32) -> f64 {
     let sides = polytope.sides_of(face);
     let first = polytope.vertex(sides[0].vertex).point;

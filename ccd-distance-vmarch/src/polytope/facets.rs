@@ -10,7 +10,7 @@ use ccd_core::vector;
 pub(crate) struct Facets {
     pub(crate) loops: Vec<Vec<u32>>,
     pub(crate) planes: Vec<Plane>,
-    /// For each facet, the facets across its sides, in order.
+    /// For each facet, the neighbouring facet across each of its sides, in the order of the sides.
     pub(crate) across: Vec<Vec<u32>>,
 }
 
@@ -47,7 +47,7 @@ impl Facets {
         Self::joined(points, kept)
     }
 
-    /// Creates the front and the back of a triangle.
+    /// Creates the two facets of a triangle without thickness: its front and its back.
     pub(crate) fn of_triangle(points: &[DVec3]) -> Option<Self> {
         Self::joined(points, vec![vec![0, 1, 2], vec![0, 2, 1]])
     }
@@ -109,12 +109,12 @@ pub(crate) fn sides_of_loop(corners: &[u32]) -> impl Iterator<Item = (u32, u32)>
     corners.iter().copied().zip(next.copied())
 }
 
-/// Returns the unit vector along `v`, or zero if there is none.
+/// Returns the unit vector along `v`, or zero if `v` has no direction.
 pub(crate) fn unit(v: DVec3) -> DVec3 {
     vector::unit(v).unwrap_or(DVec3::ZERO)
 }
 
-/// Returns the distance of a point from a line through two points, or from the first if they are equal.
+/// Returns the distance of a point from the line through two other points, or from the first of them if they are equal.
 pub(crate) fn distance_from_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     let along = DoubleDoubleVector::difference(end, start);
     let area = DoubleDoubleVector::difference(p, start)
@@ -128,7 +128,7 @@ pub(crate) fn distance_from_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     }
 }
 
-/// Returns for every point the index of the first one at the same position.
+/// Returns for every point the index of the first point at the same position.
 fn weld(points: &[DVec3]) -> Vec<u32> {
     // Zero is added so that -0 is 0.
     let key = |v: u32| {

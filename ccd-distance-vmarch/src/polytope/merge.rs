@@ -3,8 +3,8 @@
 use super::facets::{Facets, distance_from_line, sides_of_loop};
 use ccd_core::glam::DVec3;
 
-/// Merges coplanar facets, and returns the outlines of the faces; `None` if a face has several outlines, or one of
-/// fewer than three corners.
+/// Merges coplanar facets, and returns the outlines of the faces; `None` if a face has several outlines, or fewer than
+/// three corners.
 ///
 /// A face grows from its largest facet over neighbours with all corners within `rounding` of that
 /// facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped. In
@@ -70,7 +70,7 @@ fn group_coplanar_facets(points: &[DVec3], facets: &Facets, rounding: f64) -> (V
     (faces, count)
 }
 
-/// Chains the sides between different faces to one outline for each face.
+/// Chains the sides between different faces into one outline for each face; `None` if a face has several outlines.
 fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option<Vec<Vec<u32>>> {
     const NONE: u32 = u32::MAX;
     let mut members = vec![Vec::new(); count as usize];

@@ -3,7 +3,7 @@
 use super::Polytope;
 use ccd_core::glam::DVec3;
 
-/// The extremal vertices along directions all around, one for each of sixteen squares on each side of a cube.
+/// A table of extremal vertices along 96 directions: those to the centres of 16 squares on each side of a cube.
 ///
 /// A direction belongs to the square through which it passes. In most polytopes the vertex of the square is one or two
 /// edges from the extremal one.
@@ -28,7 +28,7 @@ impl DirectionTable {
         DirectionTable(corners)
     }
 
-    /// Returns the vertex in the table for a direction of any length; any vertex if it is not finite.
+    /// Returns the table's vertex for a direction of any length; an arbitrary vertex if the direction is not finite.
     fn start_vertex(&self, direction: DVec3) -> u32 {
         self.0[square_towards(direction)]
     }

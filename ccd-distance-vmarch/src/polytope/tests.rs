@@ -1,4 +1,4 @@
-//! Tests the preparation of pieces, and pieces that are refused.
+//! Tests the preparation of pieces for marching, and which pieces are refused.
 
 use super::{NO_FACE, Polytope};
 use crate::tests::setting::prepared_polytope;
@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{GiveUpReason, Piece};
 use rstest::rstest;
 
-/// Returns the numbers of corners, edges and faces.
+/// Returns how many corners, edges and faces a polytope has.
 fn counts(polytope: &Polytope) -> [usize; 3] {
     [
         polytope.vertices.len(),
@@ -16,7 +16,7 @@ fn counts(polytope: &Polytope) -> [usize; 3] {
     ]
 }
 
-/// Checks the properties that every polytope has.
+/// Asserts that a polytope is convex, that its vertices, edges and sides agree, and that Euler's formula holds.
 fn assert_valid_polytope(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
@@ -146,7 +146,7 @@ fn superfluous_points_are_left_out() {
     assert_valid_polytope(&polytope);
 }
 
-/// Tests slivers as thin as the rounding of corners, and random affine images of polytopes.
+/// Tests that hulls squeezed by factors down to 1e-12 are accepted, also after a rotation that rounds their corners.
 #[test]
 fn thin_polytopes_are_sound() {
     let mut rng = Pcg64::seed_from_u64(2);
@@ -169,7 +169,7 @@ fn thin_polytopes_are_sound() {
     }
 }
 
-/// Tests that a plate thinner than rounding is flat.
+/// Tests that a plate thinner than rounding becomes a flat polytope of two faces.
 #[test]
 fn plates_are_flat_from_rounding_on() {
     for (thin, faces) in [(1e-12, 6), (1e-14, 6), (1e-16, 2), (0.0, 2)] {

@@ -1,4 +1,4 @@
-//! Tests that any cache is harmless.
+//! Tests which pair of features a march starts from, for valid, invalid and outdated caches.
 
 use super::{Cache, extremal};
 use crate::feature::{Feature, Pair};
@@ -26,7 +26,8 @@ fn invalid_states_are_no_start(#[case] a: Feature, #[case] b: Feature) {
     assert_eq!(cache.start(&placed), corners);
 }
 
-/// Tests a polytope that is replaced by a part of it, while the other's feature is reused.
+/// Tests that a replaced polytope starts at a vertex along the last axis, while the unchanged one reuses its last
+/// feature.
 #[test]
 fn a_part_is_begun_with_along_the_last_axis() {
     let (cube, point) = (cube(), point());

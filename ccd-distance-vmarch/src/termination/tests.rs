@@ -1,4 +1,4 @@
-//! Tests that repeated states are detected.
+//! Tests that a repeated pair of features is detected within a bounded number of steps.
 
 use super::BrentCycleDetector;
 use crate::feature::{Feature, Pair};

@@ -64,7 +64,7 @@ fn touching_is_exact_up_to_rounding(
     }
 }
 
-/// Tests a small polytope inside a large one: they have a common point, though the surfaces are apart.
+/// Tests that a small polytope inside a large one is claimed to intersect it, though their surfaces are apart.
 #[test]
 fn pieces_inside_intersect() {
     let (large, small) = (
@@ -120,7 +120,7 @@ fn query_three_times(oracle: &mut Vmarch, scene: &Scene<'_>, cache: &mut Cache) 
     }
 }
 
-/// Tests that searches of coordinates far apart in size end, and name points of the pieces.
+/// Tests that marches end for coordinates of very different magnitudes, and that claims name existing points.
 #[test]
 fn odd_coordinates_end() {
     const EXTREME_VALUES: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e11, -1e11, f64::MIN_POSITIVE];
@@ -196,7 +196,7 @@ fn nonsense_ends() {
     );
 }
 
-/// Tests a ball of triangles that spins over a plate, so that many features are almost equally near.
+/// Tests that the distance of a tessellated ball that spins over a plate is that of the ball's lowest corner.
 #[test]
 fn spinning_balls_are_as_near_as_their_lowest_corner() {
     let (ball, plate) = (
@@ -234,8 +234,8 @@ fn spinning_balls_are_as_near_as_their_lowest_corner() {
     assert!(counters.steps < 4 * counters.calls, "{counters:?}");
 }
 
-/// Tests cubes moved to and fro across the place where their nearest features change. The displacement is halved each
-/// time, until the last bit decides: V-Clip's own hardest test.
+/// Tests that distances stay accurate at displacements where the nearest features of two cubes change. Bisection finds
+/// such a displacement, until the last bit decides: V-Clip's own hardest test.
 #[test]
 fn changes_of_features_are_exact_to_the_last_bit() {
     let mut rng = Pcg64::seed_from_u64(8);
@@ -280,7 +280,7 @@ fn changes_of_features_are_exact_to_the_last_bit() {
     assert!(tally.claims > cases() && tally.give_ups == 0, "{tally:?}");
 }
 
-/// Tests that scaling by powers of two scales answers exactly.
+/// Tests that the claimed combinations are the same bits if both pieces are scaled by a power of two.
 #[test]
 fn size_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(6);
@@ -309,7 +309,7 @@ fn size_does_not_matter() {
     }
 }
 
-/// Tests that coordinates far from the origin add only the rounding of the coordinates themselves.
+/// Tests that moving both pieces far from the origin adds only the rounding errors of their coordinates.
 #[test]
 fn place_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(7);
@@ -336,10 +336,10 @@ fn place_does_not_matter() {
     }
 }
 
-/// Tests that a second oracle answers if the march gives up, and that everything is counted.
+/// Tests that a second oracle answers where the march gives up, and that calls, steps and fallbacks are counted.
 #[test]
 fn other_oracles_take_over_and_counts_are_kept() {
-    /// An oracle that claims the first points of both pieces.
+    /// An oracle that always claims the first points of both pieces as witnesses.
     struct FirstPointsOracle;
     impl DistanceOracle for FirstPointsOracle {
         type Cache = ();

@@ -1,15 +1,15 @@
-//! Pairs of polytopes of every kind that is hard for Voronoi marching, with known properties.
+//! Draws random pairs of polytopes of the kinds that are hard for Voronoi marching.
 
 use super::shape::{self, Pcg64, RngExt, Shape, direction, magnitude, vector};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Frame, PiecePair, Pieces};
 
-/// A shape as a list of one piece.
+/// A shape, and the list of pieces that has this shape as its only piece.
 pub(crate) struct Body {
     pub(crate) shape: Shape,
     pub(crate) pieces: Pieces,
-    /// A point well inside the shape.
+    /// The mean of the corners: a point well inside the shape.
     middle: DVec3,
 }
 
@@ -162,7 +162,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) a: &'a Body,
     pub(crate) b: &'a Body,
     pub(crate) b_to_a: Frame,
-    /// The least distance of the bodies; 0 if they were placed to intersect.
+    /// A lower bound of the distance of the bodies; 0 if they were placed to intersect.
     pub(crate) gap: f64,
 }
 
@@ -175,7 +175,8 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns the sum of the largest coordinates.
+    /// Returns the sum of both bodies' largest distances of a point from the origin, and of the distance of the
+    /// origins.
     pub(crate) fn reach(&self) -> f64 {
         let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, greater);
         largest(&self.a.shape.points)
@@ -184,7 +185,7 @@ impl Scene<'_> {
     }
 }
 
-/// Draws a pair of a kind, with the orientation of B, its direction, and its distance.
+/// Draws a pair of bodies of a kind, and a pose of B relative to A.
 pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'a> {
     let (a, b) = (
         &pool[rng.random_range(0..pool.len())],
@@ -232,7 +233,7 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
     Scene { a, b, b_to_a, gap }
 }
 
-/// Returns a position of B at which it is apart from A, and the distance there.
+/// Returns a position of B at which it is apart from A, and the support gap along the direction of separation.
 fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (DVec3, f64) {
     let whole = kind == Kind::Grid;
     let n = match rng.random_range(0..4) {

@@ -1,4 +1,4 @@
-//! Small polytopes at simple positions, whose features are found by position.
+//! Makes small polytopes at simple positions, and finds their features by position.
 
 use super::shape::{self, Shape};
 use crate::feature::Feature;
@@ -21,7 +21,7 @@ pub(crate) fn point() -> Polytope {
     prepared_polytope(&shape::shape_of_points(&[DVec3::ZERO]))
 }
 
-/// Creates one edge about the origin.
+/// Creates a polytope of one edge, from −`half` to `half`.
 pub(crate) fn needle(half: DVec3) -> Polytope {
     prepared_polytope(&shape::shape_of_points(&[-half, half]))
 }
@@ -60,7 +60,7 @@ fn nearest(points: impl Iterator<Item = DVec3>, at: DVec3) -> u32 {
     least.expect("a feature").1
 }
 
-/// Returns every feature that can be a state of a march.
+/// Returns all vertices, edges and faces of a polytope.
 pub(crate) fn features(polytope: &Polytope) -> Vec<Feature> {
     let vertices = (0..polytope.vertices.len() as u32).map(Feature::Vertex);
     let edges = (0..polytope.edges.len() as u32).map(Feature::Edge);

@@ -1,4 +1,4 @@
-//! Polytopes with known facets, by construction or by a scan of all planes.
+//! Makes convex polytopes with known facets, by construction or by trying the planes of all triples of points.
 
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
@@ -16,7 +16,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// Returns a list of this piece alone.
+    /// Returns a list of pieces that has this shape as its only piece.
     pub(crate) fn pieces(&self) -> Pieces {
         let facet = |corners: &Vec<u32>| Facet {
             origin: FacetOrigin::Virtual,
@@ -50,7 +50,7 @@ impl Shape {
         self
     }
 
-    /// Returns the edges, each once.
+    /// Returns every edge of the shape once, from its lower to its higher corner.
     pub(crate) fn edges(&self) -> Vec<[u32; 2]> {
         if self.loops.is_empty() {
             let count = self.points.len() as u32;
@@ -119,7 +119,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
     }
 }
 
-/// Returns the corners of the convex hull of points in a plane, counterclockwise from the first.
+/// Returns the corners of the convex hull of points in a plane, counterclockwise from the corner of least index.
 fn around(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
     let normal = (q - p).cross(r - p);
     let above = p + normal.normalize_or_zero() * (q - p).length();
@@ -263,7 +263,7 @@ pub(crate) fn uv_sphere(rings: u32, corners: u32) -> Shape {
     Shape { points, loops }
 }
 
-/// Creates the cyclic polytope in the unit ball, whose slivers all meet in two corners.
+/// Creates a cyclic polytope, whose thin triangles all have the first or the last corner in common.
 pub(crate) fn cyclic(count: u32) -> Shape {
     let curve = |t: u32| 2.0 * f64::from(t) / f64::from(count - 1) - 1.0;
     let point = |t: u32| DVec3::new(curve(t), curve(t).powi(2), curve(t).powi(3));
@@ -275,7 +275,7 @@ pub(crate) fn cyclic(count: u32) -> Shape {
     }
 }
 
-/// Creates a flat polygon with a front and a back.
+/// Creates a flat regular polygon, with a front and a back facet.
 pub(crate) fn polygon(corners: u32) -> Shape {
     Shape {
         points: ring(corners, 0.0, 0.0).collect(),
@@ -283,7 +283,7 @@ pub(crate) fn polygon(corners: u32) -> Shape {
     }
 }
 
-/// Creates the shape of one, two or three points.
+/// Creates the shape of one, two or three points, without facets.
 pub(crate) fn shape_of_points(points: &[DVec3]) -> Shape {
     Shape {
         points: points.to_vec(),

@@ -1,4 +1,4 @@
-//! Tests parts of cubes that are face to face: they touch, but their interiors do not meet.
+//! Tests that parts of cubes that are face to face are claimed to touch, but not to overlap.
 
 use super::scene::{Body, Scene};
 use super::shape;
@@ -8,7 +8,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::{DistanceOracle, Frame};
 use std::f64::consts::FRAC_PI_2;
 
-/// Returns a cube, and each of its triangles.
+/// Returns the twelve triangles of a cube, each as a body, and the cube itself.
 fn parts() -> Vec<Body> {
     let cube = shape::cuboid(DVec3::ONE);
     let triangles = cube.clone().triangulated();
@@ -21,8 +21,8 @@ fn parts() -> Vec<Body> {
     parts
 }
 
-/// Returns frames that put another cube next to, above or in front of the first one. It is shifted along the common
-/// face, and turned by right angles, which are inexact in floating point.
+/// Returns frames that put a second cube next to, above or in front of the first cube. The second cube is shifted along
+/// the common face, and turned by right angles, which are inexact in floating point.
 fn frames() -> Vec<Frame> {
     let mut frames = Vec::new();
     for (side, shift) in [
@@ -44,7 +44,7 @@ fn frames() -> Vec<Frame> {
     frames
 }
 
-/// Tests that the axis separates any two parts of the cubes, in all kinds of contact.
+/// Tests that the claimed axis separates any part of one cube from any part of the other, up to rounding.
 #[test]
 fn parts_of_flush_cubes_are_kept_apart() {
     let parts = parts();

@@ -75,8 +75,8 @@ pub(crate) fn gap(a: &ReferencePolytope, b: &ReferencePolytope, n: DVec3) -> f64
     -b.highest(-n) - a.highest(n)
 }
 
-/// Returns the distance of the surfaces. It is that of the polytopes, if neither is inside the other one and they do
-/// not intersect.
+/// Returns the distance of the surfaces of two polytopes. It is that of the polytopes, if neither is inside the other
+/// one and they do not intersect.
 ///
 /// Every number that is compared is the distance of two points that the polytopes do have, so that it
 /// is never too small by more than the rounding of a point.
@@ -120,7 +120,7 @@ fn foot(p: DVec3, edge: &Segment) -> DVec3 {
     }
 }
 
-/// Returns the distance of a point from a polygon's plane; infinite if its projection is outside of the polygon.
+/// Returns the distance of a point from a polygon's plane; infinite if the point does not project into the polygon.
 fn height(p: DVec3, face: &Polygon) -> f64 {
     let corners = &face.corners;
     let height = (p - corners[0]).dot(face.normal);
@@ -136,7 +136,7 @@ fn height(p: DVec3, face: &Polygon) -> f64 {
     }
 }
 
-/// Returns the distance of two segments near where their lines come closest.
+/// Returns the distance of two points of two segments, taken near the nearest points of the segments' lines.
 fn crossing(e: &Segment, f: &Segment) -> f64 {
     let [p, q] = e.ends;
     let [r, s] = f.ends;
@@ -162,7 +162,7 @@ fn turned(shape: &Shape, by: DQuat, to: DVec3) -> ReferencePolytope {
     ReferencePolytope::new(shape, &frame)
 }
 
-/// Tests brute force against closed forms, at distances down to a millionth of the size.
+/// Tests that brute force agrees with closed forms, at distances down to a millionth of the size.
 #[test]
 fn brute_force_is_right() {
     use super::shape::{cuboid, polygon, shape_of_points};

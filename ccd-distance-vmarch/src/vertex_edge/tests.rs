@@ -1,4 +1,4 @@
-//! Tests points, and edges that rise or fall from them, around an edge of a cube.
+//! Tests the step from a vertex and an edge, for points and needles around an edge of a cube.
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
@@ -7,7 +7,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle, point, turned, vert
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
-/// Tests a point against the cube's edge along x at y = z = 1.
+/// Returns the step for a point and the cube's edge along x at y = z = 1, and asserts that their order does not matter.
 fn of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
@@ -59,8 +59,8 @@ fn points_beside_a_face_continue_to_it(#[case] at: DVec3, #[case] normal: DVec3)
     );
 }
 
-/// Tests edges at a slope to the cube's edge: the corner is nearest unless the edge falls towards the cube's, however
-/// slowly.
+/// Tests that the march goes on to a needle that falls towards the cube's edge, however slowly, and stops at one that
+/// rises.
 #[rstest]
 #[case(-0.5, Some(true))]
 #[case(0.5, None)]

@@ -1,4 +1,4 @@
-//! Tests corners above the top of a cube.
+//! Tests the step from a vertex and a face, for points and needles around the top of a cube.
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
@@ -7,7 +7,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle, point, turned};
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
-/// Tests a point against the cube's top.
+/// Returns the step for a point and the cube's top face, and asserts that their order does not matter.
 fn of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
@@ -63,7 +63,7 @@ fn finds_features_behind(#[case] at: DVec3) {
     );
 }
 
-/// Tests corners above the face: a corner is nearest unless one of its edges falls by more than rounding.
+/// Tests that the march goes on to an edge that falls towards the face by more than rounding, and stops otherwise.
 #[rstest]
 #[case(-0.3, true)]
 #[case(-1e-14, true)]

@@ -1,4 +1,4 @@
-//! Tests cubes and points around a corner.
+//! Tests the step from two vertices, for points around a corner of a cube.
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
@@ -7,7 +7,7 @@ use crate::tests::setting::{cube, edge, moved, point, vertex};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// Tests the cube's corner at (1, 1, 1) against a point.
+/// Returns the step for the cube's corner at (1, 1, 1) and a point, and asserts that their order does not matter.
 fn of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);

@@ -1,4 +1,4 @@
-//! Tests nearest points on features, and the combinations that represent them.
+//! Tests the nearest points of two features, and the combinations that represent these points.
 
 use super::{Witness, foot};
 use crate::feature::{Feature, Pair};
@@ -72,7 +72,7 @@ fn features_have_nearest_points() {
     );
 }
 
-/// Tests that the axis of nearest points close to each other is that of the edges, not of rounding.
+/// Tests that the axis of two edges that almost touch is perpendicular to both, undisturbed by rounding.
 #[test]
 fn axes_are_those_of_the_features() {
     let (one, other) = (
@@ -107,7 +107,7 @@ fn pairs_that_are_never_a_stop_have_points() {
     assert_eq!(point.reach, 0.0);
 }
 
-/// Tests that projections onto triangles of any shape are combinations of the corners, up to rounding of their size.
+/// Tests that projections onto triangles of any shape are accurate up to the rounding of the triangle's size.
 #[test]
 fn feet_are_right_on_needles() {
     let mut rng = Pcg64::seed_from_u64(4);
@@ -158,8 +158,8 @@ fn feet_outside_of_the_triangle_are_clamped_into_it() {
     }
 }
 
-/// Tests needles that cross at a small angle, close to each other. Rounding of the axis along them would cost a hundred
-/// times the rounding of their positions.
+/// Tests that the support gap along the axis certifies the distance of needles that cross at any angle. Rounding of the
+/// axis along them would cost a hundred times the rounding of their positions.
 #[test]
 fn axes_certify_edges_that_cross_at_any_angle() {
     let mut rng = Pcg64::seed_from_u64(9);

@@ -28,7 +28,7 @@ pub(crate) struct TableQuestion<'a> {
     pub(crate) has_micros: bool,
 }
 
-/// The results of a table's rows up to the first one without an answer, and the error after them.
+/// The results of a table's rows up to the first row without an answer, and the error that ended the table, if any.
 pub(crate) struct Answered {
     pub(crate) results: RecordBatch,
     pub(crate) fault: Option<TableError>,
@@ -36,7 +36,7 @@ pub(crate) struct Answered {
     pub(crate) remarks: Vec<Remark>,
 }
 
-/// Answers the rows of a table until the flag is set. Counts them in `done` meanwhile.
+/// Answers the rows of a table on all threads, until the flag `stop` is set. Counts them in `done` meanwhile.
 ///
 /// # Errors
 /// The columns cannot be used.
@@ -85,7 +85,7 @@ pub(crate) fn answer(
     })
 }
 
-/// Answers the rows of a piece of the table until the flag is set.
+/// Answers the rows of one piece of the table, until the flag `stop` is set.
 ///
 /// All rows are read before the first is asked about, and results are made after the last: in turn, each of the three
 /// would start with cold caches.
@@ -141,7 +141,7 @@ fn timed(
     Ok(TimedAnswer { answer, micros })
 }
 
-/// Returns the row of the table of results for the answer or error of a row.
+/// Returns the row of results for one row of the table, from its answer or its error.
 fn result(asked: TableQuestion<'_>, row: &CourseRow, answer: &RowAnswer) -> ResultRow {
     let TableQuestion {
         bodies,

@@ -27,7 +27,7 @@ pub(crate) struct Batch {
     columns: Vec<Option<Numbers>>,
 }
 
-/// A column of numbers.
+/// A column of numbers, converted to float64.
 #[derive(Debug)]
 struct Numbers {
     values: Float64Array,
@@ -35,14 +35,14 @@ struct Numbers {
     inexact_integers: Option<HashMap<usize, String>>,
 }
 
-/// Whether ids are read as text; results always have the caller's own values.
+/// Whether the ids of rows are read as text; results have the caller's own values in either case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IdReading {
     Read,
     Skipped,
 }
 
-/// One row of a batch.
+/// A row of a table, given by its batch and its index in the batch.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) batch: Arc<Batch>,
@@ -59,7 +59,7 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
         .collect()
 }
 
-/// Refuses columns that are not numbers, and types of ids whose texts may collide.
+/// Refuses columns that are not numbers, and column types in which different ids may have the same text.
 pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME_COLUMN).is_ok();
     for field in schema.fields() {
@@ -79,7 +79,7 @@ pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the column of ids in the results: the original one, or the row indices.
+/// Returns the field of the results' column of ids: the table's own ids, or else row indices.
 pub(crate) fn id_field(schema: &Schema) -> Field {
     match schema.field_with_name(ID_COLUMN) {
         Ok(field) => field
@@ -90,8 +90,8 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
     }
 }
 
-/// Returns the type of a column's values without dictionary or run encoding, which NumPy cannot read; the dictionaries
-/// of parts may not fit into one.
+/// Returns the type of a column's values without dictionary or run encoding. NumPy cannot read encoded columns, and the
+/// dictionaries of several batches may not fit into one.
 fn decoded_type(kind: &DataType) -> &DataType {
     match kind {
         DataType::Dictionary(_, values) => decoded_type(values),
@@ -163,7 +163,7 @@ impl Batch {
         })
     }
 
-    /// Returns the ids of rows, or the row indices without a column of ids.
+    /// Returns the ids of `rows` rows from `at` on; in a table without ids, the row indices.
     pub(crate) fn ids(&self, at: usize, rows: usize) -> ArrayRef {
         match &self.id {
             Some(id) => id.slice(at, rows),
@@ -249,7 +249,7 @@ impl Record for Row {
     }
 }
 
-/// Reads a whole table as one batch, until the flag is set.
+/// Reads a whole table as one batch, or its first rows if the flag `stop` is set meanwhile.
 pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, ArrowError> {
     let fields = reader.schema().fields().clone();
     let fields = fields.iter().map(|field| {
@@ -264,14 +264,14 @@ pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, Ar
     concat_batches(&schema, &batches)
 }
 
-/// Decodes dictionaries, which may not fit into one after concatenation.
+/// Decodes the dictionary columns of a batch, because the dictionaries of several batches may not fit into one.
 fn decoded_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let columns = schema.fields().iter().zip(batch.columns());
     let columns = columns.map(|(field, column)| decoded_column(column, field.data_type()));
     RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 
-/// An iterator over the rows of a batch, by which paths are read.
+/// An iterator over the rows of a table of paths, which are in one batch.
 pub(crate) struct Rows {
     header: Vec<String>,
     current: Row,
@@ -280,7 +280,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Creates the iterator over all rows of a table.
+    /// Creates the iterator over all rows of a table; ids are read as text.
     pub(crate) fn new(table: &RecordBatch) -> Result<Self, TableError> {
         let batch = Arc::new(Batch::new(table, 0, IdReading::Read)?);
         Ok(Rows {

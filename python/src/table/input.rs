@@ -15,7 +15,7 @@ use std::iter::from_fn;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-/// A reader of a table, batch by batch.
+/// A reader of a table, which returns one batch of rows at a time.
 pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 
 /// Opens any object with the Arrow PyCapsule protocol, or a dict of arrays. Columns are not copied, except for arrays
@@ -51,7 +51,7 @@ fn open_unguarded(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-/// Returns a reader that gives an error where the inner one would panic: if a batch does not fit its schema, or an
+/// Wraps a reader so that it returns an error where it would panic. It panics if a batch does not fit its schema, or an
 /// error has no message.
 fn without_panics(mut reader: Reader) -> Reader {
     let schema = reader.schema();
@@ -66,7 +66,7 @@ fn without_panics(mut reader: Reader) -> Reader {
     Box::new(RecordBatchIterator::new(from_fn(next), schema))
 }
 
-/// Returns the library of a data frame, also of a derived class; `None` for other objects.
+/// Returns the name of the library that a data frame's class, or its base class, is from; `None` for other objects.
 fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     for class in motions.get_type().mro() {
         let module: String = class.getattr("__module__")?.extract()?;
@@ -78,8 +78,8 @@ fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok(None)
 }
 
-/// Returns a polars frame whose columns of nulls have a type: Arrow arrays of nulls have no buffers, and polars makes
-/// them with one.
+/// Returns a polars frame whose columns of type null are cast to another type. Arrow arrays of type null have no
+/// buffers, but those that polars makes have one.
 fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let polars = frame.py().import("polars")?;
     let types = PyDict::new(frame.py());
@@ -101,7 +101,7 @@ fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     }
 }
 
-/// Returns a pandas frame without its index, which would be a column, unless the index has a name.
+/// Returns a pandas frame whose index is a column if it has a name, and is left out otherwise.
 fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
@@ -110,7 +110,7 @@ fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     frame.call_method("reset_index", (), Some(&how))
 }
 
-/// Returns the number of answers if the table knows its number of rows; `None` for a table of paths.
+/// Returns the number of answers to expect; `None` if the table does not know its number of rows, or has paths.
 pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize> {
     if reader.schema().field_with_name(TIME_COLUMN).is_ok() {
         return None;
@@ -177,7 +177,7 @@ fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     }
 }
 
-/// Reads ids: all texts, or all whole numbers; None is a row without an id.
+/// Reads ids, which must be all texts or all whole numbers; None stands for a row without an id.
 fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let (mut texts, mut numbers) = (Vec::new(), Vec::new());
     for id in values.try_iter()? {

@@ -98,7 +98,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
     Ok(objects)
 }
 
-/// Returns the nested type in a column whose values `to_pylist` cannot convert.
+/// Returns the type, nested in a column's type, whose values `to_pylist` cannot convert; `None` if it can convert all.
 fn unconvertible_type(kind: &DataType) -> Option<&DataType> {
     match kind {
         DataType::ListView(_)

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// The rows that a thread answers in one go.
+/// The rows that a thread answers in one task.
 pub(crate) enum Piece {
     /// Some rows of a table of motions, as a range in a batch.
     Motions(Arc<Batch>, Range<usize>),
@@ -21,12 +21,12 @@ pub(crate) enum Piece {
     Path(Box<CourseRow>, ArrayRef),
 }
 
-/// An iterator over the pieces of a table, in order, until the flag is set.
+/// An iterator over the pieces of a table, in order, until the flag `stop` is set.
 pub(crate) struct Pieces<'p> {
     source: Source,
     size: &'p ChunkSize,
     stop: &'p AtomicBool,
-    /// The error of the table that follows the last piece.
+    /// The error of the table that ended the iteration, if any.
     pub(crate) fault: Option<TableError>,
 }
 
@@ -51,14 +51,14 @@ pub(crate) struct ChunkSize {
     threads: usize,
 }
 
-/// The target duration of answering a piece.
+/// The time that answering a piece should take.
 const TARGET_CHUNK_DURATION: Duration = Duration::from_millis(20);
 
 /// The maximum number of rows in a piece.
 const MAX_CHUNK_ROWS: usize = 512;
 
 impl ChunkSize {
-    /// Starts with pieces of one row.
+    /// Creates the size for a number of threads; the first pieces have one row.
     pub(crate) fn new(threads: usize) -> Self {
         let rows = AtomicUsize::new(1);
         ChunkSize { rows, threads }
@@ -70,7 +70,7 @@ impl ChunkSize {
         self.rows.load(Ordering::Relaxed).min(share)
     }
 
-    /// Adapts the size of later pieces: `rows` rows took the time `taken`.
+    /// Adapts the size of later pieces to the time `taken` that a piece of `rows` rows took.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
         // A small piece at the end of a batch is no reason for smaller pieces.
         if taken < TARGET_CHUNK_DURATION / 2 {
@@ -82,7 +82,7 @@ impl ChunkSize {
     }
 }
 
-/// Checks the columns of a table, and returns where each known one is.
+/// Checks the columns of a table, and returns the position of each known column.
 pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
     let schema = reader.schema();
     let columns = Columns::of(&header(&schema))?;
@@ -91,7 +91,8 @@ pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
 }
 
 impl<'p> Pieces<'p> {
-    /// Starts to read a table with checked columns. One of paths is read to its end, or until the flag is set.
+    /// Creates the iterator over the pieces of a table with checked columns. A table of paths is read to its end, or
+    /// until the flag `stop` is set.
     pub(crate) fn new(
         (reader, columns): (Reader, &Columns),
         question: Question,
@@ -121,7 +122,7 @@ impl<'p> Pieces<'p> {
 }
 
 impl Pieces<'_> {
-    /// Returns the remarks about the rows read so far; those about motions come from `columns`.
+    /// Returns the remarks about the rows read so far; `columns` collects the remarks about motions.
     pub(crate) fn remarks(&self, columns: &Columns) -> Vec<Remark> {
         match &self.source {
             Source::Motions { .. } => columns.remarks(),
@@ -146,7 +147,7 @@ impl Iterator for Pieces<'_> {
 }
 
 impl Source {
-    /// Returns the next piece, which is empty only for an empty batch.
+    /// Returns the next piece, or `None` at the end; a piece has no rows only for an empty batch.
     fn next(&mut self, size: &ChunkSize) -> Result<Option<Piece>, TableError> {
         match self {
             Source::Motions {

@@ -17,7 +17,8 @@ pub(crate) fn schema(question: Question, id: Field) -> Result<Schema, ArrowError
     Ok(Schema::new(fields))
 }
 
-/// Concatenates batches of results. Ids too long for one column of their type become those of the type for long ones.
+/// Concatenates batches of results into one batch of the given schema. Ids that are together too long for one column of
+/// their type are cast to the type for long columns.
 pub(crate) fn concatenate(
     schema: &Arc<Schema>,
     batches: &[RecordBatch],

@@ -6,7 +6,7 @@ use ccd_core::vector::unit;
 use ccd_core::{Body, Outcome, Piece, Polytope, Pose};
 use rigid_ccd::Solver;
 
-/// The maximum number of cross products of edges that are tried.
+/// The number of pairs of edges up to which their cross products are tried as directions.
 const MAX_EDGE_CROSS_PRODUCTS: usize = 4096;
 
 /// Returns the unit vector from the first piece to the second along which they overlap least.
@@ -48,7 +48,7 @@ pub(super) fn direction(
     best.map(|(_, axis)| axis)
 }
 
-/// Returns the direction between the pieces' unrounded hulls, if these are apart.
+/// Returns the direction between the two hulls before they are grown by their radii; `None` if the hulls overlap.
 fn direction_between_cores(
     pieces: [Piece<'_>; 2],
     poses: [Pose; 2],

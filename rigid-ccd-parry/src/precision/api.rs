@@ -1,4 +1,4 @@
-//! The casts and conversions in one precision.
+//! The casts and conversions for one precision of parry's types.
 
 use super::{CONTACT, library};
 

@@ -11,7 +11,7 @@ use crate::{CastError, Options};
 use ccd_core::{Motion, StartPolicy};
 use rigid_ccd::Solver;
 
-/// Returns the cast with the arguments of `cast_shapes_nonlinear`; `None` if its interval contains no time.
+/// Converts the arguments of `cast_shapes_nonlinear` to a cast; `None` if the end time is before the start time.
 pub(super) fn nonlinear_cast(
     motions: [&NonlinearRigidMotion; 2],
     times: [Real; 2],
@@ -23,7 +23,7 @@ pub(super) fn nonlinear_cast(
     cast_of_motions(motions, interval, 0.0, stop_at_penetration, options)
 }
 
-/// Returns the cast with the arguments of `cast_shapes`; `None` if its interval contains no time.
+/// Converts the arguments of `cast_shapes` to a cast; `None` if the maximum time is negative.
 pub(super) fn linear_cast(
     bodies: [(&Pose, Vector); 2],
     asked: ShapeCastOptions,
@@ -43,7 +43,7 @@ pub(super) fn linear_cast(
     )
 }
 
-/// Runs a cast on two shapes.
+/// Runs a cast on two shapes, and converts the hit to parry's type; without a cast there is no hit.
 pub(super) fn answer(
     cast: Option<Cast>,
     shapes: [&PreparedShape; 2],

@@ -11,7 +11,7 @@ use crate::{CastError, Options, ShapeError};
 use rigid_ccd::Solver;
 use std::cell::Cell;
 
-/// Finds when two moving shapes first touch: `query::cast_shapes_nonlinear`, never late.
+/// Finds when two moving shapes first touch: parry's `query::cast_shapes_nonlinear`, but never late.
 ///
 /// # Guarantee
 /// Nothing touches before the time of the hit; without a hit nothing touches in the interval. See the [crate's
@@ -53,7 +53,7 @@ pub fn cast_shapes_nonlinear(
         .map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes_nonlinear`], but returns an error if there is no answer; `times` are the start and the end.
+/// Like [`cast_shapes_nonlinear`], but an error says why there is no answer; `times` are the start and the end.
 ///
 /// # Errors
 /// [`CastError`].
@@ -70,7 +70,7 @@ pub fn try_cast_shapes_nonlinear(
     answer(cast, [g1, g2])
 }
 
-/// Finds when two shapes in linear motion first touch: `query::cast_shapes`, never late.
+/// Finds when two shapes in linear motion first touch: parry's `query::cast_shapes`, but never late.
 ///
 /// # Guarantee
 /// That of [`cast_shapes_nonlinear`].
@@ -106,7 +106,7 @@ pub fn cast_shapes(
     try_cast_shapes((pos1, vel1, g1), (pos2, vel2, g2), options).map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes`], but returns an error if there is no answer; each shape comes with its pose and velocity.
+/// Like [`cast_shapes`], but an error says why there is no answer; each shape comes with its pose and velocity.
 ///
 /// # Errors
 /// [`CastError`].
@@ -127,7 +127,7 @@ struct ThreadMemory {
 }
 
 thread_local! {
-    /// The thread's memory, taken out while a call uses it.
+    /// The solver and the bodies of this thread; a call takes them out while it uses them.
     static THREAD_MEMORY: Cell<Option<Box<ThreadMemory>>> = const { Cell::new(None) };
 }
 

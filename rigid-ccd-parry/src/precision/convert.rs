@@ -33,14 +33,14 @@ pub fn motion(motion: &NonlinearRigidMotion) -> Result<Motion, InputError> {
     )
 }
 
-/// Converts a pose to double precision.
+/// Converts parry's pose to the engine's, in double precision.
 pub(super) fn pose(pose: &ParryPose) -> Result<Pose, InputError> {
     let q = pose.rotation;
     let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
     Pose::new(point(pose.translation), DQuat::from_xyzw(x, y, z, w))
 }
 
-/// Converts a point to double precision.
+/// Converts a point or vector of parry to double precision.
 pub(super) fn point(v: Vector) -> DVec3 {
     DVec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
 }

@@ -4,7 +4,7 @@ use super::convert::{time, vector};
 use super::library::query::{ShapeCastHit, ShapeCastStatus};
 use crate::scene::{CastHit, CastStatus};
 
-/// Converts a hit to parry's type, with the time rounded down.
+/// Converts a hit to parry's type, with the time rounded down so that it is never late.
 pub(super) fn hit(found: &CastHit) -> ShapeCastHit {
     let [witness1, witness2] = found.witnesses.map(vector);
     let [normal1, normal2] = found.normals.map(vector);

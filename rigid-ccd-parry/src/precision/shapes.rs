@@ -55,7 +55,7 @@ pub(super) fn shape_geometry(
     }
 }
 
-/// Converts parry's half-space to double precision.
+/// Converts parry's half-space to this crate's, in double precision.
 pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError> {
     HalfSpace::new(point(shape.normal))
 }
@@ -147,7 +147,7 @@ fn push_cuboid(form: &mut ShapeGeometry, cuboid: &Cuboid, radius: f64) -> Result
     Ok(())
 }
 
-/// Adds the hull of a convex polyhedron's points to a form.
+/// Adds the hull of a convex polyhedron's points, grown by a radius, to a geometry.
 fn push_polyhedron(form: &mut ShapeGeometry, polyhedron: &ConvexPolyhedron, radius: f64) {
     let corners = polyhedron.vertices_adj_to_face();
     let facets = polyhedron.faces().iter().map(|face| {
@@ -161,7 +161,7 @@ fn push_polyhedron(form: &mut ShapeGeometry, polyhedron: &ConvexPolyhedron, radi
     form.push_hull(points, radius, loops.unwrap_or_default(), 0);
 }
 
-/// Adds the segments of a polyline to a form.
+/// Adds the segments of a polyline to a geometry.
 fn push_polyline(form: &mut ShapeGeometry, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
     let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
@@ -170,10 +170,10 @@ fn push_polyline(form: &mut ShapeGeometry, line: &Polyline) {
     }
 }
 
-/// The face of a mesh of one triangle.
+/// The only face of a mesh that has one triangle.
 const ONE: [[u32; 3]; 1] = [[0, 1, 2]];
 
-/// Adds the triangles of a height field to a form, with parry's numbers and corners.
+/// Adds the triangles of a height field to a geometry, with parry's sub-shape indices and order of corners.
 fn push_height_field(form: &mut ShapeGeometry, field: &HeightField) {
     let (rows, columns) = (field.nrows(), field.ncols());
     for j in 0..columns {
@@ -189,7 +189,7 @@ fn push_height_field(form: &mut ShapeGeometry, field: &HeightField) {
     }
 }
 
-/// Adds the cubes of filled voxels to a form.
+/// Adds the boxes of filled voxels to a geometry.
 fn push_voxels(form: &mut ShapeGeometry, voxels: &Voxels) -> Result<(), ShapeError> {
     let edge = point(voxels.voxel_size());
     let [low, high] = voxels.domain();
@@ -217,7 +217,7 @@ fn push_voxels(form: &mut ShapeGeometry, voxels: &Voxels) -> Result<(), ShapeErr
     Ok(())
 }
 
-/// Adds the parts of a compound to a form, each at its pose.
+/// Adds the parts of a compound to a geometry, each at its pose.
 fn push_compound(
     form: &mut ShapeGeometry,
     compound: &Compound,

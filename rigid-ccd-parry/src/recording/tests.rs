@@ -27,7 +27,7 @@ impl Drop for Folder {
     }
 }
 
-/// Answers the recording in a folder as the command does; returns the time of the contact, if any.
+/// Answers the recording in a folder as the command does, and returns the time of the contact, if any.
 fn time_of_contact(folder: &Path, command: &str) -> Option<f64> {
     let words: Vec<&str> = command.split(' ').collect();
     let option = |name: &str| {

@@ -1,4 +1,4 @@
-//! Tests that casts agree with the engine on bodies that are made in other ways.
+//! Tests that casts agree with the engine's answers for bodies that are made by the engine's own constructors.
 
 use crate::double::make;
 use crate::scenes::{MotionSpec, ShapeSpec, motions, number, random, shape, vector};

@@ -1,4 +1,4 @@
-//! Tests that there is no contact before a hit, by parry's distances in double precision.
+//! Tests by parry's distances in double precision that there is no contact before a hit.
 //!
 //! `CCD_TEST_CASES` in the environment multiplies the number of cases.
 
@@ -20,7 +20,7 @@ struct Scene {
     scale: f32,
     shapes: [SharedShape; 2],
     motions: [NonlinearRigidMotion; 2],
-    /// The convex parts of both shapes, with voxels as boxes, for which parry has no distances.
+    /// The convex parts of both shapes; voxels, for which parry has no distances, are boxes.
     parts: [Vec<Part>; 2],
 }
 
@@ -63,8 +63,9 @@ impl Scene {
         self.least_pair_distance(time, [a, b]).0
     }
 
-    /// Returns the least distance at a time over all pairs of convex parts. parry's distance of many parts may be far
-    /// off, as may that of two in one of their orders. It is between these two.
+    /// Returns the least distance over all pairs of convex parts at a time, computed by parry in both orders, the
+    /// smaller first. parry's distance of many parts may be far off, as may that of two parts in one order. The true
+    /// distance is between the two.
     fn least_distance(&self, time: Real) -> (Real, Real) {
         let [a, b] = self.parts.each_ref().map(|parts| {
             let of_part = |(at, shape): &Part| triangles(*at, shape);
@@ -74,7 +75,7 @@ impl Scene {
         (lesser(there, least), greater(there, least))
     }
 
-    /// Returns the least distance over all pairs, in both orders of the shapes.
+    /// Returns parry's least distance over all pairs of parts at a time, once for each order of the shapes.
     fn least_pair_distance(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
         let [p, q] = self.motions.map(|motion| motion.position_at_time(time));
         let mut least = (Real::INFINITY, Real::INFINITY);
@@ -97,15 +98,15 @@ impl Scene {
             .all(|time| self.distance(time) > by || self.least_distance(time).1 > by)
     }
 
-    /// Bounds the sum of both bodies' excess over their shapes.
+    /// Returns a bound on the sum of both bodies' excess over their shapes.
     fn excess(&self) -> f64 {
         let options = Options::default();
         let of = |shape: &SharedShape| ours64::body(&**shape, &options).expect("served").excess();
         self.shapes.iter().map(of).sum()
     }
 
-    /// Bounds the error of parry's distances, for shapes of size 1 or less: the search for round shapes ends at that
-    /// error.
+    /// Returns a bound on the error of parry's distances for shapes of this scene's size. For round shapes, parry's
+    /// search stops at that error.
     fn distance_error(&self) -> f64 {
         let kinds = self.shape_specs.each_ref().map(ShapeSpec::name);
         let round = ["Round", "Capsule", "Cylinder", "Cone", "Compound"];
@@ -152,7 +153,7 @@ fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
     }
 }
 
-/// The numbers of hits and misses so far.
+/// The number of hits after the start, of misses, and of hits at the start.
 #[derive(Debug, Default)]
 struct HitCounts {
     hits: u64,
@@ -161,7 +162,8 @@ struct HitCounts {
 }
 
 impl HitCounts {
-    /// Checks the hit of a cast, or its absence, for an interval and a target distance.
+    /// Asserts that the shapes are apart before the hit, or in the whole interval without a hit, and are near at the
+    /// hit.
     fn check(
         &mut self,
         scene: &Scene,

@@ -7,7 +7,7 @@ use crate::double::make;
 use crate::scenes::{MotionSpec, motions, random, shape};
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
-/// The numbers of hits of both casts at about the same time, and of those with equal points, directions and sub-shapes.
+/// The number of hits at about the same time as parry's, and how many of them agree in points, normals and sub-shapes.
 #[derive(Debug, Default)]
 struct AgreementCounts {
     hits: u32,
@@ -41,8 +41,8 @@ impl AgreementCounts {
         );
     }
 
-    /// Checks that enough of the hits agree. A few hits may differ: the nearest points of parallel edges are not
-    /// unique.
+    /// Asserts that at least nine in ten hits agree with parry's. A few hits may differ: the nearest points of parallel
+    /// edges are not unique.
     fn check(&self) {
         let most = self.hits * 9 / 10;
         assert!(self.hits > 100, "{self:?}");

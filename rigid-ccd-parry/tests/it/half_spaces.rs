@@ -1,4 +1,4 @@
-//! Tests half-spaces against parry's linear casts, and rotating bodies next to them.
+//! Tests casts against half-spaces: linear casts by comparison with parry, and casts of rotating bodies.
 
 use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, NonlinearRigidMotion, ShapeCastOptions};
@@ -8,7 +8,7 @@ use crate::scenes::{motions, number, random, shape, turn};
 use ccd_core::order::lesser;
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
-/// Returns the height of a shape above a plane through a pose.
+/// Returns the height of the lowest point of a shape above a plane.
 fn height(plane: &Pose, normal: Vector, at: &Pose, shape: &dyn Shape) -> f64 {
     let map = shape.as_support_map().expect("convex");
     let inner = plane.inv_mul(at);

@@ -37,7 +37,7 @@ fn parts_of_compounds_may_nest_and_not_without_end() {
     assert_eq!(error, ShapeError::NestedTooDeeply);
 }
 
-/// A compound with a hidden type, which parry accepts as a part of another one.
+/// A compound with a hidden type, which parry accepts as a part of another compound.
 #[derive(Clone)]
 struct CustomCompound(Compound);
 

@@ -1,4 +1,4 @@
-//! Tests casts with numbers for which they tend to fail, as every argument, in one precision.
+//! Tests casts whose arguments are numbers such as zeros, infinities and NaN, in one precision.
 
 use super::ODD;
 use super::library::math::{Pose, Real, Rotation, Vector};
@@ -9,7 +9,7 @@ use crate::scenes::{number, random};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-/// Returns one of the numbers in `ODD` with probability `share`, otherwise a usual one.
+/// Returns a number of `ODD` with probability `share`, and otherwise a number from −2 to 2.
 fn special_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
     if rng.random::<f32>() < share {
         ODD[rng.random_range(0..ODD.len())]
@@ -40,7 +40,7 @@ fn special_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
     )
 }
 
-/// Returns a shape whose fields parry does not check.
+/// Returns a random shape whose sizes may be invalid, because parry does not check them.
 fn unchecked_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
     let radius = special_number(rng, share).abs();
     match rng.random_range(0..9) {
@@ -79,7 +79,7 @@ fn unchecked_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
     }
 }
 
-/// Checks the properties that every hit has.
+/// Asserts that a hit is within its interval, has finite points, and has normals of unit length.
 fn check(hit: &ShapeCastHit, [start, end]: [Real; 2]) {
     let time = hit.time_of_impact;
     assert!(

@@ -205,7 +205,7 @@ fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
     assert!(hit.expect("served").is_none());
 }
 
-/// Returns a box as a mesh with outward normals.
+/// Returns the first `faces` triangles of a box as a mesh, with outward normals.
 fn mesh(flags: TriMeshFlags, faces: usize) -> SharedShape {
     let (vertices, mut indices) = Cuboid::new(Vector::splat(2.0)).to_trimesh();
     indices.truncate(faces);

@@ -1,4 +1,4 @@
-//! Tests bodies that overlap at the start, and are ignored while they part.
+//! Tests that the overlap of bodies at the start is ignored while they part.
 
 use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{
@@ -22,7 +22,7 @@ fn at(x: f64, y: f64, z: f64) -> Pose {
     Pose::translation(x, y, z)
 }
 
-/// Casts a shape from a pose at one that rests at the origin.
+/// Casts a shape from a pose at a shape that rests at the origin.
 fn cast(
     a: &dyn Shape,
     from: Pose,

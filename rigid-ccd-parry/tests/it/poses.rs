@@ -5,7 +5,7 @@ use crate::{double, single};
 use ccd_core::order::greater;
 use rigid_ccd::{Motion, glam::DVec3};
 
-/// Returns the largest distance of the body's points from parry's positions, relative to all lengths.
+/// Returns the largest error that `error` measures over random motions, times and points.
 fn largest_error(rounds: u64, error: impl Fn(&MotionSpec, f32, [f32; 3]) -> f64) -> f64 {
     let mut rng = random(1);
     let mut worst = 0.0;

@@ -40,7 +40,7 @@ pub(crate) struct MotionSpec {
 }
 
 impl ShapeSpec {
-    /// Returns the motion with all lengths multiplied by a power of two.
+    /// Returns the shape with all lengths multiplied by `by`, a power of two.
     pub(crate) fn scaled(self, by: f32) -> Self {
         let v = |v: [f32; 3]| v.map(|x| x * by);
         match self {
@@ -83,7 +83,7 @@ impl ShapeSpec {
 }
 
 impl MotionSpec {
-    /// Returns the shape with all lengths multiplied by a power of two.
+    /// Returns the motion with all lengths multiplied by `by`, a power of two.
     pub(crate) fn scaled(self, by: f32) -> Self {
         let v = |v: [f32; 3]| v.map(|x| x * by);
         MotionSpec {

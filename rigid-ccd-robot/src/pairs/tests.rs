@@ -2,7 +2,7 @@ use super::*;
 use crate::robot::{Joint, Link, Position};
 use rigid_ccd::{Body, Pose, trajectory};
 
-/// A base that holds an arm of two links by hinges, with a camera fixed on the base and one on the second link.
+/// Returns a robot: a base, an arm of two hinged links, a camera fixed to the base, and a camera at the arm's end.
 fn robot() -> Robot {
     let body = || Body::sphere(0.1).unwrap();
     let link = |name| Link::named(name).with_body(body(), Pose::IDENTITY);

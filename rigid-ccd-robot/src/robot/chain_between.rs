@@ -1,10 +1,10 @@
-//! The motion of one link in the frame of another.
+//! The motion of one link of a robot in the frame of another link.
 
 use super::Robot;
 use crate::error::RobotError;
 use rigid_ccd::trajectory::Chain;
 
-/// The chain of joints by which one link of a robot moves in the frame of another one.
+/// The chain of joints by which one link of a robot moves in the frame of another link.
 ///
 /// ```
 /// # use rigid_ccd_robot::{Joint, Link, Position, Robot};
@@ -38,13 +38,13 @@ impl ChainBetween {
         ChainBetween { chain, joints }
     }
 
-    /// Returns the chain. Its last link is the link that moves.
+    /// Returns the chain, whose last link is the link that moves.
     pub fn chain(&self) -> &Chain {
         &self.chain
     }
 
-    /// Returns the positions of the chain's joints in a configuration of the robot. That of a joint that follows another
-    /// one is rounded twice.
+    /// Returns the positions of the chain's joints in a configuration of the robot. The position of a joint that
+    /// follows another joint is rounded twice.
     ///
     /// # Errors
     /// [`RobotError::PositionCount`], [`RobotError::Position`].

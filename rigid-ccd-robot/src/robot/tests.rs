@@ -36,7 +36,7 @@ fn links(count: usize) -> Vec<Link> {
         .collect()
 }
 
-/// A random tree, and the number of each link's parent, with the joint's origin, axis and kind, for a twin.
+/// A random robot, and for each joint the data from which a test computes poses by matrices of its own.
 struct Drawn {
     robot: Robot,
     twins: Vec<Twin>,
@@ -47,11 +47,12 @@ struct Twin {
     origin: Pose,
     axis: DVec3,
     kind: usize,
-    /// The number of the joint that this one follows with factor −2 and offset 0.5; its own number if it follows none.
+    /// The number of the joint that this joint follows with factor −2 and offset 0.5; its own number if it follows
+    /// none.
     follows: usize,
 }
 
-/// Draws a tree of 8 links whose order is shuffled by the choice of parents; joint `k` moves link `k + 1`.
+/// Draws a random robot of 8 links, in which joint `k` moves link `k + 1`.
 fn draw(random: &mut Pcg64) -> Drawn {
     let mut twins: Vec<Twin> = Vec::new();
     let mut joints = Vec::new();
@@ -98,7 +99,7 @@ impl Drawn {
         }
     }
 
-    /// Returns the transform of a link by products of matrices.
+    /// Computes the transform of a link in the frame of the base by products of matrices.
     fn matrix(&self, link: usize, of: &dyn Fn(usize) -> f64) -> DMat4 {
         let Some(joint) = link.checked_sub(1) else {
             return DMat4::IDENTITY;
@@ -115,7 +116,7 @@ impl Drawn {
     }
 }
 
-/// Compares poses of links, in the base and in each other's frames, with products of matrices.
+/// Tests that poses of links, in the frames of the base and of other links, equal products of matrices.
 #[test]
 fn poses_are_products_of_matrices() {
     let mut random = Pcg64::seed_from_u64(1);
@@ -158,7 +159,7 @@ fn poses_are_products_of_matrices() {
     }
 }
 
-/// Tests that the stretch of a link in another one's frame is as near to the poses as it says.
+/// Tests that the stretch of a link in another link's frame deviates from the poses by at most its own bound.
 #[test]
 fn stretches_between_branches_hold() {
     let mut random = Pcg64::seed_from_u64(2);
@@ -266,7 +267,7 @@ fn configurations_that_do_not_fit_are_refused() {
     assert!(matches!(error, InputError::JointOutOfLimits { .. }));
 }
 
-/// Tests that a joint may follow another one beyond its own limits, from code as from a file.
+/// Tests that a joint that follows another joint may go beyond its own limits.
 #[test]
 fn limits_of_a_joint_that_follows_do_not_count() {
     let mut follower = hinge("follower", "link0", "link2");

@@ -1,13 +1,13 @@
-//! The tree of links: which joint moves which link, and the way from one link to another.
+//! The tree of links: the parent of each link, and the path of joints from one link to another.
 
 use super::{Joint, Link};
 use crate::error::RobotError;
 use std::collections::HashMap;
 
-/// The joint above each link, with the link that holds it.
+/// The tree of links, with the parent joint and the parent link of each link.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
-    /// For each link, the number of the joint that moves it and of the link that holds the joint; `None` for the base.
+    /// For each link, the numbers of the joint that moves it and of its parent link; `None` for the base.
     above: Vec<Option<Above>>,
     base: usize,
 }
@@ -18,11 +18,11 @@ struct Above {
     parent: usize,
 }
 
-/// A joint on the way from one link to another.
+/// A joint on the path from one link to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Step {
     pub(super) joint: usize,
-    /// Whether the way leads from the link that the joint moves to the link that holds it.
+    /// Whether the path leads up, from the joint's child link to its parent link.
     pub(super) is_up: bool,
 }
 
@@ -81,13 +81,13 @@ impl Tree {
         self.above[link].map(|above| above.parent)
     }
 
-    /// Iterates over a link and the links above it, up to the base. A loop ends after more links than there are.
+    /// Iterates over a link and its ancestors, up to the base. A loop ends after more links than there are.
     fn ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
         let up = |&link: &usize| self.parent(link);
         std::iter::successors(Some(link), up).take(self.above.len() + 1)
     }
 
-    /// Returns the joints on the way from one link to another, through their common ancestor.
+    /// Returns the joints on the path from one link to another, through their nearest common ancestor.
     pub(super) fn steps_between(&self, from: usize, to: usize) -> Vec<Step> {
         let targets: Vec<usize> = self.ancestors(to).collect();
         let is_common = |link: &usize| targets.contains(link);

@@ -1,6 +1,6 @@
 use super::*;
 
-/// The elements that MoveIt's setup assistant writes, in an order of its own.
+/// An SRDF file with two disabled pairs of links among other elements that MoveIt's setup assistant writes.
 const SRDF: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <!-- A comment. -->
 <robot name="arm">

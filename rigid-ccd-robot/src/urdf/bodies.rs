@@ -10,10 +10,10 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What the meshes of a robot become.
+/// How a mesh of a robot becomes a body: exactly, or as its convex hull.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MeshModel {
-    /// The fewest exact pieces: [`Detail::Auto`].
+    /// The fewest convex pieces that represent the mesh exactly: [`Detail::Auto`].
     #[default]
     Exact,
     /// The convex hull, which encloses the mesh and exceeds it by a certified bound: [`Detail::OuterHull`]. It serves links
@@ -21,14 +21,14 @@ pub enum MeshModel {
     OuterHull,
 }
 
-/// Makes bodies, each mesh once.
+/// Makes bodies of shapes and meshes; a mesh that occurs several times becomes one shared body.
 pub(super) struct BodyReader<'p> {
     packages: &'p Packages,
     model: MeshModel,
     known: RefCell<HashMap<MeshKey, Arc<Body>>>,
 }
 
-/// The file of a mesh, and the bits of its scale.
+/// The key of a shared body: the file of the mesh, and the bits of its scale factors along x, y and z.
 type MeshKey = (PathBuf, [u64; 3]);
 
 impl<'p> BodyReader<'p> {
@@ -40,7 +40,8 @@ impl<'p> BodyReader<'p> {
         }
     }
 
-    /// Makes the body of a shape. Sizes of URDF are whole: those of a box are not halved, lengths of cylinders neither.
+    /// Makes the body of a box, sphere, capsule, cylinder or mesh. A URDF gives full side lengths and full heights, not
+    /// halves.
     pub(super) fn body(&self, geometry: &urdf_rs::Geometry) -> Result<Arc<Body>, UrdfError> {
         let body = match geometry {
             urdf_rs::Geometry::Box { size } => Body::cuboid(DVec3::from_array(size.0) / 2.0)?,

@@ -5,40 +5,40 @@ use ccd_decomp::{MeshError, PrepareError};
 use rigid_ccd::InputError;
 use std::path::PathBuf;
 
-/// The reason why a file is no robot, with the element.
+/// The reason why a robot cannot be read, with the file, link or joint in which the error is.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum UrdfError {
     /// A file cannot be read.
     #[error("{}: {error}", file.display())]
     Unreadable {
-        /// The file.
+        /// The URDF or SRDF file that cannot be read.
         file: PathBuf,
-        /// The reason.
+        /// The operating system's message.
         error: String,
     },
-    /// A file is no URDF or SRDF.
+    /// A file is not a valid URDF or SRDF.
     #[error("{}: {error}", file.display())]
     Syntax {
-        /// The file.
+        /// The file in which the parser found an error.
         file: PathBuf,
-        /// What is wrong.
+        /// The parser's message.
         error: String,
     },
-    /// Something is wrong with a link.
+    /// A shape, a mesh or a pose of a link cannot be used.
     #[error("link `{link}`: {error}")]
     Link {
-        /// The name of the link.
+        /// The name of the link that cannot be used.
         link: String,
-        /// The reason.
+        /// The error of the link's shape, mesh or pose.
         error: Box<UrdfError>,
     },
-    /// Something is wrong with a joint.
+    /// The kind, the axis or the pose of a joint cannot be used.
     #[error("joint `{joint}`: {error}")]
     Joint {
-        /// The name of the joint.
+        /// The name of the joint that cannot be used.
         joint: String,
-        /// The reason.
+        /// The error of the joint's kind, axis or pose.
         error: Box<UrdfError>,
     },
     /// A joint is of a kind that is not supported.
@@ -47,12 +47,12 @@ pub enum UrdfError {
         /// The kind of the joint, as in the file.
         kind: String,
     },
-    /// A package or a file of a mesh was not found.
+    /// The file of a mesh was not found at any of the paths that its name may mean.
     #[error("`{uri}` is not found; looked for {}", tried.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "))]
     MeshNotFound {
-        /// The name of the mesh in the URDF.
+        /// The file name or `package://` name of the mesh, as the URDF gives it.
         uri: String,
-        /// The paths where it was looked for.
+        /// The paths that were searched for the mesh, in order.
         tried: Vec<PathBuf>,
     },
     /// A mesh cannot be read.
@@ -61,21 +61,21 @@ pub enum UrdfError {
     /// No body can be made of a mesh.
     #[error("{}: {error}", file.display())]
     Prepare {
-        /// The file of the mesh.
+        /// The path of the mesh file.
         file: PathBuf,
-        /// The reason.
+        /// The reason why the mesh cannot become a body.
         error: PrepareError,
     },
     /// A shape, a pose or an axis is not valid.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The links and joints are no robot.
+    /// The links and joints do not make a robot, for example because joints form a loop.
     #[error(transparent)]
     Robot(#[from] RobotError),
 }
 
 impl UrdfError {
-    /// Names the link where the error is.
+    /// Returns this error with the name of the link in which it occurred.
     pub(super) fn of_link(self, link: &str) -> Self {
         UrdfError::Link {
             link: link.to_owned(),
@@ -83,7 +83,7 @@ impl UrdfError {
         }
     }
 
-    /// Names the joint where the error is.
+    /// Returns this error with the name of the joint in which it occurred.
     pub(super) fn of_joint(self, joint: &str) -> Self {
         UrdfError::Joint {
             joint: joint.to_owned(),

@@ -4,17 +4,18 @@ use super::error::UrdfError;
 use std::env;
 use std::path::{Path, PathBuf};
 
-/// The folders in which packages and files are looked for.
+/// The folders that are searched for the packages and files that a URDF names.
 #[derive(Clone, Debug)]
 pub(super) struct Packages {
-    /// The folder of the URDF, for paths that are not absolute.
+    /// The folder of the URDF file, from which relative paths start.
     beside: PathBuf,
     /// Folders that are packages, or hold packages, in the order in which they are searched.
     folders: Vec<PathBuf>,
 }
 
 impl Packages {
-    /// Searches the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then those above a URDF file.
+    /// Lists the folders to search: those of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then all folders above a URDF
+    /// file.
     pub(super) fn around(urdf: &Path) -> Self {
         let beside = urdf.parent().unwrap_or(Path::new("")).to_owned();
         let listed = |variable| env::var_os(variable).unwrap_or_default();
@@ -32,7 +33,7 @@ impl Packages {
         self.folders.insert(0, folder);
     }
 
-    /// Returns the path of a file by its name in the URDF.
+    /// Returns the path of an existing file, given the name that the URDF has for it.
     pub(super) fn find(&self, uri: &str) -> Result<PathBuf, UrdfError> {
         let tried = self.candidates(uri);
         match tried.iter().find(|path| path.is_file()) {
@@ -44,7 +45,7 @@ impl Packages {
         }
     }
 
-    /// Returns the paths at which a file may be.
+    /// Returns the paths that a name in the URDF may mean, in the order in which they are tried.
     fn candidates(&self, uri: &str) -> Vec<PathBuf> {
         let in_package = uri
             .strip_prefix("package://")

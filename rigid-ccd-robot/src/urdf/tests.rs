@@ -7,7 +7,8 @@ use tempfile::TempDir;
 const TETRAHEDRON_OBJ: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// Writes a URDF of three links beside a mesh: shapes and a mesh that is mirrored, and visuals of another size.
+/// Writes a mesh and a URDF whose three links have shapes, a mirrored mesh, and a visual larger than the collision
+/// shapes.
 fn folder(joints: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("part.obj"), TETRAHEDRON_OBJ).unwrap();
@@ -89,7 +90,8 @@ fn visuals_are_a_choice() {
     assert_eq!(counts, [1, 0, 0]);
 }
 
-/// Tests the order of the three angles, and a joint that follows another one beyond its own limits.
+/// Tests that roll, pitch and yaw apply in this order, and that a joint that mimics another one may exceed its own
+/// limits.
 #[test]
 fn joints_are_those_of_the_file() {
     let robot = urdf(&folder(JOINTS)).read().unwrap();

@@ -1,10 +1,10 @@
-//! Checks the edges of a planner's graph for an arm of seven joints among obstacles: certified, and compared with
-//! checks at equal steps.
+//! Certifies edges of a motion planner's graph for an arm of seven joints, and compares the result with checks at equal
+//! steps.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example arm -- [EDGES [STEPS]]
 //! ```
-//! It checks 50 edges, or as many as are given, with a clearance of 5 mm. Beside the proofs it shows checks at 5 to
+//! It checks 50 edges, or `EDGES`, among obstacles, with a clearance of 5 mm. Beside the proofs it shows checks at 5 to
 //! 1,000 equal steps: how many edges they accept, how fast, and how many of these come nearer than the clearance at
 //! one of `STEPS` steps (2,000 by default).
 
@@ -22,7 +22,7 @@ use std::time::Instant;
 const CLEARANCE: f64 = 0.005;
 const OBSTACLE_COUNT: usize = 20;
 
-/// Returns whether an edge of the planner's graph is free, on which each joint goes from one position to another.
+/// Returns whether the arm is free of contact while each joint moves from its position in `from` to that in `to`.
 fn edge_is_free(
     solver: &mut Solver,
     scene: &Scene,
@@ -46,7 +46,7 @@ fn edge_is_free(
     Ok(true)
 }
 
-/// Returns whether the arm is free at equal steps of an edge.
+/// Returns whether the arm is free of contact at equally spaced poses of an edge, both ends included.
 fn steps_are_free(
     solver: &mut Solver,
     scene: &Scene,
@@ -80,7 +80,7 @@ fn steps_are_free(
     Ok(true)
 }
 
-/// Draws random edges that start at a free position.
+/// Draws random edges of the graph whose start is free of contact.
 fn draw(
     scene: &Scene,
     solver: &mut Solver,

@@ -13,8 +13,8 @@ pub(crate) struct Scene {
     pub(crate) chain: Chain,
     /// The bodies of the arm's links, each in its link's frame.
     pub(crate) links: Vec<Body>,
-    /// For each link, the links before it to test it against: all but its neighbour and those within 0.01 of it in the
-    /// home position.
+    /// For each link, the earlier links that it is tested against: those more than 0.01 apart from it in the home
+    /// position, without its neighbour.
     pub(crate) tested_links: Vec<Vec<usize>>,
     pub(crate) obstacles: Vec<(Body, Motion)>,
 }
@@ -59,7 +59,8 @@ impl Scene {
         vec![0.0; self.chain.joints().len()]
     }
 
-    /// Finds the pairs of links that are apart in the home position; neighbouring links always touch.
+    /// Fills `tested_links` with the pairs of links that are more than 0.01 apart in the home position. Neighbouring
+    /// links always touch, so they are left out.
     fn find_separate_links(&mut self) -> Result<(), Error> {
         let (home, mut solver) = (self.home_position(), Solver::new());
         for high in 0..self.links.len() {

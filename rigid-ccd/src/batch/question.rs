@@ -51,7 +51,7 @@ impl Question {
         matches!(self, Question::FirstContact | Question::IsFree)
     }
 
-    /// Returns which rows of a table form one path.
+    /// Returns which rows of a table of paths this question treats as one path.
     pub fn grouping(self) -> Grouping {
         match self {
             Question::Distance => Grouping::EachRow,

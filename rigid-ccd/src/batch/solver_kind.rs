@@ -1,4 +1,4 @@
-//! Schedules and distance backends chosen at run time.
+//! Solvers whose schedule, distance backend and motion bound are chosen at run time.
 
 use super::Question;
 use crate::Solver;
@@ -12,7 +12,7 @@ use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use std::fmt;
 
-/// A schedule with a distance backend.
+/// The choice of a schedule, a distance backend and a bound, from which a solver is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SolverKind {
     /// The order in which pairs of pieces are advanced in time.
@@ -26,16 +26,16 @@ pub struct SolverKind {
 /// The order in which a solver advances pairs of pieces in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum ScheduleKind {
-    /// Advances the pair first whose proof of separation expires first.
+    /// Advances the pair first whose proven separation ends first.
     #[default]
     BestFirst,
-    /// FAST, as published: one step for all pairs in the front of the distance query over hull trees.
+    /// FAST, as published: one step for all pairs at which a distance query over hull trees stops.
     Fast,
     /// Advances all pairs of pieces together, by one step at a time: slow, for comparison on small bodies.
     Naive,
 }
 
-/// Which bound of the bodies' velocity `fast` and `naive` divide distances by.
+/// The bound on the closing velocity by which the schedules `fast` and `naive` divide a distance to get a time step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum BoundKind {
     /// The bound that holds for any rotation.
@@ -60,7 +60,7 @@ impl ScheduleKind {
         self == ScheduleKind::Fast
     }
 
-    /// Returns whether the schedule takes one step for all pairs, and so uses a [bound](BoundKind).
+    /// Returns whether the schedule advances all pairs by one common step, for which it uses a [bound](BoundKind).
     pub fn uses_a_bound(self) -> bool {
         self != ScheduleKind::BestFirst
     }
@@ -80,8 +80,8 @@ pub enum OracleKind {
 
 /// A solver of queries that reuses its memory from query to query.
 pub trait Solve: Send {
-    /// Answers a question about two bodies; `None` if the schedule does not answer it. All of them find the first
-    /// contact.
+    /// Answers a question about two bodies; `None` if the schedule cannot answer this question. Every schedule can find
+    /// the first contact.
     fn answer(
         &mut self,
         question: Question,
@@ -90,7 +90,7 @@ pub trait Solve: Send {
 }
 
 impl SolverKind {
-    /// Returns all combinations of schedule, backend and bound whose bound is sound.
+    /// Returns all combinations of a schedule and a distance backend, each with the sound bound.
     pub fn all() -> impl Iterator<Item = SolverKind> {
         ScheduleKind::value_variants().iter().flat_map(|&schedule| {
             OracleKind::value_variants()
@@ -112,7 +112,7 @@ impl SolverKind {
         }
     }
 
-    /// Prepares a body for the backend, so that its first query is as fast as later ones.
+    /// Prepares a body for the distance backend, so that the body's first query is as fast as later ones.
     pub fn prepare(self, body: &Body) {
         match self.oracle {
             OracleKind::Direct => Direct::prepare(body),

@@ -1,4 +1,4 @@
-//! Queries answered and timed with a method chosen at run time.
+//! Answers and times queries by a method that is chosen at run time.
 
 use super::{Bodies, Question, Solve, SolverKind, TimedAnswer, median};
 use crate::table::courses::Movements;
@@ -8,14 +8,14 @@ use ccd_core::Settings;
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-/// What is asked about each row, and how often its answer is repeated for timing.
+/// The question about each row, with the method, the settings and the number of repetitions for timing.
 #[derive(Clone, Debug)]
 pub(crate) struct TimedQuestion {
     /// The question that every row answers.
     pub(crate) question: Question,
     /// The schedule and the distance backend.
     pub(crate) method: SolverKind,
-    /// The tolerance, the margin and the limits.
+    /// The tolerance, the margin, the limits and the other settings of each query.
     pub(crate) settings: Settings,
     /// The number of times that each query is answered; the time is the median.
     pub(crate) repetitions: NonZeroUsize,
@@ -44,7 +44,7 @@ impl Default for TimedQuestion {
     }
 }
 
-/// Answers a query `repetitions` times and returns the median time.
+/// Answers a query as often as `timing` says, and returns the answer with the median time.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
 /// caches and memory, and each may take longer.

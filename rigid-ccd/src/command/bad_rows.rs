@@ -1,17 +1,17 @@
-//! Reports rows of a table that cannot be read.
+//! Reports rows of a table that cannot be read or answered.
 
 use super::print_error;
 use crate::command::progress::Progress;
 use crate::table::motions::RowPosition;
 use std::fmt::Display;
 
-/// A counter of unreadable rows that prints the first few as they occur.
+/// A counter of rows that cannot be read or answered; it prints the first few as they occur.
 pub struct BadRows {
     input: String,
     count: usize,
 }
 
-/// The maximum number of unreadable rows that are printed one by one.
+/// The maximum number of bad rows that are printed one by one.
 const MAX_PRINTED_ROWS: usize = 5;
 
 impl BadRows {
@@ -20,7 +20,7 @@ impl BadRows {
         BadRows { input, count: 0 }
     }
 
-    /// Counts a bad row, and prints it if it is among the first.
+    /// Counts a bad row, and prints the row and its problem unless enough rows have been printed.
     pub fn report(&mut self, position: RowPosition, problem: &dyn Display, progress: &Progress) {
         self.count += 1;
         if self.count <= MAX_PRINTED_ROWS {
@@ -39,7 +39,7 @@ impl BadRows {
         }
     }
 
-    /// Returns the number of unreadable rows so far, also of those that were not printed.
+    /// Returns the number of bad rows so far, including those that were not printed.
     pub fn count(&self) -> usize {
         self.count
     }

@@ -1,4 +1,4 @@
-//! The message of an error: each cause once, without error numbers.
+//! Formats an error with its causes: each cause once, without the operating system's error numbers.
 
 /// Returns the messages of an error and its causes, from the outermost to the innermost.
 pub(super) fn message_with_causes(error: &anyhow::Error) -> String {
@@ -20,7 +20,7 @@ pub(super) fn message_with_causes(error: &anyhow::Error) -> String {
 /// The text before the error number of the operating system.
 const ERROR_NUMBER_PREFIX: &str = " (os error ";
 
-/// Removes the error numbers of the operating system, whose messages the text already has.
+/// Removes the operating system's error numbers from a text that already has their messages in words.
 fn without_error_numbers(text: &str) -> String {
     let mut parts = text.split(ERROR_NUMBER_PREFIX);
     let mut out = parts.next().unwrap_or_default().to_owned();

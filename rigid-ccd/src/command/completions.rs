@@ -11,7 +11,7 @@ use std::io::{self, Write};
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct CompletionsArgs {
-    /// Shell to complete in
+    /// Shell to print the script for
     #[arg(value_enum)]
     shell: Shell,
 }

@@ -13,7 +13,7 @@ impl StatusCounts {
         self.0[status as usize] += 1;
     }
 
-    /// Returns the total number of rows.
+    /// Returns the number of rows of all statuses together.
     pub(super) fn rows(&self) -> usize {
         self.0.iter().sum()
     }

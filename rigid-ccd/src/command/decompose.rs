@@ -134,8 +134,8 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Opens the output file before the decomposition, which may take long, so that a file that cannot be written is
-/// reported at once.
+/// Reserves the output file before the decomposition. So a file that cannot be written is reported at once, not after
+/// the long work.
 fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
     let form = OutputKind::from_path(out)?;
     refuse_overwriting(("the mesh", mesh), ("--out", out))?;

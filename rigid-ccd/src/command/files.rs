@@ -1,4 +1,4 @@
-//! Input tables from files or standard input, and the names of files in messages.
+//! Opens input tables from files or standard input, and names files in messages.
 
 use super::output::{JOURNAL_EXTENSION, is_standard_output, is_standard_stream};
 use crate::table::courses::Courses;
@@ -11,7 +11,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Refuses an output that would overwrite an input, directly or by its temporary files.
+/// Returns an error if an output, or a temporary file of the output, would overwrite an input.
 pub fn refuse_overwriting(
     (read, source): (&str, &Path),
     (written, target): (&str, &Path),
@@ -40,7 +40,7 @@ pub fn refuse_overwriting(
 /// A reader of a table's bytes, from a file or standard input.
 type Source = Box<dyn Read>;
 
-/// Opens a table of motions, and returns its length in bytes if known.
+/// Opens a table of motions, and returns its rows and, if known, its length in bytes.
 pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Option<u64>)> {
     let (input, length) = open_table(path)?;
     let rows = MotionRows::new(input).with_context(|| input_name(path))?;
@@ -50,7 +50,7 @@ pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Opti
 /// The rows of a table of motions or paths, from a file or standard input.
 pub(super) type Rows = Courses<CsvRecords<Source>>;
 
-/// Opens a table of motions or paths, and returns its length in bytes if known.
+/// Opens a table of motions or paths, and returns its rows and, if known, its length in bytes.
 pub(super) fn open_movement_rows(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
     let (input, length) = open_table(path)?;
     let rows = Courses::new(input, grouping).with_context(|| input_name(path))?;
@@ -87,7 +87,7 @@ pub fn input_name(path: &Path) -> String {
     }
 }
 
-/// Returns whether two paths refer to one file, or would if it existed.
+/// Returns whether two paths refer to the same file, which need not exist.
 pub fn same_file(a: &Path, b: &Path) -> bool {
     a == b || real_path(a).is_some_and(|a| Some(a) == real_path(b))
 }

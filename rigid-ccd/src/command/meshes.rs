@@ -8,17 +8,17 @@ use clap::Args;
 /// The options for reading mesh files, and for their convex pieces.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
-    /// Unit of all lengths: files in another one (glTF: metres; part.stl@mm) are converted to it, all other numbers are
-    /// taken to be in it [default: the numbers of the files]
+    /// Unit of all lengths: files in another unit (glTF: metres; others as in part.stl@mm) are converted to it, all
+    /// other numbers are taken to be in it [default: the numbers of the files]
     #[arg(long, value_name = "UNIT", value_parser = named_value_parser(UNITS), hide_possible_values = false)]
     unit: Option<Unit>,
-    /// Multiply the coordinates of all mesh files by this; of one of them: part.stl@scale=0.001
+    /// Multiply the coordinates of all mesh files by this factor; for one file, write part.stl@scale=0.001
     #[arg(long, value_name = "FACTOR", value_parser = parse_scale_factor, allow_hyphen_values = true)]
     scale: Option<f64>,
-    /// Mirror all mesh files across an axis; one of them: part.stl@mirror=x
+    /// Mirror all mesh files: change the sign of one coordinate; for one file, write part.stl@mirror=x
     #[arg(long, value_name = "AXIS", value_parser = named_value_parser(AXES))]
     mirror: Option<Axis>,
-    /// Take all mesh files as hollow surfaces, also closed ones; one of them: part.stl@surface
+    /// Take all mesh files as hollow surfaces, even closed ones; for one file, write part.stl@surface
     #[arg(long, conflicts_with = "pieces")]
     surface: bool,
     #[command(flatten)]
@@ -32,7 +32,7 @@ fn parse_scale_factor(text: &str) -> Result<f64, String> {
 }
 
 impl MeshArgs {
-    /// Returns the options as the library's adjustments of a mesh.
+    /// Returns the options for unit, scale, mirror and surface as the library's adjustments of a mesh.
     pub(super) fn adjustments(&self) -> Adjustments {
         let mut all = Adjustments::NONE;
         if let Some(unit) = self.unit {
@@ -49,7 +49,7 @@ impl MeshArgs {
         if self.surface { all.hollow() } else { all }
     }
 
-    /// Returns the unit of all lengths, if it is given.
+    /// Returns the unit of length that `--unit` gives; `None` without this option.
     pub(super) fn unit(&self) -> Option<Unit> {
         self.unit
     }

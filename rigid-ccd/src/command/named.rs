@@ -1,4 +1,4 @@
-//! Parsers for options whose values are those of a library type, by name.
+//! Parses options whose values are named values of a library type.
 
 use ccd_core::schedule::Shortcut;
 use ccd_core::{Instructions, StartPolicy};

@@ -3,7 +3,7 @@
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use std::time::Duration;
 
-/// Parses the value of `--tolerance`.
+/// Parses the value of `--tolerance`, and refuses one out of the library's range.
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     number(text)
         .filter(|value| (LEAST_TOLERANCE..=MAX_COORDINATE).contains(value))
@@ -12,14 +12,14 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
         })
 }
 
-/// Parses a length or time of at least 0.
+/// Parses a length or a time from 0 to [`MAX_COORDINATE`].
 pub(super) fn not_negative(text: &str) -> Result<f64, String> {
     number(text)
         .filter(|value| (0.0..=MAX_COORDINATE).contains(value))
         .ok_or_else(|| format!("give a number from 0 to {MAX_COORDINATE:e}, such as 0.01"))
 }
 
-/// Parses a finite number.
+/// Parses a finite number; `None` for any other text.
 pub(super) fn number(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|value| value.is_finite())
 }

@@ -1,4 +1,4 @@
-//! Outputs: streams, and files that are claimed by this process and written to a temporary file.
+//! Outputs of a run: streams, and files that this process reserves and first writes under a temporary name.
 
 use ccd_file::{Claim, Destination};
 use std::io::{self, Write};
@@ -25,13 +25,13 @@ impl CannotWrite {
     }
 }
 
-/// The file extension of a query's journal, which lies beside its results.
+/// The file extension of a query's journal, which is next to the query's table of results.
 pub(super) const JOURNAL_EXTENSION: &str = ".resume";
 
 /// A destination that is checked and reserved before anything is written to it.
 pub(super) enum Output {
-    /// A file with the path as it was given, reserved so that no other process writes it. An older file of its name is
-    /// kept until it is complete.
+    /// A file, reserved so that no other process writes it, with its path as the user gave it. An older file of this
+    /// name is kept until the new one is complete.
     File(Claim, PathBuf),
     /// Standard output, a pipe, a terminal or a device.
     Stream(PathBuf),
@@ -96,7 +96,8 @@ impl Output {
     }
 }
 
-/// Returns whether a path stands for standard output, even if that is redirected to a file, which is then not replaced.
+/// Returns whether a path is `-` or `/dev/stdout`, which stand for standard output. A file to which standard output is
+/// redirected is not replaced.
 pub(super) fn is_standard_output(path: &Path) -> bool {
     is_standard_stream(path) || path == Path::new("/dev/stdout")
 }

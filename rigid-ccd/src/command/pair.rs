@@ -111,7 +111,8 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// Prints a remark if the tolerance is large relative to the smaller body, and those about the rows of a table.
+    /// Prints the remarks about the rows of a table, and a remark if the tolerance is large relative to the smaller
+    /// body.
     pub(super) fn print_remarks(&self, tolerance: f64, rows: &Rows) {
         let Bodies { a, b } = self.bodies();
         let remark = Remark::of_tolerance(tolerance, [a, b].map(Remark::size));
@@ -126,8 +127,8 @@ impl Pair {
     }
 }
 
-/// Warns if two files have different units, or if the unit of only one is known. Shapes have none: their numbers are
-/// the user's own.
+/// Returns a warning if two files have different units, or if the unit of only one file is known; `None` otherwise.
+/// Primitives such as boxes have no unit: their numbers are the user's own.
 fn warn_of_mixed_units(
     [(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2],
 ) -> Option<String> {

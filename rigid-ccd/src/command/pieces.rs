@@ -28,7 +28,7 @@ enum PiecesArg {
 }
 
 impl PiecesArgs {
-    /// Returns the option as the library's description of the wanted pieces.
+    /// Returns the value of the option as the library's type for the choice of pieces.
     pub(super) fn detail(&self) -> Detail {
         match self.pieces {
             PiecesArg::Auto => Detail::Auto,

@@ -16,8 +16,9 @@ pub struct Progress {
     bar: ProgressBar,
     steps: Arc<AtomicU64>,
     total: Total,
-    /// For a total in bytes: the input bytes of a step, and the ends of the steps that have begun.
+    /// The number of input bytes that each step of the current batch counts for, if the total is in bytes.
     bytes_of_step: AtomicU64,
+    /// The end of the current batch's rows, in bytes of the input, if the total is in bytes.
     end: AtomicU64,
     /// The sender whose drop tells the displaying thread that the work is done.
     done_signal: Option<Sender<()>>,
@@ -29,7 +30,7 @@ pub struct Progress {
 pub enum Total {
     /// A known number of steps.
     Steps(usize),
-    /// Steps that answer rows of an input of known length in bytes.
+    /// The length in bytes of an input whose rows the steps answer.
     Bytes(u64),
     /// An unknown number of steps.
     Unknown,
@@ -47,7 +48,7 @@ const REDRAW_INTERVAL: Duration = Duration::from_millis(120);
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
 impl Progress {
-    /// Starts to show progress; dropping the value ends it.
+    /// Starts to show progress; dropping the returned value ends the display.
     pub fn new(total: Total) -> Self {
         let mut progress = Progress::hidden();
         progress.total = total;
@@ -129,7 +130,8 @@ impl Progress {
         }
     }
 
-    /// Begins `steps` steps, which answer the rows up to byte `end` of the input; all earlier rows are answered.
+    /// Begins a batch of `steps` steps, which answer the input's rows up to byte `end`; rows before the batch count as
+    /// answered.
     pub fn answering(&self, steps: usize, end: u64) {
         if let Total::Bytes(_) = self.total {
             let begin = self.end.swap(end, Ordering::Relaxed);
@@ -194,7 +196,7 @@ fn line(bar: &ProgressBar, total: Total, steps: &AtomicU64) -> String {
     }
 }
 
-/// Returns the number of rows answered and their rate.
+/// Returns as text the number of rows answered, and the rows per second or the seconds per row.
 fn rate(steps: &AtomicU64, elapsed: Duration) -> String {
     let steps = steps.load(Ordering::Relaxed);
     let seconds = elapsed.as_secs_f64();

@@ -87,7 +87,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     })
 }
 
-/// Writes the page of the chosen rows, if a page was requested.
+/// Writes the HTML page of the chosen rows, if `--html` is given.
 fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(ChosenRows, Output)>) -> Result<Exit> {
     let Some((chosen, html)) = page else {
         return Ok(Exit::AllAnswered);
@@ -210,7 +210,8 @@ fn ignores_start_contacts(args: &QueryArgs) -> bool {
     args.start == StartPolicy::Leave
 }
 
-/// Returns all options and checksums that determine the tables of the run, except the motions.
+/// Returns the version, the options and the bodies' checksums that determine the tables of the run. The checksum of the
+/// motions is in each checkpoint.
 fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> RecordedOptions {
     let mut recorded = vec![("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned())];
     recorded.extend(args.recorded_options(given));
@@ -271,7 +272,7 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
     }
 }
 
-/// Returns the exit status of a run, and prints how many rows failed `--check`.
+/// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
 fn run_outcome(args: &QueryArgs, end: Checkpoint) -> Exit {
     let failed = end
         .counts

@@ -20,12 +20,12 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct SceneCommandArgs {
-    /// Table of the bodies, CSV: `body` as for `ccd query --a`, and px, vx, ... as in a table of motions
+    /// Table of the bodies, CSV: column `body` as in `ccd query --a`, columns px, vx, ... as in a table of motions
     #[arg(value_name = "CSV")]
     scene: PathBuf,
     #[command(flatten)]
     meshes: MeshArgs,
-    /// End of all motions [default: 1]
+    /// Time at which all motions end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = not_negative, allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
@@ -69,7 +69,7 @@ Exit code: 0 if every pair has an answer, 2 for bad input, 1 if nothing can be w
 /// The columns of a query's results that the table of `ccd scene` omits.
 const OMITTED_COLUMNS: &[&str] = &["id", "iterations", "oracle_calls", "micros"];
 
-/// Runs `ccd scene`: writes the table of contacts.
+/// Runs `ccd scene`: finds the contacts of the bodies in a scene, and writes the table of contacts.
 pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     let how = SceneArgs {
         meshes: &args.meshes,

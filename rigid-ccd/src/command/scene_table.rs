@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// The time at which all motions end by default.
 const DEFAULT_DURATION: f64 = 1.0;
 
-/// The options that name a scene's table and the end of its motions.
+/// The options for reading a scene's table: how meshes become bodies, and when all motions end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
     pub(super) meshes: &'a MeshArgs,
@@ -112,10 +112,10 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
     Ok((rows, columns.remarks()))
 }
 
-/// The likely names of a column of times, which the table of a scene does not have.
+/// Likely names of a column of times; a scene's table with such a column is refused.
 const LIKELY_TIME_COLUMNS: [&str; 3] = ["duration", "t", "time"];
 
-/// Returns the message for a bad row of a scene's table, in which all motions end together.
+/// Returns the message for a bad row of a scene's table, which names the option `--duration` in place of a column.
 fn row_problem_message(problem: &RowProblem) -> String {
     let words = problem.to_string().replace("column duration", "--duration");
     match problem {
@@ -126,7 +126,7 @@ fn row_problem_message(problem: &RowProblem) -> String {
     }
 }
 
-/// Refuses rows with the same id, which contacts could not distinguish.
+/// Returns an error if two rows have the same id, because the table of contacts names bodies by their ids.
 fn refuse_equal_ids(rows: &[PlacedRow]) -> Result<()> {
     let mut known = HashMap::new();
     for (position, BodyRow { id, .. }) in rows {
@@ -151,7 +151,7 @@ impl SceneTable {
         Ok(())
     }
 
-    /// Prints the messages from loading, the duration, and the remarks.
+    /// Prints the messages from loading, the duration if it is the default, and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
         for report in &self.reports {
             print_line(report);

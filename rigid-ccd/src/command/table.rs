@@ -1,4 +1,4 @@
-//! Writes a table row by row.
+//! Writes a CSV table row by row, to a file or a stream.
 
 use super::output::{CannotWrite, Output, is_standard_output};
 use ccd_file::Claim;
@@ -67,8 +67,8 @@ impl Table {
         Ok(table)
     }
 
-    /// Continues a table after its first `written` bytes, and truncates the rest. Returns none if that is not there any
-    /// more as it was written.
+    /// Continues a table after the part that was `written`, and truncates what follows. Returns `None` if that part has
+    /// changed since.
     pub(super) fn resume(
         mut claim: Claim,
         written: WrittenSize,
@@ -175,7 +175,7 @@ fn cloned_file(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
     Ok(Box::new(claim.file().try_clone()?))
 }
 
-/// Returns the length and checksum of the first `bytes` bytes of a table.
+/// Returns the length and checksum of the first `bytes` bytes of a table, with a hasher that can continue the checksum.
 pub(super) fn measure(
     table: impl Read,
     bytes: u64,

@@ -22,10 +22,10 @@ use std::collections::{HashMap, VecDeque};
 use std::fs::File;
 use std::path::Path;
 
-/// The maximum number of rows read from which some are chosen for the page.
+/// The maximum number of rows that are read to choose a few of them for the page.
 const MAX_ROWS_READ: usize = 10_000;
 
-/// Runs `ccd view`: writes the page.
+/// Runs `ccd view`: writes the page of a table of motions or of a scene.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
     match args.subject() {
         Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
@@ -99,7 +99,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     write_rows(subject, chosen, out, args.quiet)
 }
 
-/// The two bodies, their title and their context, for a page of rows.
+/// The contents of a page of rows, apart from the rows: the title, the two bodies, and the context of the queries.
 #[derive(Clone, Copy)]
 pub(super) struct RowsPage<'a> {
     pub(super) title: &'a str,
@@ -121,7 +121,7 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }
 
-/// Writes the page of the chosen rows. Without any there is none, which is told.
+/// Writes the page of the chosen rows. If no row can be shown, writes no page and prints a message.
 pub(super) fn write_rows(
     RowsPage {
         title,

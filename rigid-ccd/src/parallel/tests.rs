@@ -12,7 +12,7 @@ fn capsule() -> Body {
     Body::capsule(0.1, 0.6).unwrap()
 }
 
-/// Returns a rotating motion that comes nearer to the other body with each `k`.
+/// Returns a rotating motion along a straight path, which is moved by `0.01 * k` towards the other body.
 fn approaching_motion(k: u32) -> Motion {
     let from = Pose::at([-3.0, 1.5 - 0.01 * f64::from(k), 0.1]).unwrap();
     Motion::new(from, [5.0, 0.0, 0.0], [0.3, 2.0, f64::from(k)]).unwrap()
@@ -157,7 +157,7 @@ fn limits_are_those_of_each_solver() {
     }
 }
 
-/// A flag that is set when a panic drops this value, after the panic has printed its message.
+/// A value that sets a flag when it is dropped: in a panic, after the panic has printed its message.
 struct SetOnUnwind<'f>(&'f AtomicBool);
 
 impl Drop for SetOnUnwind<'_> {

@@ -1,10 +1,10 @@
-//! Converts the motions of a row to those of a page.
+//! Converts the motions or paths of a row to the motions that a page shows.
 
 use crate::table::courses::Movements;
 use ccd_core::{InputError, Trajectory};
 use ccd_view::{Keyframe, ShownMotion};
 
-/// Returns the motions of both bodies, as a page shows them.
+/// Returns the motions of both bodies in the form for a page: a path becomes keyframes, one for each pose.
 ///
 /// # Errors
 /// If a path has no pose at one of its times.

@@ -8,7 +8,7 @@ use parry3d_f64::transformation::try_convex_hull;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
-/// The number of directions in which each point of a rounded piece is sampled.
+/// The number of points that approximate the sphere about each point of a rounded piece.
 const DIRECTIONS: u32 = 320;
 
 /// Returns the triangles of a body's surface: the faces of its mesh, or the hulls of its pieces.

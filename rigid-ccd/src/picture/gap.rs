@@ -1,4 +1,4 @@
-//! The distance of two bodies over time, and a proven lower bound of it.
+//! Computes the distance of two bodies over time, with a proven lower bound of this distance.
 
 use crate::Solver;
 use crate::batch::Bodies;
@@ -8,15 +8,15 @@ use ccd_core::{Body, InputError, Settings, Stretch};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
-/// The maximum number of poses that are drawn as ghosts for one query, besides the start.
+/// The maximum number of poses, besides the start, at which a query's bodies are also drawn as translucent ghosts.
 const MAX_GHOSTS: f64 = 12.0;
-/// The number of times at which the distance is measured.
+/// The maximum number of times at which the distance is measured.
 const MAX_MEASUREMENTS: usize = 96;
 /// The maximum number of steps of conservative advancement.
 const MAX_ADVANCEMENT_STEPS: usize = 48;
 /// The time limit for all measurements of one query, checked after each measurement.
 const TIME_LIMIT: Duration = Duration::from_secs(1);
-/// The work limit of one measurement of a distance.
+/// The budget of one measurement of a distance, in the units of [`Settings::budget`].
 const BUDGET: u64 = 100_000;
 /// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
 const ROUNDED_UP: f64 = 1.0 + 1e-9;
@@ -26,7 +26,7 @@ const ROUNDED_UP: f64 = 1.0 + 1e-9;
 pub struct GapOverTime {
     /// The measured distances, and the proven lower bound between them.
     pub gap: Gap,
-    /// The times of the steps, starting with 0: at each, the bodies are proven to stay apart until the next.
+    /// The times of the steps, starting with 0; from each step to the next the bodies are proven to stay apart.
     pub steps: Vec<f64>,
 }
 
@@ -37,7 +37,8 @@ impl GapOverTime {
         gaps.reduce(lesser)
     }
 
-    /// Returns the times of the steps at which ghosts are drawn, so far apart that ghosts are few.
+    /// Returns the times at which the bodies are also drawn as translucent ghosts: steps more than a twelfth of
+    /// `duration` apart.
     pub fn ghosts(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
         for &step in &self.steps {
@@ -59,8 +60,9 @@ impl GapOverTime {
     }
 }
 
-/// Samples the distance, most densely where the proven bound is loose. Between two samples the bound follows from a
-/// bound on the bodies' closing speed, and is nowhere less than `floor`, which the answer proves for all times.
+/// Samples the distance of two bodies over time, most densely where its proven lower bound is loose. Between two
+/// samples the lower bound follows from a bound on the bodies' closing speed. It is nowhere less than `floor`, which
+/// the answer proves for all times.
 ///
 /// # Errors
 /// If the motions are out of range.
@@ -100,7 +102,7 @@ struct GapSampler<'a> {
     deadline: Instant,
 }
 
-/// The maximum closing speed of two bodies between two times, and a bound on their deviation from their motions.
+/// Bounds that hold between two times: of the closing speed of two bodies, and of their deviation from their motions.
 #[derive(Clone, Copy, Debug)]
 struct ClosingSpeed {
     speed: f64,
@@ -130,7 +132,7 @@ impl GapSampler<'_> {
         Ok((points, steps))
     }
 
-    /// Adds measurements, each in the middle of the interval with the most to gain.
+    /// Measures the distance at more times, each in the middle of the interval with the largest gain.
     fn add_measurements(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
@@ -150,8 +152,8 @@ impl GapSampler<'_> {
         Ok(())
     }
 
-    /// Returns how much a measurement between two others would improve the plot: the area between the distance and the
-    /// proven bound.
+    /// Returns the gain of one more measurement between two others: an upper bound of the area between the distance and
+    /// its proven lower bound.
     fn gain(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
         let time = after.time - before.time;
         if !(time > 1e-6 * self.course.duration()) {
@@ -172,7 +174,7 @@ impl GapSampler<'_> {
         Ok(GapPoint { time, lower, upper })
     }
 
-    /// Bounds the closing speed of the bodies' points, and their deviation from the motions, between two times.
+    /// Bounds the closing speed of the bodies between two times, and their deviation from the motions there.
     fn closing_speed(&self, from: f64, to: f64) -> Result<ClosingSpeed, InputError> {
         let [a, b] = self.course.trajectories();
         let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);
@@ -187,8 +189,8 @@ impl GapSampler<'_> {
         })
     }
 
-    /// Returns the lower bound as a polyline: it falls on both sides of each measurement, but not below what is proven
-    /// for all times.
+    /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
+    /// measurement, but not below what is proven for all times.
     fn proven(&self, points: &[GapPoint]) -> Result<Vec<[f64; 2]>, InputError> {
         let floor = self.proven_distance;
         let mut line = Vec::new();
@@ -217,7 +219,7 @@ impl GapSampler<'_> {
     }
 }
 
-/// Bounds the distance of a body's points from the centre of a segment's motion.
+/// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
 fn extent((stretch, body): (&Stretch, &Body)) -> f64 {
     body.span() + stretch.motion.centre().length()
 }

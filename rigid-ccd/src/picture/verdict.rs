@@ -2,7 +2,7 @@
 
 use crate::table::results::{ResultRow, Status};
 
-/// What is known about the query that an answer belongs to.
+/// The facts about a query that the description of its answer needs: the meaning of times, the margin, the clearance.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
     /// The meaning of the answer's time.
@@ -16,22 +16,22 @@ pub struct Asked {
 /// The meaning of the time in an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// The time of the first contact.
+    /// The certified time of the first contact or, for a closest approach, of the least distance.
     First,
-    /// As [`First`](Claim::First), except for contacts at the start, which are ignored until the bodies part.
+    /// The time of the [first](Claim::First) contact, where a contact at the start is ignored until the bodies part.
     FirstContactAfterParting,
     /// The time of some contact, perhaps not the first one.
     Any,
     /// The time at which the distance was measured.
     MeasurementTime,
-    /// The time of the first contact by the published bound, which is no proof.
+    /// The time of the first contact according to the published bound, which is not certified.
     Published,
-    /// A time from a table of results, whose question and bound are unknown.
+    /// A time from a table of results; the question and the bound of that table are unknown.
     TableTime,
 }
 
-/// Describes the answer of a row in words, for motions that end at `end`. `end` is the end of its motions, and `proven`
-/// a lower bound of the distance at all times.
+/// Describes the answer of a row in words. The motions end at `end`, and `proven` is a lower bound of the distance at
+/// all times.
 pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
     let time = row.time.map_or("an unknown time".to_owned(), number);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
@@ -88,7 +88,8 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
     }
 }
 
-/// Describes what is proven after a contact at the start; empty if the question was about the first contact only.
+/// Describes after which time bodies that touch at the start are proven not to touch; empty for a row without
+/// `last_time`.
 fn describe_after_start_contact(row: &ResultRow) -> String {
     row.last_time.map_or(String::new(), |last| {
         format!(" Proven: not after {}.", number_rounded_up(last))
@@ -209,7 +210,7 @@ fn feature_in_words(name: &str) -> String {
     )
 }
 
-/// Formats a number with at most seven digits, rounded down, so that the text is a lower bound.
+/// Formats a number with at most six decimals, or four digits and an exponent, rounded down: the text is a lower bound.
 pub(super) fn number(value: f64) -> String {
     let text = number_with_few_digits(value);
     match text.parse::<f64>() {
@@ -218,7 +219,7 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
-/// Formats a number with at most seven digits, rounded up.
+/// Formats a number with as many digits as [`number`], rounded up: the text is an upper bound.
 fn number_rounded_up(value: f64) -> String {
     let text = number_with_few_digits(value);
     match text.parse::<f64>() {

@@ -8,9 +8,9 @@ use std::cmp::Ordering;
 /// The first contact of two bodies of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// The indices of the two bodies, the lower one first. A and B of the hit.
+    /// The indices of the two bodies, the lower one first.
     pub bodies: [usize; 2],
-    /// The first contact of the two bodies.
+    /// The first contact, in which A is the first of the two bodies and B the second.
     pub hit: Hit,
 }
 
@@ -25,7 +25,7 @@ pub struct PairError {
     pub error: Error,
 }
 
-/// A contact of two bodies, or the error that ended its search.
+/// A contact of two bodies, or the error that ended the search for their contact.
 #[derive(Clone, Debug)]
 pub(super) struct Event {
     /// The time before which the bodies do not touch.
@@ -65,7 +65,7 @@ impl Event {
         }
     }
 
-    /// Returns the event of a pair that was not examined because a limit was reached.
+    /// Returns the event of a pair whose query is out of range: it is unresolved from time 0 on.
     pub(super) fn unexamined_pair(bodies: [usize; 2]) -> Self {
         Event {
             time: 0.0,
@@ -74,7 +74,7 @@ impl Event {
         }
     }
 
-    /// Returns this event of a query that started at time `from`, with its times shifted by `from` and rounded down.
+    /// Returns the event with `from`, the start of its query, added to its times. The sums are rounded down.
     pub(super) fn shifted_in_time(self, from: f64) -> Self {
         let later = |time: f64| {
             if from > 0.0 {
@@ -97,12 +97,12 @@ impl Event {
         }
     }
 
-    /// Returns the same event at time 0.
+    /// Returns the event with its own time set to 0, and the time of its hit unchanged.
     pub(super) fn at_start(self) -> Self {
         Event { time: 0.0, ..self }
     }
 
-    /// Returns whether the bodies are in contact, and not certainly at least `distance` apart.
+    /// Returns whether the bodies are in contact, and not proven to be at least `distance` apart.
     pub(super) fn is_nearer_than(&self, distance: f64) -> bool {
         let contact = match &self.what {
             EventKind::Hit(hit) => hit.contact(),

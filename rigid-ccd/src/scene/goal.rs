@@ -44,7 +44,7 @@ impl Goal {
     }
 }
 
-/// The earliest time that any thread has recorded; infinite without one.
+/// The earliest time that any thread has recorded; infinite before the first record.
 ///
 /// It only saves work: what a thread does not see yet is proven further than needed.
 pub(super) struct EarliestTime(AtomicU64);

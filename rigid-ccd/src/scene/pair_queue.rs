@@ -10,8 +10,8 @@ use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
 use std::sync::{Mutex, PoisonError};
 
-/// The part of the duration by which a pair is advanced before another pair takes its turn. Shares so large that pairs
-/// are seldom put aside, and so small that little is proven beyond the answer.
+/// The share of the duration by which a pair is advanced before another pair takes its turn. It is so large that pairs
+/// are seldom put back, and so small that little is proven beyond the answer.
 const ADVANCE_SHARE: f64 = 1.0 / 16.0;
 
 /// The maximum number of finished searches whose memory a worker keeps for reuse.
@@ -63,7 +63,8 @@ impl<'r, 'a> PairQueue<'r, 'a> {
         waiting.push(entry);
     }
 
-    /// Returns the time to which a pair at `time` is advanced next, which is at most `limit`.
+    /// Returns the time up to which a pair at `time` is advanced next; infinite for [`Goal::All`], which needs the
+    /// pair's whole answer.
     fn next_target_time(&self, time: f64, others: f64, limit: f64) -> f64 {
         let slice = greater(others, time + ADVANCE_SHARE * self.duration);
         let until = match self.goal {

@@ -5,10 +5,10 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 
-/// Returns the accepted pairs of boxes that meet, in order, each with the lower index first.
+/// Returns the pairs of boxes that meet and that `asked` accepts, in ascending order, each with the lower index first.
 ///
 /// # Guarantee
-/// All pairs, whatever the tree is like: a box that it does not hold is compared with all others.
+/// No pair is missed, whatever the tree is like: a box that the tree does not contain is compared with all others.
 pub(super) fn overlapping_pairs(
     boxes: &[SweptBox],
     asked: impl Fn([usize; 2]) -> bool,
@@ -39,8 +39,8 @@ pub(super) fn overlapping_pairs(
     pairs
 }
 
-/// Returns whether every ancestor of a leaf in the tree contains the leaf's box. A search for boxes that meet it does
-/// not pass it by then.
+/// Returns whether every ancestor of a leaf in the tree contains the leaf's box. If so, a search for the boxes that
+/// meet this box finds all of them.
 fn is_within_ancestors(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
     let mut leaves = tree.leaves(|node| node.contains_aabb(leaf));
     leaves.any(|held| held as usize == index)

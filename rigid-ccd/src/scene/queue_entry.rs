@@ -2,8 +2,8 @@
 
 use std::cmp::Ordering;
 
-/// An entry of the queue: a pair of bodies, its time, and what is to be done at that time. The greatest, which a heap
-/// has first, is the earliest.
+/// An entry of a queue: a pair of bodies, a time, and the data for what is to be done with the pair at that time. The
+/// earliest entry counts as the greatest, which a heap has first.
 pub(super) struct QueueEntry<T> {
     pub(super) time: f64,
     pub(super) pair: [usize; 2],

@@ -1,4 +1,4 @@
-//! A trajectory from a later time on.
+//! The part of a trajectory from a later time on, with times counted from there.
 
 use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 use ccd_core::vector::length;

@@ -19,15 +19,15 @@ use ccd_core::{
 use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
 
-/// When and why a body stops.
+/// The time at which a body stops, with the other body and the contact that stop it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
     /// The time at which the body stops; the duration if it does not stop.
     pub time: f64,
     /// The index of the body that stops it; `None` if it does not stop.
     pub by: Option<usize>,
-    /// The contact with that body, at the time of its hit; `None` if the body does not stop, or if a limit was reached
-    /// before a contact was found. Bodies that rest on each other stop at once, before that time.
+    /// The contact with the body that stops it; `None` if it does not stop, or if a limit was reached before a contact
+    /// was found. Bodies that rest on each other stop at once, before the time of the hit.
     pub contact: Option<Impact>,
 }
 
@@ -65,10 +65,10 @@ impl Scene<'_> {
     /// Finds the time until which each body may move, by index, if it stops at its first contact while the others
     /// continue. A simulation that sets these poses after each step lets nothing pass through anything.
     ///
-    /// Bodies that touch at the start are let go, as by [`StartPolicy::Leave`], whatever the settings are: they may
-    /// slide and part, but not come nearer than half of their distance. Both have to move by a [`Motion`]
-    /// or be at rest; if one is on another trajectory, both stop at once. Bodies that overlap at the start do not stop
-    /// each other.
+    /// A contact at the start is ignored, as by [`StartPolicy::Leave`], whatever the settings are: the bodies may slide
+    /// and part, but not come nearer than half of their distance. Both bodies have to move by a [`Motion`] or be at
+    /// rest; if one is on another trajectory, both stop at once. Bodies that overlap at the start do not stop each
+    /// other.
     ///
     /// # Guarantee
     /// No two bodies that move until they stop, and then stand still, overlap at any time, but for those that
@@ -105,8 +105,8 @@ impl Scene<'_> {
     }
 }
 
-/// Returns the settings with half of the tolerance moved into the margin, so that bodies at rest do not sink into each
-/// other over many steps.
+/// Returns the settings with half of the tolerance moved into the margin, so that bodies that rest on each other do not
+/// sink into each other over many steps.
 fn with_half_tolerance_as_margin(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
@@ -117,7 +117,7 @@ fn with_half_tolerance_as_margin(given: &Settings) -> Settings {
     }
 }
 
-/// The state of the search: the bodies that have stopped so far, and solvers for the contacts still to come.
+/// The state of [`Scene::stops`]: the bodies that have stopped so far, and a solver for the contacts still to come.
 struct StopSearch<'s, 'a> {
     scene: &'s Scene<'a>,
     /// For each body, the indices of the bodies that it may touch.
@@ -128,7 +128,8 @@ struct StopSearch<'s, 'a> {
     oracle: Direct,
 }
 
-/// A contact that is still to come, with which of the two bodies moved when it was found; at most one has stopped.
+/// A contact that is still to come, and for each of its two bodies whether it was moving when the contact was found. At
+/// most one of them has stopped.
 type FutureContact = QueueEntry<(Event, [bool; 2])>;
 
 impl<'s, 'a> StopSearch<'s, 'a> {
@@ -193,7 +194,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         Ok(self.stops)
     }
 
-    /// Returns the contacts that others will have with a body that has just stopped.
+    /// Returns the future contacts of moving bodies with a body that has just stopped.
     fn future_contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
         let partners = std::mem::take(&mut self.partners[index]);
@@ -208,7 +209,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         found.collect()
     }
 
-    /// Returns the contact of two bodies after `time`, at which one of them stopped.
+    /// Returns the first contact of two bodies after `time`, when one of them stopped; `None` if they stay apart.
     fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::from_answer(bodies, &answer)?,
@@ -218,8 +219,8 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         Some(self.future_contact(event, time))
     }
 
-    /// Returns the queue entry for an event of a query that started at time `from`. Bodies that rest on each other, and
-    /// are nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
+    /// Returns the queue entry for an event of a query that started at time `from`. Bodies in contact that are nearer
+    /// than the margin stop at `from`: otherwise rounding could bring them nearer in each step of a simulation.
     fn future_contact(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
@@ -287,12 +288,12 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     }
 }
 
-/// Bounds the distance of a body's points from the centre of a stretch's motion.
+/// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
 fn reach(body: &Body, stretch: &Stretch) -> f64 {
     body.span() + length(stretch.motion.centre())
 }
 
-/// Bounds how far a body is off when it continues from a pose that is rounded.
+/// Bounds the error of the positions of a body's points when its movement continues from a rounded pose.
 fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
     let stretch = movement.stretch(0.0, 0.0)?;
     let motion = &stretch.motion;

@@ -98,7 +98,7 @@ fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: &Settin
     scene
 }
 
-/// Queries every accepted pair by itself, and returns its time, indices and result.
+/// Queries every accepted pair alone, and returns the time, the indices and the result of each that is not free.
 fn contacts_one_by_one(
     bodies: &[Body],
     parts: &[Part],
@@ -401,7 +401,7 @@ fn point_inside_tube(body: &Body) -> DVec3 {
     (a + b + c) / 3.0 - 0.02 * outwards
 }
 
-/// Tests durations of a few times the least positive number.
+/// Tests that queries end for durations from 1 to 99 times the least positive number.
 #[test]
 fn the_shortest_durations_end() {
     let size = 1e-20;
@@ -454,7 +454,7 @@ fn a_fixed_body_takes_no_motion() {
     assert_eq!(scene.movement(other).as_motion(), Some(Motion::still(pose)));
 }
 
-/// Tests thrown bodies and one at rest: the scene's answers are those of the pairs, one by one.
+/// Tests that a scene of thrown bodies and a body at rest has the same contacts as queries on each pair alone.
 #[test]
 fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
     let mut rng = Pcg64::seed_from_u64(8);

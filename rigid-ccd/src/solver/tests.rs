@@ -16,7 +16,7 @@ fn ballistic_trajectory(at: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]
     Ballistic::new(thrown, acceleration).unwrap()
 }
 
-/// Tests bodies side by side along a segment: the enclosures may overlap at the start although the bodies do not.
+/// Tests an accelerated ball that starts 0.0001 above a slab: it is reported as touching, not as overlapping.
 #[test]
 fn bodies_beside_each_other_do_not_overlap() {
     let (ball, slab) = (ball(0.5), Body::cuboid([9.0, 9.0, 1.0]).unwrap());
@@ -36,8 +36,8 @@ fn bodies_beside_each_other_do_not_overlap() {
     assert!(matches!(any, Outcome::Overlapping { .. }), "{any:?}");
 }
 
-/// Tests that a body that begins inside another one is found there, even by queries that examine later segments first;
-/// `any_contact` may be undecided.
+/// Tests that a body that starts inside a solid is never reported as free: the first contact is at time 0, and
+/// `any_contact` finds a contact or is undecided.
 #[cfg(feature = "meshes")]
 #[test]
 fn a_body_that_begins_inside_is_never_said_to_be_outside() {
@@ -74,7 +74,7 @@ fn a_body_that_begins_inside_is_never_said_to_be_outside() {
     }
 }
 
-/// Tests that a path and a motion resolve the ambiguity of a half turn in the same way.
+/// Tests that a path and a motion choose the same direction for a rotation by half a turn.
 #[test]
 fn half_turns_go_the_way_of_motions() {
     let turns: [f64; 4] = [
@@ -145,8 +145,8 @@ fn queries_after_the_end_of_a_trajectory_are_answered() {
     assert_eq!(hit.unwrap().hit(), Ok(None));
 }
 
-/// Tests a ball that flies at a cylinder and a cone from all sides. The contact is no later than that of the true
-/// shapes, and earlier by at most the excess and the tolerance.
+/// Tests that a ball hits a cylinder and a cone from all sides no later than it would hit the true shapes. The contact
+/// is earlier by at most the excess and the tolerance.
 #[test]
 fn round_bodies_are_touched_when_the_true_shapes_are() {
     let (radius, half_height, ball_radius) = (1.5, 2.0, 0.25);

@@ -25,7 +25,7 @@ pub(in crate::table) enum Quantity {
     Centre,
 }
 
-/// Which kind of table a row belongs to.
+/// The kind of a table, which decides its columns and what a row describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// Each row has the motions of both bodies.
@@ -48,7 +48,7 @@ const PATH_BODY_COLUMNS: [&str; 13] = [
 ];
 
 impl Form {
-    /// Returns the names of all columns in order.
+    /// Returns the names of all columns that a table of this kind may have, in order.
     pub(in crate::table) fn names(self) -> Vec<String> {
         let bodies = self.prefixes().iter().flat_map(|prefix| {
             let of_body = self.body_columns().iter();
@@ -71,7 +71,7 @@ impl Form {
         }
     }
 
-    /// Returns the bodies that a row describes.
+    /// Returns the bodies that a row describes: A and B, or only A for a row of a scene.
     fn sides(self) -> impl Iterator<Item = Side> {
         [Side::A, Side::B].into_iter().take(self.prefixes().len())
     }
@@ -110,7 +110,7 @@ impl Form {
         }
     }
 
-    /// Returns the names of all columns as text for messages.
+    /// Returns a text that lists the known columns, for messages.
     pub(in crate::table) fn known_columns_text(self) -> &'static str {
         match self {
             Form::Motions => {
@@ -130,7 +130,7 @@ impl Form {
     }
 }
 
-/// Which of the known columns a table of motions, of paths or of a scene has, and where.
+/// The header of a table of motions, of paths or of a scene: which of the known columns it has, and at which index.
 #[derive(Debug)]
 pub struct Columns {
     form: Form,
@@ -155,7 +155,7 @@ impl Columns {
         Columns::from_header(header, form)
     }
 
-    /// Parses the header of a table of the given form.
+    /// Parses the header of a table of the given kind.
     ///
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
@@ -190,8 +190,8 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Refuses a header with some, but not all, columns of an orientation or of an end position, and angular velocities in
-    /// a table of paths without orientations.
+    /// Refuses a header with only some of the columns of an orientation or of an end position. In a table of paths,
+    /// angular velocities also need the columns of an orientation.
     fn check_complete_groups(&self) -> Result<(), TableError> {
         let wholes = [
             Quantity::Orientation,
@@ -235,7 +235,7 @@ impl Columns {
         &self.remark_collector
     }
 
-    /// Returns the known columns that hold a quantity's components.
+    /// Returns the known columns that hold a quantity's components, as [`Form::column_range`] does.
     pub(in crate::table) fn column_range(&self, side: Side, quantity: Quantity) -> Range<usize> {
         self.form.column_range(side, quantity)
     }
@@ -254,14 +254,15 @@ impl Columns {
         self.cells[slot]
     }
 
-    /// Returns the name of the column of the cell at an index.
+    /// Returns the name of the column whose cell has a given index in the row.
     pub(in crate::table) fn name_at(&self, index: usize) -> &str {
         let slot = self.cells.iter().position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
     }
 }
 
-/// Returns a number in a header without any known column: such a header is probably a row.
+/// Returns the first number in a header that has no known column, because such a header is probably a row; `None` for
+/// any other header.
 fn number_in_header(header: &[String], names: &[String]) -> Option<String> {
     if header.iter().any(|cell| names.contains(cell)) {
         return None;
@@ -314,7 +315,8 @@ fn unknown_column_error(header: &[String], column: &str, form: Form) -> TableErr
     }
 }
 
-/// Returns the body's prefix of a column name that is an Euler angle or a rotation vector; `None` for other names.
+/// Returns the body's prefix in a column name that is typical of an Euler angle or a rotation vector; `None` for other
+/// names.
 fn prefix_of_angle(lower: &str, form: Form) -> Option<&'static str> {
     let (prefixes, usual): (&[&str], _) = match form {
         Form::Motions | Form::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),

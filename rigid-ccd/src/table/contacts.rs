@@ -27,7 +27,7 @@ pub(crate) enum ContactListError {
     Contacts(#[from] ContactsError),
 }
 
-/// Lists all contacts at the time of a contact or touching, nearest first; an empty list for other answers.
+/// Lists all pairs of features in contact at the time of an answer's contact, nearest first; empty for other answers.
 ///
 /// # Errors
 /// The query is not valid, or the contacts cannot be listed.

@@ -1,4 +1,4 @@
-//! The rows of a query: motions or paths.
+//! Reads queries from a table of motions or a table of paths.
 
 use super::columns::Columns;
 use super::csv_records::CsvRecords;
@@ -80,12 +80,12 @@ impl Movements {
     }
 }
 
-/// An iterator over the queries in a table: of motions, where each row is one, or of paths, where all rows with the same
-/// id are one.
+/// An iterator over the queries in a table of motions or of paths. Each row of a table of motions is a query; in a
+/// table of paths, all rows with the same id are one query.
 #[derive(Debug)]
 pub struct Courses<S> {
     rows: MotionRows<S>,
-    /// `None` for a table of motions.
+    /// The state of reading a table of paths; `None` for a table of motions.
     paths: Option<Paths>,
 }
 
@@ -93,7 +93,7 @@ pub struct Courses<S> {
 pub type CourseRow = Result<(RowPosition, Movements), RowError>;
 
 impl<R: io::Read> Courses<CsvRecords<R>> {
-    /// Reads the header of a CSV table.
+    /// Creates the iterator, and reads the header of a CSV table.
     ///
     /// # Errors
     /// The header cannot be read, or has columns that cannot be used.
@@ -103,7 +103,7 @@ impl<R: io::Read> Courses<CsvRecords<R>> {
 }
 
 impl<S: Records> Courses<S> {
-    /// Creates the iterator after the header was read: a table with a column `t` is a table of paths.
+    /// Creates the iterator over the rows of `records`. A table with a column `t` is a table of paths.
     ///
     /// # Errors
     /// The header has columns that cannot be used, or the first row cannot be read.
@@ -116,12 +116,12 @@ impl<S: Records> Courses<S> {
         Ok(Courses { rows, paths })
     }
 
-    /// Returns whether it is a table of paths.
+    /// Returns whether the table is a table of paths, not of motions.
     pub fn is_path_table(&self) -> bool {
         self.paths.is_some()
     }
 
-    /// Skips rows without parsing them, and returns the number skipped.
+    /// Skips rows, or paths in a table of paths, without parsing them, and returns the number skipped.
     ///
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].

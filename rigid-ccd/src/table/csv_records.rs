@@ -26,7 +26,7 @@ pub struct CsvRecords<R> {
 type Reader<R> = csv::Reader<io::Chain<QuoteTracker<Lines<R>>, &'static [u8]>>;
 
 impl<R: Read> CsvRecords<R> {
-    /// Reads the header, which becomes the current record.
+    /// Opens the table, and reads its header as the current record.
     ///
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
@@ -154,7 +154,7 @@ fn trimmed_cell(record: &csv::ByteRecord, cell: usize) -> Cow<'_, str> {
     }
 }
 
-/// Adds the cells of a record, each with a separator, to a checksum.
+/// Adds the cells of a record, and the length of each cell, to a checksum.
 fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
     checksum.update(record.as_slice());
     for cell in record {

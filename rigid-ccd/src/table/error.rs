@@ -36,7 +36,7 @@ pub enum TableError {
         "header: `{number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known}"
     )]
     NoHeader {
-        /// The first number.
+        /// The first number in that line.
         number: String,
         /// The known columns, as text.
         known: &'static str,
@@ -49,18 +49,18 @@ pub enum TableError {
         "header: cells are separated by {found:?}; use commas, and numbers with a decimal point: {header}"
     )]
     WrongSeparator {
-        /// The separator.
+        /// The character that separates the cells.
         found: char,
-        /// The header.
+        /// The text of the header.
         header: String,
     },
-    /// The header has a column that is not known. To ignore it could silently drop a motion.
+    /// The header has a column that is not known. If it were ignored, a part of a motion could be lost silently.
     #[error(
         "header: unknown column `{column}`; {}",
         .nearest.as_ref().map_or((*.known).to_owned(), |nearest| format!("did you mean `{nearest}`?"))
     )]
     UnknownColumn {
-        /// The name of the column.
+        /// The unknown name, as in the header.
         column: String,
         /// The known columns, as text.
         known: &'static str,
@@ -73,7 +73,7 @@ pub enum TableError {
          {prefix}qy {prefix}qz, w first; of scipy, Rotation.from_euler(…).as_quat(scalar_first=True) makes them of angles"
     )]
     Angle {
-        /// The name of the column.
+        /// The name that looks like that of an angle.
         column: String,
         /// The prefix of the body's columns.
         prefix: &'static str,
@@ -84,13 +84,13 @@ pub enum TableError {
          or drop the column"
     )]
     IndexOfPandas {
-        /// The placeholder name.
+        /// The empty name, or the placeholder that pandas writes in its place.
         column: String,
     },
     /// A column appears twice in the header.
     #[error("header: column `{column}` appears twice")]
     RepeatedColumn {
-        /// The name of the column.
+        /// The name that appears twice.
         column: String,
     },
     /// A column is missing that another one requires.
@@ -118,20 +118,20 @@ impl From<csv::Error> for TableError {
 pub struct RowError {
     /// The position of the row in the table.
     pub position: RowPosition,
-    /// The id of the row.
+    /// The id of the row, or its index if it has none.
     pub id: String,
-    /// What is wrong with the row.
+    /// The reason why the row cannot be answered.
     pub problem: RowProblem,
 }
 
-/// What is wrong with a row.
+/// The reason why a row of a table cannot be answered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowProblem {
     /// A cell is not text in UTF-8.
     #[error("column {column}: is not text in UTF-8")]
     NotText {
-        /// The column of the cell.
+        /// The name of the column that the cell is in.
         column: String,
     },
     /// The row has more or fewer cells than the header.
@@ -145,7 +145,7 @@ pub enum RowProblem {
     /// A cell is not a finite number.
     #[error("column {column}: `{value}` is not a finite number")]
     NotANumber {
-        /// The column of the cell.
+        /// The name of the column that the cell is in.
         column: String,
         /// The content of the cell.
         value: String,
@@ -153,7 +153,7 @@ pub enum RowProblem {
     /// A cell is empty.
     #[error("column {column}: no value, and an empty cell has no default")]
     EmptyCell {
-        /// The column of the cell.
+        /// The name of the column that the cell is in.
         column: String,
     },
     /// A quaternion is zero.
@@ -179,7 +179,7 @@ pub enum RowProblem {
     /// The duration is out of range.
     #[error("column duration: {} is not {allowed}", Number(*.value))]
     BadDuration {
-        /// The given duration.
+        /// The duration that is refused.
         value: f64,
         /// The allowed durations, in words.
         allowed: &'static str,
@@ -191,9 +191,9 @@ pub enum RowProblem {
         Number(*.before)
     )]
     TimeNotLater {
-        /// The time of the row.
+        /// The time of the row that is refused.
         time: f64,
-        /// The time of the row before.
+        /// The time of the previous row.
         before: f64,
     },
     /// A time is so large relative to the path's first time that it rounds to the time of the row before.
@@ -203,7 +203,7 @@ pub enum RowProblem {
         Number(*.first)
     )]
     TimeTooLarge {
-        /// The time of the row.
+        /// The time of the row that is refused.
         time: f64,
         /// The time of the path's first row.
         first: f64,
@@ -217,7 +217,7 @@ pub enum RowProblem {
         /// The id of the path.
         id: String,
     },
-    /// The centre of rotation differs from that of the path's row before.
+    /// A row has another centre of rotation than the previous row of its path.
     #[error(
         "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one centre of rotation"
     )]
@@ -225,7 +225,7 @@ pub enum RowProblem {
         /// The letter of the body, as in the columns' prefix.
         body: char,
     },
-    /// The angular velocity of the row before does not lead to the orientation of this one.
+    /// The angular velocity in the previous row does not lead to the orientation in this row.
     #[error(
         "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {left:.3} radians away from this orientation; \
          a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
@@ -233,7 +233,7 @@ pub enum RowProblem {
     OrientationMismatch {
         /// The letter of the body, as in the columns' prefix.
         body: char,
-        /// The angle between both orientations, in radians.
+        /// The angle in radians between the orientation in the row and the one to which the angular velocity leads.
         left: f64,
     },
     /// Only the default schedule answers this question.

@@ -36,7 +36,8 @@ pub(super) fn is_index_of_pandas(column: &str) -> bool {
     column.is_empty() || column.starts_with("__index_level_")
 }
 
-/// Returns the separator in a header that has no commas; `None` if there is none.
+/// Returns the semicolon, tab or bar that separates the cells of a header without commas; `None` if it has none of
+/// these.
 pub(super) fn header_separator(header: &str) -> Option<char> {
     [';', '\t', '|']
         .into_iter()

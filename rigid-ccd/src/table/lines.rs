@@ -8,15 +8,16 @@ use std::io::{self, Read};
 pub struct Lines<R> {
     input: io::Chain<io::Cursor<Vec<u8>>, R>,
     after_carriage_return: bool,
-    /// The number of bytes read from the input, and the number of those dropped: the marks, and one for each `\r\n`.
+    /// The number of bytes read from the input.
     bytes: u64,
+    /// The number of these bytes that were dropped: those of byte order marks, and one for each `\r\n`.
     dropped_bytes: u64,
 }
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl<R: Read> Lines<R> {
-    /// Creates a reader of `input`.
+    /// Creates a reader of `input`, and reads past byte order marks at its start.
     ///
     /// # Errors
     /// The first bytes cannot be read.

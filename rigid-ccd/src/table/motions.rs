@@ -78,7 +78,7 @@ pub struct MotionRows<S> {
 pub type MotionRow = Result<(RowPosition, Motions), RowError>;
 
 impl<R: io::Read> MotionRows<CsvRecords<R>> {
-    /// Reads the header of a CSV table.
+    /// Creates the iterator, and reads the header of a CSV table.
     ///
     /// # Errors
     /// The header cannot be read, or has columns that cannot be used.

@@ -43,7 +43,7 @@ pub enum Grouping {
     EachRow,
 }
 
-/// What the reader of a table of paths knows between two paths.
+/// The state of a reader of a table of paths, between two paths.
 ///
 /// Columns go by name, in any order: `id`, `t`, poses and centres as in a table of motions, and angular velocities until
 /// the next row. Rows of one path follow each other, in the order of their times.
@@ -176,7 +176,7 @@ impl Paths {
     }
 }
 
-/// What the first row says about its path.
+/// The first row of a path: its position, and the id of the path.
 struct FirstRow {
     position: RowPosition,
     id: String,
@@ -184,7 +184,8 @@ struct FirstRow {
     seen: bool,
 }
 
-/// Returns `row`, or an error if it is not later than the row before, also after subtracting the first time.
+/// Returns `row`, or an error if it cannot follow the rows before it. Its time must be later, also after the first time
+/// is subtracted; its orientation and its centre of rotation must fit the row before.
 fn check_row_is_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
@@ -208,7 +209,8 @@ fn check_row_is_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, Row
     Ok(row)
 }
 
-/// Refuses a row whose orientation is not where the angular velocity of the row before leads.
+/// Returns an error if a row's centre of rotation or orientation does not fit the previous row. The centre must be the
+/// same, and the previous row's angular velocity must lead near the orientation.
 fn check_orientation(
     body: char,
     [before, row]: [BodyPose; 2],

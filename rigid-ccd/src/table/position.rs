@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The position of a row in a table.
+/// The position of a row in a table: its number among the rows, and its line in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RowPosition {
     /// The number of the row, counted from 0 after the header, as `--rows` counts.

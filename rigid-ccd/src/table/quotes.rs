@@ -30,7 +30,7 @@ enum State {
 }
 
 impl<R> QuoteTracker<R> {
-    /// Creates a reader of `input`.
+    /// Creates a reader of `input`, which starts at the table's first line.
     pub fn new(input: R) -> Self {
         QuoteTracker {
             input,
@@ -45,7 +45,7 @@ impl<R> QuoteTracker<R> {
         &self.input
     }
 
-    /// Returns the line of an unclosed quote, after a record that ends before `line`.
+    /// Returns the line of an unclosed quote, after a record that ends before `line`; `None` if no quote is open.
     ///
     /// Such a record has closed its quotes. An open quote belongs to a later record, on a later line,
     /// unless the record ended with the table.

@@ -15,7 +15,7 @@ pub trait Records {
     /// There are no names to be read.
     fn header(&self) -> Result<Vec<String>, TableError>;
 
-    /// Returns the current row.
+    /// Returns the row that was read last.
     fn current(&self) -> &Self::Record;
 
     /// Reads the next row, and returns its position; `None` at the end.
@@ -37,7 +37,7 @@ pub trait Records {
 
 /// A row of a table before parsing.
 pub trait Record {
-    /// Checks that the row has the cells of the header, as text.
+    /// Returns an error if the row has not as many cells as the header, or a cell is not text in UTF-8.
     ///
     /// # Errors
     /// What is wrong with the row.
@@ -45,7 +45,7 @@ pub trait Record {
         Ok(())
     }
 
-    /// Returns whether a cell has a value.
+    /// Returns whether a cell is not empty.
     fn is_given(&self, cell: usize) -> bool;
 
     /// Returns the finite number in a cell; `None` if the cell is empty.

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(in crate::table) struct RemarkCollector {
     quaternion: OnceLock<Remark>,
     spin: OnceLock<Remark>,
-    /// Whether some body rotates many times by no round number of degrees, which implies radians.
+    /// Whether some fast rotation is not a round number of degrees, so that the table's angles must be in radians.
     has_radians: AtomicBool,
 }
 
@@ -22,7 +22,7 @@ impl RemarkCollector {
         }
     }
 
-    /// Adds a remark if a motion's angular velocity seems to be in degrees.
+    /// Adds a remark if a motion's angular velocity seems to be in degrees, or notes that it must be in radians.
     pub(in crate::table) fn note_motion(&self, motion: &Motion, duration: f64) {
         if !Remark::is_fast_rotation(motion.spin(), duration) {
             return;

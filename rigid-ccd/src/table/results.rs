@@ -19,7 +19,7 @@ use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
 use serde::Deserialize;
 use std::io;
 
-/// The clearance that distances are compared with.
+/// The clearance that distances are compared with, and the excess of the bodies that are measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClearanceComparison {
     /// The required distance of the bodies, if one is given.
@@ -50,18 +50,18 @@ impl ClearanceComparison {
 pub struct ResultRow {
     /// The id in the table of motions.
     pub id: String,
-    /// The kind of the answer, or that the row is an error.
+    /// The kind of the answer, or [`Status::Error`] for a row that is not a valid query.
     pub status: Status,
-    /// The time before which there is no contact, certified unless the bound is the published one; the duration for a
-    /// free row.
+    /// The time before which there is no contact; for a distance, the time at which the bodies are nearest. A free row
+    /// has the end of the motions. The time is certified unless the bound is the published one.
     pub time: Option<f64>,
     /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: those bodies are
     /// proven to keep the margin, and no distance is known.
     pub distance_lower: Option<f64>,
-    /// An upper bound of the distance at `time`: between the shapes for a distance question; for contacts between the
-    /// bodies, which may [exceed](ccd_core::Body::with_excess) the shapes.
+    /// An upper bound of the distance at `time`. For a distance question it is that of the shapes, for a contact that
+    /// of the bodies, which may [exceed](ccd_core::Body::with_excess) the shapes.
     pub distance_upper: Option<f64>,
-    /// The unit vector from A to B, in the world frame.
+    /// The unit normal from A to B at `time`, in the world frame.
     pub normal: [Option<f64>; 3],
     /// The nearest point of A, in the world frame at `time`.
     pub witness_a: [Option<f64>; 3],
@@ -77,12 +77,13 @@ pub struct ResultRow {
     pub oracle_calls: Option<u64>,
     /// The time of this query alone, in microseconds.
     pub micros: Option<f64>,
-    /// The problem of an error, or the limit of an unresolved query.
+    /// The problem of a row of status `error`, the limit that ended a query, or the reason why a clearance is
+    /// unverified.
     pub reason: Option<String>,
     /// The time after which there is no contact.
     #[serde(skip)]
     pub last_time: Option<f64>,
-    /// The counters of the search's work.
+    /// The counters of the work that the query took.
     #[serde(skip)]
     pub counters: Option<Stats>,
 }
@@ -97,7 +98,7 @@ impl ResultRow {
         }
     }
 
-    /// Creates the row of a contact, without an id and counts.
+    /// Creates the row of a contact; its id and its counts stay empty.
     #[cfg(feature = "command")]
     pub(crate) fn of_hit(hit: &ccd_core::Hit) -> Self {
         let row = ResultRow {
@@ -107,7 +108,7 @@ impl ResultRow {
         row.at(hit.time).with_hit(&hit.kind)
     }
 
-    /// Creates the row of two features in contact, without a status and counts.
+    /// Creates the row of two features in contact; its status and its counts have their defaults.
     #[cfg(feature = "command")]
     pub(crate) fn of_feature_pair(id: &str, time: f64, pair: &ccd_core::FeaturePair) -> Self {
         let row = ResultRow {
@@ -158,7 +159,7 @@ impl ResultRow {
         }
     }
 
-    /// Returns the row with the contact of an outcome added.
+    /// Returns the row with the time and the contact of an outcome filled in.
     fn with_contacts(self, outcome: &Outcome, duration: f64) -> Self {
         match *outcome {
             Outcome::Free { .. } => self.at(duration),
@@ -177,7 +178,7 @@ impl ResultRow {
         }
     }
 
-    /// Returns the row with the distance of an outcome added.
+    /// Returns the row with the time, the distance and the nearest points of an outcome filled in.
     fn with_distance(self, outcome: &Outcome, duration: f64) -> Self {
         let row = match *outcome {
             Outcome::Overlapping { overlap, upper } => {

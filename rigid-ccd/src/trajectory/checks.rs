@@ -1,4 +1,4 @@
-//! Checks numbers from which trajectories are made.
+//! Checks the numbers that trajectories are made from, such as durations and times.
 
 use ccd_core::InputError;
 use ccd_core::glam::DVec3;
@@ -15,7 +15,7 @@ pub(super) fn out_of_range_error(
     }
 }
 
-/// Returns a vector, or an error with the name `what` if it is not finite.
+/// Returns a vector, or an error that calls it `what` if one of its components is not finite.
 pub(super) fn finite_vector(
     vector: impl Into<[f64; 3]>,
     what: &'static str,
@@ -41,7 +41,7 @@ pub(super) fn check_duration(duration: f64) -> Result<(), InputError> {
     }
 }
 
-/// Refuses a time that is not finite and later than the one before.
+/// Refuses a time that is not finite, or not later than the time before it.
 pub(super) fn check_later(
     what: &'static str,
     time: f64,

@@ -26,7 +26,7 @@ pub struct Curve {
     segments: Segments<Vec<DVec3>>,
 }
 
-/// A Bézier curve between two times, by its control points.
+/// A Bézier curve between two times, given by its control points.
 type Segment = segments::Segment<Vec<DVec3>>;
 
 impl Curve {
@@ -120,19 +120,19 @@ impl Curve {
         })
     }
 
-    /// Bounds the magnitude of the derivative of an order on the segments between two times.
+    /// Bounds the magnitude of the derivative of the given order between two times, over all segments there.
     fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         self.segments.greatest(from, to, |segment| {
             segment.derivative_bound(order, greater(from, segment.from), lesser(to, segment.to))
         })
     }
 
-    /// Returns a knot strictly between two times, about in the middle; `None` without one.
+    /// Returns a knot strictly between two times, near their middle; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         self.segments.corner(from, to)
     }
 
-    /// Bounds the rounding error of a position.
+    /// Bounds the rounding error of a computed position on the curve.
     pub(super) fn rounding(&self) -> f64 {
         let lengths = self.segments.0.iter().flat_map(|segment| {
             let degree = segment.course.len() as f64;
@@ -147,7 +147,7 @@ impl Segment {
         ((time - self.from) / (self.to - self.from)).clamp(0.0, 1.0)
     }
 
-    /// Returns the derivative of an order with respect to time, at a share of the segment's duration.
+    /// Returns the derivative of the given order with respect to time, at a share (0 to 1) of the segment's duration.
     fn derivative(&self, order: usize, share: f64) -> DVec3 {
         let mut points = self.derivative_control_points(order);
         // De Casteljau's algorithm.
@@ -157,7 +157,7 @@ impl Segment {
         points.first().copied().unwrap_or(DVec3::ZERO)
     }
 
-    /// Returns the control points of the derivative of an order with respect to time; empty if it is zero.
+    /// Returns the control points of the derivative of the given order with respect to time; empty if it is zero.
     fn derivative_control_points(&self, order: usize) -> Vec<DVec3> {
         let mut points = self.course.clone();
         for _ in 0..order {
@@ -167,7 +167,7 @@ impl Segment {
         points
     }
 
-    /// Bounds the magnitude of the derivative of an order between two times of the segment.
+    /// Bounds the magnitude of the derivative of the given order between two times of the segment.
     fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
             let points = self.derivative_control_points(order).into_iter();

@@ -7,8 +7,8 @@ use ccd_core::order::greater;
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::RangeInclusive;
 
-/// A joint of a serial chain, as in URDF: an origin in the frame of the link before it, and an axis in its own frame,
-/// about which or along which the link after it moves.
+/// A joint between two links of a serial chain, as in URDF. Its origin is a pose in the frame of the link before the
+/// joint. The link after the joint rotates about its axis or slides along it; the axis is given in the joint's frame.
 ///
 /// ```
 /// use rigid_ccd::trajectory::Joint;
@@ -31,13 +31,13 @@ pub struct Joint {
 /// The direction in which a chain passes a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
-    /// From the link before the joint to the link after it.
+    /// The chain passes the joint from the link before it to the link after it.
     Forward,
-    /// From the link after the joint to the link before it.
+    /// The chain passes the joint from the link after it to the link before it.
     Backward,
 }
 
-/// The degree of freedom of a joint, whose axis has unit length.
+/// The degree of freedom of a joint; a rotation or a translation has a unit axis in the joint's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Fixed,
@@ -45,8 +45,9 @@ pub(super) enum Kind {
     Prismatic(DVec3),
 }
 
-/// The allowed excess of a position over its limits, relative to the greater of them. A position between two of them,
-/// `a + t (b − a)`, has three roundings, each of at most half an ulp of twice that.
+/// The allowed excess of a joint's position over its limits, as a fraction of the limit of greater magnitude. A
+/// position between two limits, `a + t (b − a)`, has three roundings, each of at most half an ulp of twice that
+/// magnitude.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Joint {
@@ -82,18 +83,18 @@ impl Joint {
         })
     }
 
-    /// Returns the joint with limits of its position. Those beyond by no more than the rounding of a position between
-    /// both are accepted.
+    /// Returns the joint with a least and a greatest allowed position, in radians or as a length. Positions beyond a
+    /// limit by no more than the rounding of an interpolated position are accepted.
     #[must_use]
     pub fn within(self, limits: RangeInclusive<f64>) -> Self {
         Joint { limits, ..self }
     }
 
-    /// Returns the joint as it is passed the other way: from the link after it to the link before it. Positions keep their
-    /// meaning and their limits.
+    /// Returns the joint for a chain that passes it in the opposite direction: from the link after it to the link
+    /// before it. Positions keep their meaning and their limits.
     ///
-    /// A link on one branch of a tree, as a link on another one sees it, moves by a chain that passes the joints to their
-    /// common ancestor backward.
+    /// In the frame of a link on another branch of a tree, a link moves by a chain that passes the joints from that frame
+    /// to the common ancestor backward.
     ///
     /// ```
     /// use rigid_ccd::trajectory::{Chain, Joint};
@@ -124,8 +125,9 @@ impl Joint {
         self.kind == Kind::Fixed
     }
 
-    /// Returns the pose of the link after the joint, in the frame of the link before it; of a [reversed](Joint::reversed)
-    /// joint that of the link before it in the frame of the link after it.
+    /// Returns the pose of the link after the joint in the frame of the link before it. For a
+    /// [reversed](Joint::reversed) joint, it is the inverse: the pose of the link before the joint in the frame of the
+    /// link after it.
     ///
     /// # Errors
     /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::NotFinite`].
@@ -134,7 +136,7 @@ impl Joint {
         self.pose_up_to_rounding(position)
     }
 
-    /// Returns the pose as [`Joint::pose`] does, for a position that is within the limits up to rounding.
+    /// Returns the pose as [`Joint::pose`] does, but does not check that the position is within the limits.
     pub(super) fn pose_up_to_rounding(&self, position: f64) -> Result<Pose, InputError> {
         let moved = match self.kind {
             Kind::Fixed => Pose::IDENTITY,
@@ -148,8 +150,8 @@ impl Joint {
         })
     }
 
-    /// Returns the motion of which [`Joint::pose`] is the start, from one position to another in `duration` at a constant
-    /// rate.
+    /// Returns the motion while the joint moves from one position to another in `duration`, at a constant rate. It
+    /// starts at the [pose](Joint::pose) of the first position.
     ///
     /// # Errors
     /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::OutOfRange`] for a duration that is not
@@ -184,7 +186,8 @@ impl Joint {
         }
     }
 
-    /// Refuses a position outside the joint's limits. In a chain the joint has a number.
+    /// Returns an error for a position that is outside the joint's limits by more than rounding. The error has the
+    /// number `joint` of the joint in its chain.
     pub(super) fn check(&self, position: f64, joint: Option<usize>) -> Result<(), InputError> {
         let (least, greatest) = (*self.limits.start(), *self.limits.end());
         let rounding = match greater(least.abs(), greatest.abs()) {

@@ -50,8 +50,8 @@ impl Chain {
         Trajectory::pose(&rests, 0.0)
     }
 
-    /// Returns the trajectory of a link while each joint goes from its position in `from`, at time 0, to its position
-    /// in `to`, at the time `duration`.
+    /// Returns the trajectory of a link while every joint moves from its position in `from` at time 0 to its position
+    /// in `to` at the time `duration`.
     ///
     /// Both are positions, not rates: a joint's rate is `(to − from) / duration`, and constant. There is a position for
     /// each joint, fixed ones included.
@@ -98,8 +98,9 @@ impl Chain {
 }
 
 impl<'c> Link<'c> {
-    /// Returns the trajectory in the frame of another link, nearer to the base or the same. A query asks for it
-    /// against that link at rest, [`Motion::STILL`]: what moves both links costs nothing then.
+    /// Returns the trajectory in the frame of the link with the number `link`, which is this link or one nearer to the
+    /// base. In a query, that link is then at rest ([`Motion::STILL`]), and the motion that both links share costs
+    /// nothing.
     ///
     /// # Errors
     /// [`InputError::ReferenceLinkTooFar`] if the other link is farther from the base.
@@ -117,7 +118,8 @@ impl<'c> Link<'c> {
         }
     }
 
-    /// Returns the joints between the frame's link and this link, with their positions at a time and their rates.
+    /// Returns the joints from the link of the reference frame to this link, each with its position at a time and its
+    /// rate.
     fn joints(&self, time: f64) -> impl Iterator<Item = (&'c Joint, f64, f64)> {
         let share = time / self.duration;
         let (from, to, duration) = (self.from, self.to, self.duration);
@@ -162,7 +164,7 @@ impl<'c> Link<'c> {
         moved
     }
 
-    /// Returns the positions of all joints at two times.
+    /// Returns a pair of positions, at the times `from` and `to`, for each joint that moves this link in its frame.
     fn positions(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
         let at = |time| self.joints(time).map(|(_, position, _)| position);
         at(from).zip(at(to))
@@ -192,7 +194,8 @@ impl SmoothTrajectory for Link<'_> {
         Ok((state.to_motion()?, Some(acceleration)))
     }
 
-    /// Bounds the rounding errors of poses: each joint adds those of a product of poses and of its angle.
+    /// Bounds the rounding errors of the link's poses: each joint adds the error of a product of two poses and the
+    /// error of its angle.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let LinkBounds {
             joints,
@@ -209,13 +212,13 @@ impl SmoothTrajectory for Link<'_> {
     }
 }
 
-/// The pose of a link and its derivatives at one time, accumulated joint by joint.
+/// The pose, the velocities and the accelerations of a link at one time, accumulated joint by joint.
 struct State {
     pose: Pose,
     velocity: DVec3,
     spin: DVec3,
     acceleration: DVec3,
-    /// The angular acceleration `ω̇`.
+    /// The angular acceleration `ω̇` of the link, in radians per unit of time squared.
     angular: DVec3,
 }
 
@@ -235,7 +238,7 @@ impl State {
         Motion::new(self.pose, self.velocity, self.spin)
     }
 
-    /// Replaces the state of the link before a joint by that of the link after it.
+    /// Updates the state from the link before a joint to the link after it.
     fn pass_joint(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
         let before = self.pose;
         self.pose = before.compose(&joint.pose_up_to_rounding(position)?);
@@ -255,14 +258,14 @@ impl State {
         Ok(())
     }
 
-    /// Adds the motion of a point at the end of an arm that rotates with the link.
+    /// Adds the velocity and the acceleration due to the rotation of `arm`, a vector fixed to the link.
     fn add_arm(&mut self, arm: DVec3) {
         let turning = self.spin.cross(arm);
         self.velocity += turning;
         self.acceleration += self.angular.cross(arm) + self.spin.cross(turning);
     }
 
-    /// Adds the motion of a joint about or along its axis, which is given in the frame `held`.
+    /// Adds the motion of a joint about or along its axis; `held` rotates the axis into the frame of the state.
     fn add_freedom(&mut self, kind: Kind, held: DQuat, rate: f64) {
         match kind {
             Kind::Fixed => {}

@@ -1,4 +1,4 @@
-//! A path through given poses.
+//! A trajectory through given poses at given times.
 
 mod segment;
 
@@ -36,7 +36,7 @@ use segment::Segment;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Poses {
     poses: Vec<(f64, Pose)>,
-    /// The angular velocities from each pose to the next; empty if all rotations are the shortest ones.
+    /// The given angular velocity from each pose to the next; empty if every rotation is the shortest one.
     spins: Vec<DVec3>,
     centre: DVec3,
 }
@@ -61,7 +61,7 @@ impl Poses {
         })
     }
 
-    /// Sets the point of the body that moves in straight lines.
+    /// Sets the point of the body, in the body's frame, that moves straight from each pose to the next.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -70,11 +70,11 @@ impl Poses {
         Ok(Poses { centre, ..self })
     }
 
-    /// Sets the approximate angular velocity from each pose to the next, in the world, for rotations of any number of
+    /// Sets an approximate angular velocity from each pose to the next, in the world, which determines the number of
     /// turns.
     ///
-    /// What it leaves over to the next pose is turned beside it, at a constant rate. Where it is zero, the turn is the
-    /// shortest.
+    /// The rotation that it leaves over to the next pose is added at a constant rate. Zero stands for the shortest
+    /// rotation.
     ///
     /// # Errors
     /// [`InputError::NotFinite`]; [`InputError::OutOfRange`] for more or fewer than one for each pose but the last, and
@@ -130,8 +130,8 @@ impl Poses {
         self.poses.iter().map(|&(time, _)| time)
     }
 
-    /// Returns the motion of the segment at a time, and a bound on its angular acceleration. At a given pose, this is
-    /// the segment before the pose if `to` is not later than `time`, else the one after it.
+    /// Returns the motion of the segment at a time, and a bound on the segment's angular acceleration. At a given pose,
+    /// this is the segment before the pose if `to` is not later than `time`, else the one after it.
     fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = if to > time {
             self.poses.partition_point(|&(at, _)| at <= time)
@@ -154,19 +154,18 @@ impl Poses {
         Motion::about(pose, DVec3::ZERO, DVec3::ZERO, self.centre)
     }
 
-    /// Returns the point of the body that moves in straight lines.
+    /// Returns the point of the body that moves straight from each pose to the next.
     #[cfg(feature = "pages")]
     pub(crate) fn centre(&self) -> DVec3 {
         self.centre
     }
 
-    /// Returns the angular velocity that was given from pose `k` to the next; zero means that the shortest rotation is
-    /// taken.
+    /// Returns the given angular velocity from pose `k` to the next; zero stands for the shortest rotation.
     fn spin(&self, k: usize) -> DVec3 {
         self.spins.get(k).copied().unwrap_or_default()
     }
 
-    /// Returns the approximate rotation vector from each pose to the next; 0 for the last one.
+    /// Returns the approximate rotation vector from each pose to the next; zero for the last pose.
     #[cfg(feature = "pages")]
     pub(crate) fn turns(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
@@ -184,7 +183,7 @@ impl Poses {
         &self.poses[first..last.max(first)]
     }
 
-    /// Returns a motion from the pose at one time to that at another, and how far the path deviates from it.
+    /// Returns one motion between the poses at two times, with a bound on the path's deviation from that motion.
     fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [begin, end] = [self.at(from, to)?.0.start(), self.at(to, to)?.0.start()];
         let motion = Motion::between(begin, end, self.centre, to - from)?;
@@ -208,7 +207,7 @@ impl Poses {
         })
     }
 
-    /// Bounds the rounding errors of poses between two times, which are computed from the given pose before them.
+    /// Bounds the rounding errors of poses between two times; each pose is computed from the last given pose before it.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
@@ -252,7 +251,7 @@ impl Trajectory for Poses {
     }
 }
 
-/// How far a motion is from a pose at a time: the shift of the centre, and the angle in radians.
+/// The deviation of a motion from a pose at one time: the displacement of the centre, and the angle in radians.
 #[derive(Clone, Copy, Debug, Default)]
 struct Deviation {
     shift: f64,

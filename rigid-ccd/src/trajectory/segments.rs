@@ -12,11 +12,12 @@ pub(super) struct Segment<T> {
     pub(super) course: T,
 }
 
-/// The consecutive segments of a trajectory. The body rests before the first one and after the last.
+/// The segments of a trajectory in order of time, each starting where the one before it ends. The body rests before the
+/// first one and after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Segments<T>(pub(super) Vec<Segment<T>>);
 
-/// Returns the greater of two bounds; infinity if the second one is NaN, which bounds nothing.
+/// Returns the greater of two bounds; infinity if `bound` is NaN.
 pub(super) fn greater_bound(most: f64, bound: f64) -> f64 {
     if bound.is_nan() {
         f64::INFINITY
@@ -39,7 +40,7 @@ impl<T> Segments<T> {
         &rest[..rest.partition_point(|segment| segment.from <= to)]
     }
 
-    /// Returns a knot strictly between two times, near the middle of them; `None` without one.
+    /// Returns a knot strictly between two times, preferably near the middle; `None` if no knot is between them.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let segments = self.overlapping_segments(from, to);
         let middle = segments.get(segments.len() / 2)?.from;
@@ -49,14 +50,15 @@ impl<T> Segments<T> {
         knots.find(|knot| *knot > from && *knot < to)
     }
 
-    /// Returns the greatest value of `bound` over the segments between two times.
+    /// Returns the greatest value of `bound` over the segments that overlap an interval of time; infinity if a value is
+    /// NaN.
     pub(super) fn greatest(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
         let segments = self.overlapping_segments(from, to).iter();
         segments.map(bound).fold(0.0, greater_bound)
     }
 
-    /// Bounds the effect of jumps of the velocity at knots strictly inside an interval, as an acceleration with the
-    /// same deviation over half of the interval.
+    /// Returns an acceleration by which a motion deviates at least as far as by the jumps of the velocity at knots
+    /// strictly inside an interval.
     pub(super) fn jump_acceleration(
         &self,
         from: f64,

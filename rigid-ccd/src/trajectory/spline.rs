@@ -8,7 +8,7 @@ use ccd_core::{
     Acceleration, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory,
 };
 
-/// A body whose origin follows a [`Curve`], and which [rotates](OrientationCurve) about it.
+/// The trajectory of a body whose origin follows a [`Curve`], and which [rotates](OrientationCurve) about its origin.
 ///
 /// ```
 /// use rigid_ccd::trajectory::{Curve, Spline, Trajectory, OrientationCurve};
@@ -34,7 +34,7 @@ impl Spline {
         }
     }
 
-    /// Sets the point of the body that follows the curve.
+    /// Sets the point of the body, in the body's frame, that follows the curve.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].

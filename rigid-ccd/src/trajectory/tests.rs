@@ -1,4 +1,4 @@
-//! Tests random trajectories by adversarial sampling: no deviation exceeds its bound.
+//! Tests that random trajectories deviate by no more than their bounds, by adversarial sampling.
 
 mod extremes;
 
@@ -23,13 +23,14 @@ fn pose(rng: &mut Rng, size: f64) -> Pose {
     Pose::new(vector(rng, size), orientation(rng)).unwrap()
 }
 
-/// Returns the number of draws for each kind of trajectory: `CCD_TEST_CASES` multiplies it; 200 makes a million.
+/// Returns the number of sampled deviations for each kind of trajectory: 5,000, multiplied by `CCD_TEST_CASES`.
 fn draw_count() -> u64 {
     let cases = std::env::var("CCD_TEST_CASES").ok();
     5_000 * cases.map_or(1, |cases| cases.parse().unwrap())
 }
 
-/// Draws random trajectories, and checks that the worst deviation is within its bound and not far below.
+/// Checks for random trajectories that the largest ratio of a deviation to its bound is at least `at_least`, and at
+/// most 1.
 fn check<T: Trajectory>(
     name: &str,
     at_least: f64,
@@ -79,7 +80,7 @@ fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
     (0..count).map(key).collect()
 }
 
-/// How the axes of a chain's joints are chosen.
+/// The choice of the directions of a random chain's joint axes.
 #[derive(Clone, Copy, PartialEq)]
 enum AxisChoice {
     Any,
@@ -113,7 +114,7 @@ fn arm(rng: &mut Rng, count: usize, axes: AxisChoice) -> Chain {
     Chain::new(Pose::IDENTITY, joints.unwrap())
 }
 
-/// Tests a thrown body, whose deviation is due to rounding alone.
+/// Tests that the deviation of a body in free fall, which is due to rounding alone, is within its bound.
 #[test]
 fn thrown() {
     check("ballistic", 0.0, random_ballistic);
@@ -132,7 +133,8 @@ fn poses() {
     });
 }
 
-/// Tests angular velocities that leave up to a quarter turn over.
+/// Tests that a path deviates within its bounds if the given angular velocities miss the next orientation by up to a
+/// quarter turn.
 #[test]
 fn poses_of_many_turns() {
     check("poses, many turns", 0.3, |rng| {
@@ -155,7 +157,7 @@ fn poses_of_many_turns() {
     });
 }
 
-/// Tests that angular velocities distinguish rotations that end at the same orientation.
+/// Tests that a given angular velocity determines the number of turns between two equal orientations.
 #[test]
 fn angular_velocities_tell_the_number_of_turns() {
     let still = vec![(0.0, Pose::IDENTITY), (2.0, Pose::IDENTITY)];
@@ -189,7 +191,7 @@ fn angular_velocities_tell_the_number_of_turns() {
     }
 }
 
-/// Tests half turns, up to rounding: of both possible directions, that of the motion between the poses is taken.
+/// Tests that a path deviates within its bounds if the rotations between its poses are half turns, up to rounding.
 #[test]
 fn poses_of_half_turns() {
     check("poses, half turns", 0.3, |rng| {
@@ -247,7 +249,7 @@ fn b_spline_and_slerp() {
     });
 }
 
-/// Tests that axes before a held joint are not treated as parallel to those after it, whatever the joint's origin.
+/// Tests that a link deviates within its bounds if a joint at rest turns the axes before and after it out of parallel.
 #[test]
 fn links_behind_joints_that_are_held() {
     check("link, held joint", 0.1, |rng| {
@@ -265,7 +267,7 @@ fn links_behind_joints_that_are_held() {
     });
 }
 
-/// Tests that a chain that goes out and back again ends where it began, and stays there.
+/// Tests that a chain followed by its reversed joints ends at its start pose, and stays there while the joints move.
 #[test]
 fn reversed_joints_undo_joints() {
     let mut rng = Rng::seed_from_u64(8);
@@ -288,7 +290,7 @@ fn reversed_joints_undo_joints() {
     }
 }
 
-/// Tests the motion of one joint in either direction against its poses.
+/// Tests that the motion of a joint passes through the joint's poses, also for a reversed joint.
 #[test]
 fn a_joint_moves_through_its_poses() {
     let mut rng = Rng::seed_from_u64(9);
@@ -309,7 +311,7 @@ fn a_joint_moves_through_its_poses() {
     }
 }
 
-/// A link that owns its chain, for tests of trajectories without lifetimes.
+/// A link that owns its chain, so that it has no lifetime parameter.
 struct OwnedLink {
     chain: Chain,
     positions: [Vec<f64>; 2],
@@ -391,7 +393,7 @@ fn a_false_bound_is_found() {
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
-/// Tests that segments are cut at knots: a segment that only touches the next one has a known acceleration.
+/// Tests that a stretch of a spline has a known acceleration if it ends at a knot, and none if a knot is inside it.
 #[test]
 fn stretches_between_knots_accelerate() {
     let mut rng = Rng::seed_from_u64(4);

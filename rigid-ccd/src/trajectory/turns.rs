@@ -8,8 +8,8 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{InputError, Pose};
 
-/// A rotation through given orientations at given times, with a fixed origin. The body does not turn before the first
-/// and after the last.
+/// The orientation of a body over time, which passes through given orientations at given times. The body does not
+/// rotate before the first time and after the last.
 ///
 /// ```
 /// use rigid_ccd::glam::DQuat;
@@ -26,7 +26,7 @@ pub struct OrientationCurve {
     ends: [DQuat; 2],
 }
 
-/// A rotation at a constant rate, starting at an orientation (slerp).
+/// A rotation at a constant angular velocity from a start orientation, as in slerp.
 #[derive(Clone, Debug, PartialEq)]
 struct Turn {
     start: DQuat,
@@ -34,14 +34,14 @@ struct Turn {
 }
 
 impl OrientationCurve {
-    /// The rotation of a body whose axes stay those of the world.
+    /// The orientation curve of a body that does not rotate: its axes stay those of the world.
     pub const NONE: OrientationCurve = OrientationCurve {
         segments: Segments(Vec::new()),
         ends: [DQuat::IDENTITY; 2],
     };
 
-    /// Rotates from each orientation to the next at a constant rate, the shortest way. Quaternions have the order x, y,
-    /// z, w.
+    /// Creates a curve that rotates from each orientation to the next at a constant rate, by the shortest rotation.
+    /// Quaternions have the order x, y, z, w.
     ///
     /// # Errors
     /// [`InputError::ZeroQuaternion`], [`InputError::NotFinite`], and [`InputError::OutOfRange`] for times that
@@ -69,19 +69,19 @@ impl OrientationCurve {
         }
     }
 
-    /// Bounds the magnitude of the angular acceleration between two times. A spin that jumps counts as one that changes
-    /// in half of the time, by which the orientation strays farther.
+    /// Bounds the magnitude of the angular acceleration between two times. A jump of the angular velocity counts as an
+    /// acceleration that causes at least the same deviation.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         self.segments
             .jump_acceleration(from, to, |segment, time| segment.at(time).1)
     }
 
-    /// Returns a knot strictly between two times, near the middle of them; `None` without one.
+    /// Returns a knot strictly between two times, preferably near the middle; `None` if no knot is between them.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         self.segments.corner(from, to)
     }
 
-    /// Bounds the rounding error of an orientation.
+    /// Bounds the rounding error of an orientation, in radians.
     pub(super) fn rounding(&self) -> f64 {
         128.0 * U
     }
@@ -96,7 +96,7 @@ impl Segment<Turn> {
     }
 }
 
-/// Returns the orientations as unit quaternions, each with the sign that is nearer to the one before.
+/// Returns the orientations as unit quaternions, each with the sign that makes it nearer to the quaternion before it.
 fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {

@@ -1,4 +1,4 @@
-//! Tests the bounds of a trajectory's deviation by random search.
+//! A random search for the largest ratio of a trajectory's deviation to its bound.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -15,7 +15,7 @@ pub struct Worst {
     pub to: f64,
     /// The time at which the deviation was measured.
     pub time: f64,
-    /// The vector from the motion's centre to the point, along the body's axes.
+    /// The vector from the motion's centre to the measured point, in the body's frame.
     pub arm: DVec3,
 }
 

@@ -4,7 +4,7 @@ use crate::command::{Run, Scene, assert_contains, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Returns the corners of a cube about the origin with sides of length 2; the bits of an index give the coordinates.
+/// Returns the corners of the cube from −1 to 1 along each axis; the bits of a corner's index give its coordinates.
 fn corners() -> impl Iterator<Item = [f32; 3]> {
     (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|bit| 2.0 * bit as f32 - 1.0))
 }
@@ -149,8 +149,8 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
     }
 }
 
-/// Tests adjustments of mesh files, by options and after the files' names: a ball falls onto the corner at (0, 0, 1) of
-/// a tetrahedron.
+/// Tests that a mesh is scaled, mirrored and converted by words after its file's name and by options. It is seen from
+/// the time at which a ball falls onto the corner at (0, 0, 1) of a tetrahedron.
 #[test]
 fn files_are_adjusted_by_words_after_their_names_and_by_options() {
     let scene = Scene::new("adjusted");
@@ -219,8 +219,8 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
 
-/// Tests a ball that flies at a cylinder and at a cone: contacts are not later than with the true shapes, and messages
-/// state how early they may be.
+/// Tests that a ball hits a cylinder and a cone not later than their true shapes, and early by at most their excess. A
+/// message states the excess.
 #[test]
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
@@ -321,7 +321,7 @@ fn a_part_is_prepared_and_stored() {
     assert_contains(&text, "\nunit          m\n");
 }
 
-/// Tests that a run with another unit, or with another buffer beside the mesh, is not resumed.
+/// Tests that a run is not resumed with another unit, or after a change of the buffer file of a glTF mesh.
 #[test]
 fn runs_know_their_unit_and_all_their_files() {
     let scene = Scene::new("parts-resume");

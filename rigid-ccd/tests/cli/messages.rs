@@ -5,7 +5,7 @@ use crate::{CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION};
 
 const SPHERES_OPTIONS: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
-/// Returns the messages of a query with the given table.
+/// Returns the messages of a query of two spheres, which ends with the exit code 2 for the given table.
 fn messages_of(table: &str) -> String {
     let output = Run::query(&SPHERES_OPTIONS)
         .args(&["--quiet"])
@@ -180,7 +180,8 @@ fn ignored_input_is_reported_with_quiet_too() {
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// Tests that each probable mistake gives one remark, and changes neither the table nor the exit code.
+/// Tests that each probable mistake in the input gives one remark, none with `--quiet`, and does not change the exit
+/// code.
 #[test]
 fn traps_are_remarked_upon_once() {
     let spins = |rates: &str| {
@@ -227,7 +228,8 @@ fn traps_are_remarked_upon_once() {
     }
 }
 
-/// Tests the message for two files of which only one states its unit. Shapes are in any.
+/// Tests that one message reports two mesh files of which only one states its unit. Spheres and other simple shapes fit
+/// any unit.
 #[test]
 fn a_single_known_unit_is_reported_once() {
     let scene = Scene::new("mixed-units");

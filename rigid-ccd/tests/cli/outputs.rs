@@ -9,7 +9,8 @@ use std::process::{Command, Output};
 
 const MOTIONS: &str = "id,a_pz,a_vz\nhit,4,-4\nfree,9,-1\n";
 
-/// Writes a ball of many triangles, and a table with a row for each of its many contacts with itself.
+/// Writes the input files of the tests: a ball of many triangles, a table of 2 motions, one of 4,000 motions, and a
+/// scene.
 fn write_inputs(scene: &Scene) {
     let mut ball = String::new();
     for k in 0..=24 {
@@ -38,7 +39,7 @@ fn write_inputs(scene: &Scene) {
     scene.file("scene.csv", "body,pz,vz\nsphere:1,0,0\nsphere:1,5,-5\n");
 }
 
-/// All commands that write a file: the file, and the arguments of the command.
+/// Each command that writes a file, after the name of that file.
 const WRITING_COMMANDS: [(&str, &str); 7] = [
     (
         "r.csv",
@@ -117,8 +118,8 @@ fn read_bytes(scene: &Scene, name: &str) -> Vec<u8> {
     fs::read(path(scene, name)).unwrap()
 }
 
-/// Tests that a second run does not disturb a first one, which lasts as long as its input is open. Whatever name others
-/// have for its output, they refuse.
+/// Tests that a run refuses an output that another run is writing, under whatever name, and does not change it. The
+/// first run lasts as long as its input is open.
 #[test]
 fn a_run_that_is_alive_is_left_alone() {
     let table = motions();
@@ -174,7 +175,7 @@ fn a_run_that_is_alive_is_left_alone() {
     assert!(there.eq(expected.into_iter().filter(|&name| name != "link.csv")));
 }
 
-/// Tests four runs that start together: some refuse, and the table is that of one run.
+/// Tests that of four runs that start together with one output, each one writes the whole table or refuses to start.
 #[test]
 fn runs_side_by_side_keep_all_rows() {
     let table = motions();
@@ -336,7 +337,7 @@ mod full {
         assert!(names(&scene).iter().all(|name| !name.ends_with(".part")));
     }
 
-    /// Tests that output appended by a shell leaves the file's earlier content in place.
+    /// Tests that rows written to a file that the shell has opened for appending follow the file's earlier content.
     #[test]
     fn open_files_are_written_on() {
         let scene = Scene::new("open-files");

@@ -11,7 +11,7 @@ const BALLS_OPTIONS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
 /// A table of motions in which a ball passes another one at a distance of 0.2, nearest at time 0.5.
 const PASSING_MOTION: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
 
-/// A table of a path: a cube comes down onto a slab, stays for a unit of time and leaves, from time 10 on. It touches
+/// A table of a path from time 10 on: a cube comes down onto a slab, stays for a unit of time, and leaves. It touches
 /// from 12.5 to 15.
 const VISIT_PATH: &str = "id,t,a_px,a_pz\n\
                      visit,10,0,4\n\
@@ -112,7 +112,8 @@ fn the_least_distance_is_bracketed_and_compared() {
     );
 }
 
-/// Tests clearances that the polytopes around two cylinders violate, although the cylinders, 0.1 apart, keep them.
+/// Tests that a clearance is `unverified`, not `violated`, if two cylinders keep it but the polytopes around them do
+/// not.
 #[test]
 fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
     let bodies = ["--a", "cylinder:1,1,.01", "--b", "cylinder:1,1,.01"];
@@ -317,7 +318,8 @@ fn options_without_a_use_are_refused() {
     }
 }
 
-/// Tests bodies that overlap at the start, and whose centres are nearest later.
+/// Tests that bodies that overlap at the start have the status `overlapping` at time 0, although their centres are
+/// nearest later.
 #[test]
 fn bodies_that_overlap_at_the_start_are_overlapping() {
     let deeper = "a_px,a_vx\n0.9,-1.9\n";
@@ -412,7 +414,8 @@ fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
     text
 }
 
-/// Tests that early bounds hold for a whole path, and do not use the budget of any segment.
+/// Tests that `--budget` holds for each segment of a path: a path of many segments is measured with more iterations in
+/// total.
 #[test]
 fn a_long_path_is_measured_with_what_its_parts_need() {
     let scene = Scene::new("long-path");

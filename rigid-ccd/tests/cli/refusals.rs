@@ -155,7 +155,7 @@ fn unwritable_results_have_exit_code_1() {
     );
 }
 
-/// Tests that rows before an unclosed cell are answered, and that rows after it are not read as the cell's content.
+/// Tests that an unclosed quote is an error with its line, and that the rows before it are answered.
 #[test]
 fn an_unclosed_quote_is_an_error() {
     for (motions, rows, expected) in [
@@ -175,7 +175,7 @@ fn an_unclosed_quote_is_an_error() {
     assert_eq!(closed.expect_rows()[0].text("id"), "a\nb");
 }
 
-/// Tests the message for a Git LFS pointer, which stands for a large file until that is fetched.
+/// Tests that a Git LFS pointer in place of a file is reported, with the advice to fetch the file.
 #[test]
 fn git_lfs_pointers_are_recognised() {
     let scene = Scene::new("lfs");

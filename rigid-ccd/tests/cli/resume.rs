@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
-/// The default options of a query.
+/// The default options of a query in these tests.
 const DEFAULT_OPTIONS: [[&str; 2]; 5] = [
     ["--a", "box:.5,.5,.5"],
     ["--b", "box:9,9,1"],
@@ -211,7 +211,7 @@ fn resuming_without_an_interrupted_run_starts_a_new_one() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// Returns the tables with their modification times.
+/// Returns the text and the modification time of each table.
 fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
     let table = |name: &&str| {
         let path = path(scene, name);
@@ -298,7 +298,7 @@ fn a_finished_run_with_other_options_is_refused() {
     assert_eq!(read(&path(&scene, "results.csv")), before[0].0);
 }
 
-/// Tests resuming a run that was killed after its last row, before it renamed its tables.
+/// Tests that `--resume` renames the complete tables of a run that was killed before it renamed them.
 #[test]
 fn complete_tables_are_renamed() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";

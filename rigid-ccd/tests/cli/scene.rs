@@ -3,8 +3,8 @@
 use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
 use std::path::Path;
 
-/// A table of two balls that fall onto a table top, listed in another order than they land, and of one that never
-/// lands.
+/// A table of bodies: two balls that fall onto a slab, listed in an order other than that of their contacts, and one
+/// that moves away.
 const BODIES_TABLE: &str = "body,id,px,pz,vz\n\
     \"box:9,9,1\",table,0,0,0\n\
     sphere:.5,fast,0,8,-5.5\n\

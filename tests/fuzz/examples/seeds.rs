@@ -12,7 +12,7 @@ const TETRAHEDRON: &str =
 /// An OBJ of a cube of quadrilaterals, so that patches have more than one triangle.
 const CUBE_OBJ: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
      f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-/// An OBJ of a dented tetrahedron with an unused vertex and a duplicate face, which the report mentions.
+/// An OBJ of a dented tetrahedron with an unused vertex and a duplicate face, so that the report mentions repairs.
 const DENTED_TETRAHEDRON_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 /// An OBJ of an open sheet with a face without area.

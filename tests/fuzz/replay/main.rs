@@ -12,7 +12,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The number of random changes of each corpus file set, which take less than a second each.
+/// The number of randomly changed files that are run for each corpus, in less than a second.
 const CHANGED_FILES_PER_CORPUS: u64 = 100;
 
 #[test]
@@ -96,7 +96,7 @@ fn replay_target(target: Target) {
     }
 }
 
-/// Runs a target on an input. If it fails, keeps the input in a file and names it.
+/// Runs a target on an input. If the target panics, keeps the input in a file and names it.
 fn run(target: Target, bytes: &[u8], name: &str) {
     if let Err(panic) = catch_unwind(AssertUnwindSafe(|| (target.run)(bytes))) {
         let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}-fault", target.name));

@@ -3,13 +3,14 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// A generator of files from those of a corpus: changed, cut, repeated, and joined with others.
+/// A generator of randomly changed corpus files: it replaces, removes and repeats bytes, and inserts parts of other
+/// files.
 pub(crate) struct Mutator<'a> {
     random: Pcg64,
     corpus: &'a [Vec<u8>],
 }
 
-/// The maximum number of changes of a file.
+/// The maximum number of changes made to one file.
 const CHANGES: usize = 6;
 /// Bytes that have a meaning in some file format.
 const MEANINGFUL_BYTES: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eEnN";

@@ -19,7 +19,7 @@ pub struct Case {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expectation {
     Nothing,
-    /// The bodies separate, or keep their distance.
+    /// The bodies separate or keep their distance, so that there is no contact.
     Free,
     /// The bodies certainly come nearer than allowed before the given time.
     ContactBy(f64),

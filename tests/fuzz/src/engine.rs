@@ -33,7 +33,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Makes the bodies of a case.
+    /// Makes the engine's bodies of a case, of pieces of the given kind if the shapes allow them.
     ///
     /// # Errors
     /// The reason why the engine refuses the meshes.

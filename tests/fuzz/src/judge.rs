@@ -13,7 +13,8 @@ use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
-/// The allowed decrease of the distance of released bodies, in units of the rounding bound.
+/// The allowed decrease of the distance from that at the start under `StartPolicy::Leave`, in units of the rounding
+/// bound.
 const MAX_RESTING_DECREASE: f64 = 1.0;
 
 /// A kind of fault of an answer.
@@ -52,10 +53,11 @@ pub struct GivenAnswer<'a> {
     pub answer: Answer,
 }
 
-/// A judge of the answers to one case; `rounding` bounds the engine's allowance for rounding.
+/// A judge of the answers to one case, which compares them with the referee's distances.
 pub struct Judge<'a> {
     case: &'a Case,
     scene: Scene,
+    /// The least tolerance that the engine accepts, which bounds the rounding errors of its distances.
     rounding: f64,
     start: Start,
     /// The closed surfaces of both bodies at the start.
@@ -109,7 +111,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Returns the conditions under which the bodies count as nearer than allowed.
+    /// Returns the limits of distance and of penetration depth at which the bodies count as nearer than allowed.
     fn contact_limit(&self, given: &[GivenAnswer<'_>]) -> Limit {
         let margin = self.case.config.margin;
         let tolerance = given
@@ -198,7 +200,8 @@ impl<'a> Judge<'a> {
         faults
     }
 
-    /// Returns the distance below which the bodies count as nearer than allowed.
+    /// Returns the distance below which the bodies are nearer than allowed: the margin, or less under
+    /// `StartPolicy::Leave`. Then it is at most the distance at the start, less rounding.
     fn required_distance(&self, margin: f64) -> f64 {
         match self.case.config.start {
             StartPolicy::Leave => smaller(
@@ -224,7 +227,7 @@ impl<'a> Judge<'a> {
         wrong.into_iter().map(|fault| (fault, text())).collect()
     }
 
-    /// Checks a contact at a time: its bounds and its witnesses.
+    /// Checks the distance, the bounds and the witnesses of a contact at a time.
     fn check_contact(&self, given: &GivenAnswer<'_>, contact: &Contact, time: f64) -> Faults {
         let mut faults = Vec::new();
         let (scene, error) = (&self.scene, self.scene.error());
@@ -276,7 +279,8 @@ impl<'a> Judge<'a> {
             })
     }
 
-    /// Returns the distance of the witnesses from where the contact claims them to be, if it exceeds rounding.
+    /// Returns the largest error of a contact's witnesses and normal; `None` if it is within rounding. The error of a
+    /// witness is its distance from its body, or the excess of the witnesses' distance over the contact's upper bound.
     fn witness_error(&self, contact: &Contact, time: f64) -> Option<f64> {
         let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
@@ -358,7 +362,7 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// Returns true if two pieces that are reported to overlap are triangles with disjoint interiors.
+    /// Returns true if the pieces of a reported overlap are two triangles with disjoint interiors.
     fn interiors_are_disjoint(&self, bodies: &Bodies, contact: &Contact) -> bool {
         match self
             .piece_triangles(bodies, contact, 0.0)
@@ -379,8 +383,8 @@ impl<'a> Judge<'a> {
             || distance_to_surface(point, &solid.triangles) < near
     }
 
-    /// Returns the pairs of answers that contradict each other: a contact so near that another answer's proof should
-    /// have ended there.
+    /// Returns the contradictions between answers: one answer has a contact well within the tolerance, and another one
+    /// proves that there is none until later.
     fn disagreements(&self, given: &[GivenAnswer<'_>]) -> Vec<(usize, Fault, String)> {
         let mut faults = Vec::new();
         if self.case.config.start == StartPolicy::Leave {
@@ -404,7 +408,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Returns the triangles that bound a piece; `None` if the piece has none.
+/// Returns the triangles that bound a piece; `None` for a piece of more than three points without facets.
 fn piece_surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
     let at = |k: u32| piece.points[k as usize].to_array();
     if let Some(last) = (piece.points.len() as u32)

@@ -25,8 +25,8 @@ pub mod targets;
 pub mod trial;
 pub mod vector;
 
-/// Removes libFuzzer's panic hook, which also aborts at panics that the product catches, such as those of libraries.
-/// Panics that are not caught still abort.
+/// Removes libFuzzer's panic hook, which aborts even at panics that the tested code catches, such as those of
+/// libraries. Panics that are not caught still abort.
 pub fn ignore_caught_panics() {
     drop(std::panic::take_hook());
 }

@@ -7,8 +7,8 @@ use crate::vector::{Number, Vector};
 
 pub type Triangle<N> = [Vector<N>; 3];
 
-/// Returns the distance of two triangles: the least over all candidate pairs of points, so that it is never too small
-/// except for rounding. It is 0 if an edge of one passes through the other.
+/// Returns the distance of two triangles, the least over all candidate pairs of points; it is never too small except
+/// for rounding. It is 0 if an edge of one passes through the other.
 pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
     let (face_s, face_t) = (normal(s), normal(t));
@@ -46,7 +46,7 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
 struct Edge<N> {
     from: Vector<N>,
     edge_vector: Vector<N>,
-    /// The direction of the edge, scaled so that its squares neither overflow nor underflow, and the scale.
+    /// The edge vector multiplied by `scale`, a power of two that keeps its square from overflow and underflow.
     along: Vector<N>,
     scale: N,
     square: N,
@@ -104,7 +104,7 @@ fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     }
 }
 
-/// Returns the vector between the nearest points of two edges' lines, if either point is within its edge.
+/// Returns the vector between the nearest points of two edges' lines, if at least one of the points is on its edge.
 fn offset_between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
     let n = p.along.cross(q.along);
     let square = n.dot(n);
@@ -122,7 +122,7 @@ fn offset_between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>
     })
 }
 
-/// Returns the vector from a point to its foot in a triangle's plane, if the foot is within the triangle.
+/// Returns the vector from a point to its projection onto a triangle's plane, if the projection is within the triangle.
 fn offset_to_plane<N: Number>(
     p: Vector<N>,
     t: &Triangle<N>,
@@ -155,7 +155,7 @@ pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
     (n.largest() > 1e-30).then_some(n)?.unit()
 }
 
-/// Returns true if one of the edges passes through the interior of a triangle.
+/// Returns true if one of three edges passes through the interior of a triangle.
 fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector<N>>) -> bool {
     let zero = N::from_f64(0.0);
     let Some(n) = face else { return false };
@@ -173,8 +173,8 @@ fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector
     })
 }
 
-/// Returns the least displacement that separates the interiors of two triangles, by the separating axes. It is negative
-/// if a gap separates them, and 0 if one is flat along every axis.
+/// Returns the penetration depth of two triangles: the least displacement that makes their interiors disjoint, over all
+/// separating axes. It is negative if a gap separates them, and 0 if one is flat along every axis.
 pub fn penetration_depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let edges = |t: &Triangle<N>| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(Vector::scaled);
     let (es, et, ns, nt) = (edges(s), edges(t), normal(s), normal(t));

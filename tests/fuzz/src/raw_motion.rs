@@ -17,7 +17,7 @@ pub struct RawMotion {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RawPose {
     pub position: [f64; 3],
-    /// The quaternion's components w, x, y, z, not of unit length.
+    /// The components w, x, y, z of a quaternion, whose length need not be 1.
     pub quaternion: [f64; 4],
 }
 
@@ -73,7 +73,7 @@ impl RawMotion {
         }
     }
 
-    /// Returns the approximate angle of rotation over the duration, in radians.
+    /// Returns the angle of rotation over the duration, in radians; between end poses its upper bound π.
     pub fn rotation_angle(&self, duration: f64) -> f64 {
         match self.goal {
             Goal::Velocities { spin, .. } => Vector(spin).length() * duration,
@@ -81,8 +81,8 @@ impl RawMotion {
         }
     }
 
-    /// Returns the exact motion over a duration. Between end poses, the centre moves straight, and the body rotates
-    /// by the shortest rotation between the unit quaternions.
+    /// Returns the motion over a duration, exact except for the rounding of [`Double`]. Between end poses, the centre
+    /// moves straight, and the body rotates by the shortest rotation between the unit quaternions.
     pub fn track(&self, duration: f64) -> Track {
         let centre = Vector::from_array(self.centre);
         let start = self.start.point(centre);
@@ -120,7 +120,7 @@ impl RawMotion {
     }
 }
 
-/// Returns the axis and the angle of the rotation `end · start⁻¹`.
+/// Returns the unit axis and the angle, in radians, of the shortest rotation `end · start⁻¹`.
 fn shortest_rotation([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
     let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
     let cos = end[0] * w + v.dot(u);
@@ -171,14 +171,14 @@ impl Track {
         Snapshot { columns, centre }
     }
 
-    /// Returns the velocity in the world of a point at `arm` from the centre, rounded.
+    /// Returns the velocity in the world, rounded to f64, of the point at `arm` from the centre.
     pub fn point_velocity(&self, arm: Vector<f64>) -> Vector<f64> {
         self.velocity.rounded() + self.axis.rounded().cross(arm) * self.rate.rounded()
     }
 }
 
 impl Snapshot {
-    /// Returns the vector in the world from the centre to a point; `x` is that vector in the body's frame.
+    /// Returns the vector in the world from the centre to a point, given that vector in the body's frame as `x`.
     pub fn arm_of(&self, x: Vector<Double>) -> Vector<Double> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c

@@ -40,11 +40,11 @@ struct Ball {
 /// Two bodies and their motions.
 pub struct Scene {
     pub sides: [MovingBody; 2],
-    /// The largest length in the scene: a coordinate or a distance of motion.
+    /// A bound on every length in the scene: distances of points, displacements and the margin.
     pub scale: f64,
 }
 
-/// A proof that the bodies are nearer than allowed at a time.
+/// A time at which the bodies are nearer than allowed, with their distance and penetration depth.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence {
     pub time: f64,
@@ -182,7 +182,8 @@ impl Scene {
         near
     }
 
-    /// Returns the distance at a time with every pair in [`Double`]. It is computed before an answer is called wrong.
+    /// Returns the distance of the two surfaces at a time, with every pair of triangles in [`Double`]. It is computed
+    /// before an answer is called wrong.
     pub fn exact_distance(&self, t: f64) -> f64 {
         let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a
@@ -207,8 +208,8 @@ impl Scene {
         pairs.fold(0.0, larger)
     }
 
-    /// Returns the earliest time found, up to `until`, at which the distance is below the limit. The flag is true if
-    /// none was missed, except for f64's rounding.
+    /// Returns the earliest time found, up to `until`, at which the bodies are nearer than the limit allows. The flag
+    /// is true if none was missed, except for f64's rounding.
     pub fn first_time_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
         Search::new(self, limit, until).run()
     }

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 pub enum PointLocation {
     Outside,
     Inside,
-    /// The point is within parts that cross each other.
+    /// The point is inside several parts that touch or cross, or inside a part that crosses itself.
     Doubtful,
     /// The location is unknown, because every ray touched an edge or vertex.
     Unknown,
@@ -19,9 +19,9 @@ pub enum PointLocation {
 /// Closed surfaces, split into connected parts.
 pub struct Solid {
     pub triangles: Vec<Triangle<Double>>,
-    /// By triangle, the number of its connected part.
+    /// For each triangle, the index of the first triangle of its connected part.
     parts: Vec<usize>,
-    /// Whether parts cross each other. Points in several crossing parts are doubtful.
+    /// Whether two parts touch or cross each other. Points in several crossing parts are doubtful.
     crossing: bool,
 }
 
@@ -104,8 +104,8 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [0.02, 0.41, -0.89],
 ];
 
-/// Returns the direction in which a ray crosses a triangle, as 1 or −1; 0 without a crossing. Returns `None` if the
-/// ray touches an edge or vertex.
+/// Returns 1 if a ray crosses a triangle along its normal, −1 if against it, and 0 if it misses the triangle. Returns
+/// `None` if the ray touches an edge or vertex.
 fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Option<i32> {
     let size = t.iter().fold(0.0, |m, &v| larger(m, (v - p).largest()));
     let grazing = 1e-18 * size * size;
@@ -129,7 +129,7 @@ fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Opt
     })
 }
 
-/// Returns the first triangle of the connected part of every triangle.
+/// Returns, for every triangle, the index of the first triangle of its connected part.
 fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..triangles.len()).collect();
     // The least index of the groups with a corner at the position.
@@ -157,7 +157,8 @@ pub fn distance_to_surface(p: Vector<Double>, triangles: &[Triangle<Double>]) ->
     apart.fold(f64::INFINITY, smaller)
 }
 
-/// Returns points just off both sides of every triangle. Their distance is a fraction of the triangle's size.
+/// Returns two points for every triangle that has an area, close to it on either side. Their distance is a fraction of
+/// the triangle's size.
 pub fn points_beside_triangles(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
     let mut points = Vec::new();
     for t in triangles {

@@ -10,7 +10,7 @@ mod stored;
 use ccd_decomp::Format;
 pub use query::encode;
 
-/// A fuzz target, with the name of its corpus and of its program.
+/// A fuzz target: a function of bytes, and the name of its corpus and its program.
 #[derive(Clone, Copy)]
 pub struct Target {
     pub name: &'static str,
@@ -26,7 +26,7 @@ pub const QUERY: Target = Target {
     run: query::run,
 };
 
-/// Loads a stored body after repairing its frame, and runs a few queries on it.
+/// Loads a stored body, as it is and with a repaired header and checksum, and runs a few queries on it.
 pub const STORED_BODY: Target = Target {
     name: "stored",
     run: stored::run,
@@ -62,13 +62,13 @@ pub const GLTF: Target = Target {
     run: |bytes| mesh::run_scene(Format::Gltf, bytes),
 };
 
-/// Reads a table of motions.
+/// Reads a table of motions, and checks that its rows can be skipped and written back.
 pub const MOTIONS: Target = Target {
     name: "motions",
     run: motions::run,
 };
 
-/// Reads a table of paths.
+/// Reads a table of paths, and checks that its rows can be skipped.
 pub const PATHS: Target = Target {
     name: "paths",
     run: paths::run,

@@ -20,7 +20,7 @@ pub struct Trial {
     pub proven: bool,
 }
 
-/// A wrong answer or a panic of one method, with the outcomes of all methods that answered; a panic has none.
+/// A wrong answer or a panic of one method. A wrong answer has the outcomes of all methods, a panic has none.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub fault: Fault,
@@ -179,7 +179,7 @@ fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> F
     }
 }
 
-/// Drops triangles of a case for as long as it fails in the same way, and returns the rest.
+/// Returns a smaller case that fails in the same way: without triangles that the failure does not need.
 pub fn shrink(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut methods = vec![(Kind::Triangles, Method::Direct)];
@@ -208,7 +208,7 @@ pub fn shrink(case: &Case, failure: &Failure) -> Case {
     case
 }
 
-/// Returns the shape without unused vertices.
+/// Returns the shape without the vertices that no face uses.
 fn without_unused_vertices(shape: &Shape) -> Shape {
     let mut new = HashMap::new();
     let mut out = Shape {

@@ -95,7 +95,7 @@ impl<N: Number> Vector<N> {
         }
     }
 
-    /// Returns the vector scaled to length 1, or `None` if that is impossible.
+    /// Returns the vector scaled to length 1; `None` for a vector without a direction.
     #[inline]
     pub fn unit(self) -> Option<Self> {
         let v = self.scaled();
@@ -117,13 +117,13 @@ fn power_of_two(size: f64) -> f64 {
     f64::from_bits(size.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
-/// Returns the larger of two numbers.
+/// Returns the larger of two numbers; `a` if either is NaN.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Returns the smaller of two numbers.
+/// Returns the smaller of two numbers; `a` if either is NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }

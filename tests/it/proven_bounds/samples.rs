@@ -1,4 +1,4 @@
-//! Scenes of two solids, and distances of them at sampled times.
+//! Scenes of two solids on trajectories, and their distances at sampled times.
 
 use ccd_core::order::lesser;
 use ccd_core::{Body, MovingBody, Trajectory};
@@ -12,7 +12,7 @@ use rand_pcg::Pcg64;
 /// The distance from the origin within which the bodies move.
 const REACH: f64 = 2.0;
 
-/// The rounding error of distances and poses in this test, for coordinates below 32.
+/// A bound on the rounding errors of distances and poses in this test, for coordinates below 32.
 pub(super) const ROUNDING: f64 = 2e-14;
 
 /// Two solids on trajectories over the times 0 to 1.
@@ -47,7 +47,7 @@ impl Scene {
         a.distance(&b)
     }
 
-    /// Samples the distance at even times, at and next to all knots, and more finely around the least distance.
+    /// Samples the distance at even times, at and beside all knots, and more finely near its least values.
     pub(super) fn samples(&self) -> Samples {
         const EVEN_INTERVALS: u32 = 48;
         let mut times: Vec<f64> = (0..=EVEN_INTERVALS)
@@ -94,7 +94,7 @@ fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>
     }
 }
 
-/// Pairs of a sampled time and the distance then.
+/// The sampled times, each with the distance at that time.
 pub(super) struct Samples(Vec<(f64, f64)>);
 
 impl Samples {
@@ -105,7 +105,7 @@ impl Samples {
             .fold(f64::INFINITY, lesser)
     }
 
-    /// Checks a lower bound of the distance at all chosen sample times.
+    /// Checks that no sampled distance is below a bound, at the sample times that `chosen` selects.
     pub(super) fn check_lower_bound(
         &self,
         bound: f64,

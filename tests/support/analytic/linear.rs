@@ -1,4 +1,4 @@
-//! Scenes of pure translation, in which the distance falls at a constant rate.
+//! Scenes of translation, in which the distance falls at a constant rate.
 
 use super::{Expect, Scene};
 use crate::models::{
@@ -30,7 +30,7 @@ fn slab() -> MovingShape {
     MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z)
 }
 
-/// Returns T1: a cube that falls face onto face, with coplanar faces.
+/// Returns T1: a cube that falls flat onto a slab, with coplanar triangles on both faces.
 fn falling_cube() -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = MovingShape::straight(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
@@ -41,7 +41,7 @@ fn falling_cube() -> Scene {
     )
 }
 
-/// Returns T8: tilted cubes that meet edge across edge, and corner on face.
+/// Returns T8: tilted cubes that meet edge on edge, and corner on face.
 fn tilted_cubes() -> [Scene; 2] {
     let cube = || cuboid(DVec3::splat(0.5));
     let upper = cube().placed(DQuat::from_rotation_x(FRAC_PI_4), DVec3::ZERO);
@@ -64,7 +64,7 @@ fn tilted_cubes() -> [Scene; 2] {
     ]
 }
 
-/// Returns T10: a flat cube that slides over a slab at a small distance.
+/// Returns T10: a cube that moves from a small gap above a slab, in most cases parallel to the slab.
 pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = MovingShape::straight(cube, (0.5 + gap) * DVec3::Z, velocity);
@@ -89,7 +89,8 @@ fn bullet_and_sheet() -> Scene {
     )
 }
 
-/// Returns T15: crossed hooks that meet base in base. The lateral gaps are wider than any tolerance.
+/// Returns T15: crossed hooks that move into each other until their bases meet. The lateral gaps are wider than any
+/// tolerance.
 fn hooks_closing() -> Scene {
     Scene::new(
         "T15 hooks closing",
@@ -98,7 +99,7 @@ fn hooks_closing() -> Scene {
     )
 }
 
-/// Returns T15 in the other direction, in which the slack grows. The neighbouring legs stay nearest.
+/// Returns T15 in reverse: crossed hooks that move away from each other. The neighbouring legs stay nearest.
 fn hooks_parting() -> Scene {
     // A leg's inner face is at 0.3; the other hook's base reaches to 0.1.
     Scene::new(
@@ -141,7 +142,7 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
     Scene::new(format!("T16 slit {half_height}"), [plate, slit], expect)
 }
 
-/// Returns T17: two linked rings that meet vertex on vertex, each on the other's hollow side.
+/// Returns T17: two linked rings that meet vertex on vertex, each at the inner side of the other ring.
 fn linked_tori() -> Scene {
     let (major, minor, rings, sides) = (1.0, 0.25, 24, 8);
     let flat = torus(major, minor, rings, sides);
@@ -179,7 +180,7 @@ pub fn combs(teeth: usize) -> Scene {
     )
 }
 
-/// Returns T21: needles that come down tip first.
+/// Returns T21: thin triangles that fall onto a slab, tip first.
 fn needles_on_slab(width: f64) -> Scene {
     let fall = MovingShape::straight(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z);
     Scene::new(
@@ -189,14 +190,15 @@ fn needles_on_slab(width: f64) -> Scene {
     )
 }
 
-/// Returns two equal plates, of which every pair of triangles touches at the same time.
+/// Returns two equal plates that meet face on face, so that all pairs of opposite triangles touch at the same time.
 fn parallel_plates() -> Scene {
     let falling = MovingShape::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
     let lying = MovingShape::still(parallel_plate(16), DVec3::ZERO);
     Scene::new("plates", [falling, lying], Expect::hit_at(|g| 0.5 - g))
 }
 
-/// Returns T22: a rotating faceted ball. Its inscribed and circumscribed balls bound the time of contact.
+/// Returns T22: a rotating icosphere that falls onto a slab. Its inscribed and circumscribed balls bound the time of
+/// contact.
 fn spinning_icosphere() -> Scene {
     let (radius, height, speed) = (0.5, 2.0, 2.0);
     let ball = icosphere(radius, 2);

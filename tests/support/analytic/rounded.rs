@@ -17,7 +17,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// Returns a convex part with a rounding radius.
+/// Returns a solid of one convex part, the hull of some points grown by a radius.
 fn rounded(points: Vec<DVec3>, radius: f64) -> Shape {
     Shape {
         mesh: Mesh {
@@ -66,7 +66,7 @@ fn balls_passing() -> Scene {
     )
 }
 
-/// Returns two moving balls that meet off centre.
+/// Returns two balls that move in opposite directions on parallel lines, and meet.
 fn balls_head_on() -> Scene {
     let left = MovingShape::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = MovingShape::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
@@ -74,7 +74,7 @@ fn balls_head_on() -> Scene {
     Scene::new("balls head-on", [left, right], Expect::hit_at(time))
 }
 
-/// Returns a rotating ball that falls onto a box.
+/// Returns a rotating ball that flies at a wall.
 fn ball_on_slab() -> Scene {
     let falling = MovingShape::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
     Scene::new(
@@ -95,7 +95,7 @@ fn capsule_on_wall() -> Scene {
     )
 }
 
-/// Returns a rounded box that falls corner first.
+/// Returns a rounded box that flies at a wall, face first.
 fn rounded_box() -> Scene {
     let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;

@@ -35,8 +35,8 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-/// Returns the time at which the corner of a rod rotating at `speed` first reaches `height` from the plane through the
-/// axis.
+/// Returns the time at which a corner of a rod, rotating at `speed`, is first at the distance `height` from the plane
+/// through the axis.
 fn corner_time(height: f64, speed: f64) -> f64 {
     ((height / corner_distance()).asin() - WIDTH.atan2(LENGTH)) / speed
 }
@@ -53,7 +53,7 @@ fn rod_on_slab() -> Scene {
     )
 }
 
-/// Returns T4: an upright rod that rotates by half turns towards a wall.
+/// Returns T4: an upright rod that rotates by some half turns towards a wall.
 fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     let speed = half_turns * PI;
     Scene::new(
@@ -79,7 +79,7 @@ fn upright_rod_and_wall(speed: f64, wall: f64, pose: Pose) -> [MovingShape; 2] {
     ]
 }
 
-/// Returns T3: T4 with the rod's frame rotated against the world's at the start.
+/// Returns T3: T4 with a rod whose body frame is rotated against the world at the start.
 fn pre_rotated_rod() -> Scene {
     let [rod, wall] = upright_rod_and_wall(PI, 1.25, Pose::IDENTITY);
     let turn = DQuat::from_rotation_z(FRAC_PI_2);
@@ -95,7 +95,7 @@ fn pre_rotated_rod() -> Scene {
     )
 }
 
-/// Returns T6: a rod whose corner passes the wall at a small distance.
+/// Returns T6: a rod whose corner passes a wall at a small distance.
 fn grazing_miss(depth: f64) -> Scene {
     let gap = corner_distance() * depth;
     Scene::new(
@@ -115,8 +115,8 @@ fn rod_on_post() -> Scene {
     Scene::new("T7 rod on post", [spinning, post], Expect::hit_at(time))
 }
 
-/// Returns T9: a mace with a heavy head at the centre, and a long arm whose end reaches the wall. Bounds that use the
-/// present pose alone do not anticipate it.
+/// Returns T9: a mace that rotates about its heavy head until the end of its long arm reaches a wall. Bounds that use
+/// the present pose alone do not anticipate this contact.
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
@@ -158,7 +158,7 @@ fn far_rod(offset: f64) -> Scene {
     )
 }
 
-/// Returns T20: T4 scaled to very small and very large size.
+/// Returns T20: T4 scaled to a very small or very large size.
 fn scaled_rod(scale: f64) -> Scene {
     let [mut rod, mut wall] = upright_rod_and_wall(PI, 1.25, Pose::IDENTITY);
     rod.shape = rod.shape.scaled(scale);
@@ -170,7 +170,8 @@ fn scaled_rod(scale: f64) -> Scene {
     )
 }
 
-/// Returns two bodies on one turntable, at relative rest one unit apart. They are free at any speed.
+/// Returns two bodies at rest relative to each other, one unit apart, which rotate about a common axis. They are free
+/// at any speed.
 fn rigidly_turning_pair() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let on_table = |x: f64| {

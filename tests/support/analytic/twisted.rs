@@ -27,10 +27,10 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-/// The depth of the screw's start below the nut's bottom, less one pitch.
+/// The depth of the screw's start below the origin, which is one pitch below the nut's bottom.
 const START_DEPTH: f64 = 1.05;
 
-/// Returns T18: three turns of a screw in its nut, which climbs by `pitch` a turn.
+/// Returns T18: a screw that makes three turns in its nut and climbs by `pitch` in each turn.
 pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     let turning = MovingShape::moving(
         screw(fineness),
@@ -44,7 +44,7 @@ pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     Scene::new(name, [turning, still], Expect::Unknown)
 }
 
-/// Returns T21: T1 with faces of no area, repeated faces, and the other faces reversed.
+/// Returns T21: T1 with a cube that has faces of no area, repeated faces and reversed faces.
 fn degenerate_cube() -> Scene {
     let mut mesh: Mesh = cuboid(DVec3::splat(0.5)).mesh.flipped();
     let clean = mesh.faces.clone();
@@ -60,7 +60,7 @@ fn degenerate_cube() -> Scene {
     )
 }
 
-/// Returns T21: two cubes that share an edge and are open below, which is no manifold.
+/// Returns T21: two cubes that share an edge and have no bottoms, so that their surface is not a manifold.
 fn two_shells() -> Scene {
     let half = DVec3::splat(0.5);
     let mut both = Shape::union([
@@ -80,8 +80,8 @@ fn two_shells() -> Scene {
     )
 }
 
-/// Returns T26: cuboids at coordinates of some thousands, one of which flies and rotates about a centre of its own.
-/// The numbers are from a bug report to parry (its issue 317).
+/// Returns T26: two cuboids at coordinates of some thousands, one of which flies and rotates about a centre far from
+/// it. The numbers are from a bug report to parry (its issue 317).
 fn cuboids_in_the_distance() -> Scene {
     let flying = Motion::about(
         Pose::new(
@@ -147,7 +147,7 @@ fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
     Scene::new(name, [small, big], gap)
 }
 
-/// Returns T25: two bodies at rest.
+/// Returns T25: two cubes at rest, one unit apart.
 fn resting() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let bodies = [
@@ -157,7 +157,7 @@ fn resting() -> Scene {
     Scene::new("T25 at rest", bodies, Expect::Free { gap: 1.0 })
 }
 
-/// Returns T25: a cube that falls while it rotates about the vertical by zero, by very little, or by exactly π.
+/// Returns T25: a cube that falls onto a slab while it rotates about the vertical by zero, by a tiny angle or by π.
 fn slow_turn(angle: f64) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = MovingShape::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, angle * DVec3::Z);

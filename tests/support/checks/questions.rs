@@ -1,4 +1,4 @@
-//! Checks answers to other questions than the first contact.
+//! Checks answers to questions other than that of the first contact.
 
 use super::{CheckResult, Judge, check_contact};
 use crate::law;
@@ -8,7 +8,8 @@ use ccd_core::order::lesser;
 use ccd_core::{Answer, Clearance, Contact, Outcome};
 
 impl Judge<'_> {
-    /// Checks an answer to "do they touch at all?": it is never missed, never false, and has a contact as claimed.
+    /// Checks an answer to whether the bodies touch at all: no contact is missed or false, and the contact is as
+    /// claimed.
     ///
     /// # Errors
     /// Describes how the answer is wrong.
@@ -30,8 +31,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks the bounds of a least distance. They are never above the true one, never below the distance at the
-    /// given time, and no farther apart than the tolerance.
+    /// Checks the bounds of the least distance against the referee. The lower bound is not above the true least
+    /// distance, the upper bound not below the distance at the given time, and they differ by at most the tolerance.
     ///
     /// # Errors
     /// Describes how the answer is wrong.
@@ -70,8 +71,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks the answer about a required distance. It is never false, and unknown only within the tolerance of the
-    /// least distance.
+    /// Checks an answer about a required distance: its bounds are true, and it is undecided only within the tolerance
+    /// of the least distance.
     ///
     /// # Errors
     /// Describes how the answer is wrong.
@@ -113,7 +114,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Checks the first and the last contact. There is none before and after them, and both are within the tolerance.
+    /// Checks the first and the last contact: no contact is before the first or after the last one, and both are within
+    /// the tolerance.
     ///
     /// # Errors
     /// Describes how the answer is wrong.
@@ -152,7 +154,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks that the bodies are in contact at a time.
+    /// Checks that the distance at a time is within the margin and the tolerance, unless the bodies overlap.
     fn check_near_contact(&self, time: f64, tolerance: f64, contact: &Contact) -> CheckResult {
         let reach = self.config.margin + tolerance + self.query.rounding();
         let in_range = (0.0..=self.query.duration).contains(&time);
@@ -165,8 +167,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Returns an upper bound of the distance of two pieces in contact at a time. It is infinite for bodies that
-    /// overlap, whose pieces may be anywhere in a solid.
+    /// Returns an upper bound on the distance of two pieces in contact at a time. It is infinite if the bodies may
+    /// overlap, because their pieces may then be anywhere in a solid.
     fn contact_distance_bound(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
         if !self.may_overlap(time, contact) {
             self.config.margin + tolerance + self.query.rounding()
@@ -175,7 +177,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Returns true if two pieces overlap, or the bodies touched before, so that their surfaces may be far apart.
+    /// Returns true if two pieces overlap, or if the bodies may have touched before, so that their surfaces may be far
+    /// apart.
     fn may_overlap(&self, time: f64, contact: &Contact) -> bool {
         let touched = match self.finding {
             Finding::Hit { lo, .. } | Finding::Near { lo } => time >= lo,
@@ -185,7 +188,7 @@ impl Judge<'_> {
         touched || self.nested || contact.separation.lower < -self.query.rounding()
     }
 
-    /// Returns the least of the sampled distances.
+    /// Returns the least distance that the referee has found at any time; 0 if it has found a contact.
     fn least_sampled_distance(&self) -> f64 {
         let sampled = self.samples.iter().map(|sample| sample.1);
         let least = sampled.fold(f64::INFINITY, lesser);

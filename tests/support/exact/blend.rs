@@ -1,16 +1,16 @@
-//! Convex combinations of points, computed without rounding.
+//! Convex combinations of points, in exact arithmetic.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use dashu_ratio::Relaxed;
 use std::cell::OnceCell;
 
-/// An exact convex combination of points, with whole numbers as weights: `Σ w p / Σ w`.
+/// A convex combination of points, `Σ w p / Σ w`, kept exactly as the points and their whole-numbered weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexCombination(Vec<(u32, DVec3)>);
 
 impl ConvexCombination {
-    /// Creates the combination of points, each with its weight.
+    /// Creates the combination of some points, each with its weight.
     ///
     /// # Panics
     /// If all weights are 0.
@@ -29,7 +29,7 @@ impl ConvexCombination {
         self.0.iter().map(|part| part.0).sum()
     }
 
-    /// Returns the point in f64, up to a rounding error for each combined point.
+    /// Returns the point in f64, with a rounding error for each combined point.
     pub fn rounded(&self) -> DVec3 {
         let weighted = self.0.iter().map(|&(weight, p)| f64::from(weight) * p);
         weighted.sum::<DVec3>() / f64::from(self.weight())
@@ -50,16 +50,16 @@ pub(super) fn exact(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite coordinate")
 }
 
-/// A point for predicates, whose exact fractions are computed on first use.
+/// A point for predicates, rounded to f64; its exact coordinates are computed on first use.
 pub(super) struct LazyPoint<'a> {
     combination: &'a ConvexCombination,
     pub(super) near: DVec3,
-    /// The largest absolute coordinate of the points that are combined.
+    /// The largest absolute coordinate of the combined points.
     pub(super) size: f64,
     exact: OnceCell<[Relaxed; 3]>,
 }
 
-/// The largest rounding error of a combination of up to hundreds of points, in units of the largest coordinate.
+/// A bound on the rounding error of a combination of up to hundreds of points, in units of their largest coordinate.
 const ROUNDING: f64 = 1e-13;
 
 impl<'a> LazyPoint<'a> {
@@ -73,7 +73,7 @@ impl<'a> LazyPoint<'a> {
         }
     }
 
-    /// Returns a bound on the error of the rounded coordinates.
+    /// Returns a bound on the rounding error of the coordinates in `near`.
     pub(super) fn rounding(&self) -> f64 {
         ROUNDING * self.size
     }

@@ -1,4 +1,4 @@
-//! Exact predicates: the side of a point relative to an edge seen along an axis, and relative to a triangle.
+//! Exact predicates: on which side of a projected edge or of a triangle a point is.
 
 use super::blend::{LazyPoint, exact};
 use ccd_core::glam::DVec3;
@@ -6,16 +6,17 @@ use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 
-/// The pairs of coordinate indices in the views along z, x and y.
+/// The pairs of coordinate indices that remain in the projections along z, x and y.
 pub(super) const PROJECTION_AXES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// The bounds on the rounding errors of determinants, in units of the power of the size of points. They are hundreds
-/// of times those of the terms, which are dominated by the error of the rounded point.
+/// A bound on the rounding error of a 2×2 determinant, in units of the square of the points' size. It is hundreds of
+/// times that of the terms, which are dominated by the error of the rounded point.
 const ORIENT2D_ROUNDING: f64 = 1e-12;
+/// A bound on the rounding error of a 3×3 determinant, in units of the cube of the points' size.
 const ORIENT3D_ROUNDING: f64 = 1e-11;
 
-/// Returns whether a point is left of (greater), right of (less) or on the line through an edge, in
-/// a view.
+/// Returns the exact side of the line through an edge on which a point is in a projection: left (greater), right (less)
+/// or on the line.
 pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (p − a)
     let (u, v) = (b - a, p.near - a);
@@ -26,8 +27,8 @@ pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &LazyPoint<'_>) ->
     })
 }
 
-/// Returns whether a point is above (greater), below (less) or in the plane of a triangle that is
-/// counter-clockwise seen from above.
+/// Returns the exact side of a triangle on which a point is: above (greater), below (less) or in its plane. The
+/// triangle is counter-clockwise seen from above.
 pub(super) fn side([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (c − a) · (p − a)
     let height = (b - a).cross(c - a).dot(p.near - a);
@@ -44,12 +45,12 @@ pub(super) fn side([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> Ordering {
     })
 }
 
-/// Returns the sign of a rounded number; `None` if the rounding error could change it.
+/// Returns the sign of a rounded number; `None` if the rounding error may have changed it.
 fn certain_sign(x: f64, rounding: f64) -> Option<Ordering> {
     (x.abs() > rounding + f64::MIN_POSITIVE).then(|| x.total_cmp(&0.0))
 }
 
-/// Returns the largest absolute coordinate of some points and of the combined points of `p`.
+/// Returns the largest absolute coordinate of `points` and of the points that `p` combines.
 fn max_coordinate(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
     let sizes = points.iter().map(|q| q.abs().max_element());
     sizes.fold(p.size, greater)
@@ -63,7 +64,7 @@ fn offset_from(a: DVec3, p: &LazyPoint<'_>) -> [Relaxed; 3] {
     [0, 1, 2].map(|k| &p.exact()[k] - exact(a[k]))
 }
 
-/// Returns true if a closed triangle, perhaps without area, contains a point.
+/// Returns true, by exact arithmetic, if a triangle with its boundary contains a point; the triangle may have no area.
 pub(super) fn triangle_contains(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     let [a, b, c] = triangle;
     // A triangle without area is a segment in every view, bounded by its box.
@@ -82,7 +83,7 @@ pub(super) fn triangle_contains(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool
         && !PROJECTION_AXES.iter().any(out_of_view)
 }
 
-/// Compares a number with a coordinate of a point.
+/// Compares a number with a coordinate of a point, exactly.
 fn compare_coordinate(x: f64, axis: usize, p: &LazyPoint<'_>) -> Ordering {
     let rounding = p.rounding() + f64::EPSILON * x.abs();
     certain_sign(x - p.near[axis], rounding).unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))

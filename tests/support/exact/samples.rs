@@ -1,4 +1,4 @@
-//! Draws sample points of a polytope's hull.
+//! Draws sample points of the convex hull of a polytope.
 
 use super::blend::ConvexCombination;
 use ccd_core::Polytope;
@@ -6,14 +6,14 @@ use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The numbers of random sample points to draw.
+/// The numbers of random sample points to draw from a polytope.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// The number of points on each facet, in addition to its mean and its edges' middles.
+    /// The number of random points on each facet, in addition to its mean and the middles of its edges.
     pub points_per_facet: usize,
-    /// The number of points of each polytope on segments between two of its corners.
+    /// The number of random points on segments between two corners of a polytope.
     pub points_on_chords: usize,
-    /// The number of points of each polytope that combine four of its corners.
+    /// The number of random points that are combinations of four corners of a polytope.
     pub inner_points: usize,
 }
 
@@ -33,12 +33,12 @@ impl Effort {
     };
 }
 
-/// The sum of the weights of a random point. It is a power of two, so that coordinates stay as short in binary as
-/// those of the corners.
+/// The sum of the weights of a random point. It is a power of two, so that coordinates stay as short in binary as those
+/// of the corners.
 const WEIGHT_SUM: u32 = 64;
 
-/// Returns points of a polytope's hull: means, middles, and random ones on facets, segments and inside. The result
-/// depends only on the polytope and the seed.
+/// Returns points of a polytope's hull: means of corners, middles of edges, and random points on facets, chords and
+/// inside. The result depends only on the polytope and the seed.
 pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<ConvexCombination> {
     let mut rng = Pcg64::seed_from_u64(seed);
     let points = &polytope.points;
@@ -57,7 +57,7 @@ pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<ConvexComb
     out
 }
 
-/// Returns a random combination of `count` of the points, perhaps with repetition.
+/// Returns a random convex combination of `count` of the points, in which a point may occur repeatedly.
 fn random_combination(rng: &mut Pcg64, points: &[DVec3], count: usize) -> ConvexCombination {
     let mut rest = WEIGHT_SUM;
     let mut parts: Vec<(u32, DVec3)> = (1..count)

@@ -4,7 +4,7 @@ use super::{Line, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
 use ccd_core::{Face, Facet, FacetOrigin, Polytope, Volume};
 
-/// Returns a box around the origin: 12 triangles, or one part of six quadrilaterals.
+/// Returns a box around the origin, as a mesh of 12 triangles and as one convex part of six quadrilaterals.
 ///
 /// Corner `k` has a positive x, y, z if bit 0, 1, 2 of `k` is set.
 pub fn cuboid(half: DVec3) -> Shape {
@@ -51,13 +51,12 @@ fn between(lo: [f64; 3], hi: [f64; 3]) -> Shape {
     cuboid(0.5 * (hi - lo)).moved(0.5 * (lo + hi))
 }
 
-/// Returns a rod of half length `length` along x, half width 0.3 along y, half thickness `width`
-/// along z.
+/// Returns a rod of half length `length` along x, half width 0.3 along y and half thickness `width` along z.
 pub fn rod(length: f64, width: f64) -> Shape {
     cuboid(DVec3::new(length, 0.3, width))
 }
 
-/// Returns a thick wall whose near face, towards −x, lies at `x`.
+/// Returns a wall, one unit thick, whose face towards −x is at `x`.
 pub fn wall_at(x: f64) -> Shape {
     between([x, -4.0, -4.0], [x + 1.0, 4.0, 4.0])
 }
@@ -92,14 +91,14 @@ pub fn post(radius: f64, angle: f64) -> Shape {
     })
 }
 
-/// Returns a mace: a ball of radius 0.1 at the origin, and an arm of half width `width` from there to `(0, −length,
-/// 0)`.
+/// Returns a mace: a ball of radius 0.1 at the origin, and an arm of half width `width` from the origin to `(0,
+/// −length, 0)`.
 pub fn mace(length: f64, width: f64) -> Shape {
     let arm = between([-width, -length, -width], [width, 0.0, width]);
     Shape::union([icosphere(0.1, 1), arm])
 }
 
-/// Returns an L of two bars: 20 triangles, many of them coplanar, as one closed surface.
+/// Returns an L-shaped prism of two bars, as one closed surface of 20 triangles, many of them coplanar.
 pub fn l_prism() -> Shape {
     let outline: [[f64; 2]; 6] = [
         [0.0, 0.0],
@@ -123,7 +122,7 @@ pub fn l_prism() -> Shape {
     Shape::closed(Mesh { vertices, faces })
 }
 
-/// Returns a plate in the xy-plane with a square hole of half width `hole`: four boxes.
+/// Returns a plate in the xy-plane with a square hole of half width `hole`, made of four boxes.
 pub fn frame_plate(hole: f64) -> Shape {
     let (outer, z) = (hole + 1.0, 0.25);
     Shape::union([
@@ -134,7 +133,7 @@ pub fn frame_plate(hole: f64) -> Shape {
     ])
 }
 
-/// Returns two halves of a wall at `x` in `[0, 0.5]`, with a slit `|z| < half_height`.
+/// Returns a wall between `x = 0` and `x = 0.5` with a slit `|z| < half_height`, made of two boxes.
 pub fn slit_plate(half_height: f64) -> Shape {
     Shape::union([
         between([0.0, -3.0, half_height], [0.5, 3.0, half_height + 2.0]),
@@ -142,7 +141,7 @@ pub fn slit_plate(half_height: f64) -> Shape {
     ])
 }
 
-/// Returns a U open towards −z: a base along x, centred at the origin, and two legs of length `length`.
+/// Returns a U-shaped hook open towards −z: a base along x, centred at the origin, and two legs of length `length`.
 pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     let (half, inner) = (0.5 * bar, 0.5 * gap);
     let outer = inner + bar;
@@ -153,15 +152,15 @@ pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     ])
 }
 
-/// Returns a comb: a base in the xy-plane, its top at z = 0, and `teeth` teeth of height 1 and width 0.4, a unit
-/// apart along x.
+/// Returns a comb: a base below z = 0, and `teeth` teeth of height 1 and width 0.4, one unit from tooth to tooth along
+/// x.
 pub fn comb(teeth: usize) -> Shape {
     let tooth = |k: usize| between([k as f64, -0.2, 0.0], [k as f64 + 0.4, 0.2, 1.0]);
     let base = between([-1.0, -0.2, -0.3], [teeth as f64 + 1.0, 0.2, 0.0]);
     Shape::union((0..teeth).map(tooth).chain([base]))
 }
 
-/// Returns a square plate `[0, 1]²` at z = 0 of `2·cells²` triangles.
+/// Returns the square plate `[0, 1]²` at z = 0, divided into `2·cells²` triangles.
 pub fn parallel_plate(cells: usize) -> Shape {
     let at = |k: usize| k as f64 / cells as f64;
     let line = Line::Open(cells + 1);
@@ -173,8 +172,8 @@ pub fn parallel_plate(cells: usize) -> Shape {
     })
 }
 
-/// Returns unit-sized triangles of height `width`, side by side over the unit cube's bottom, with
-/// their tips down.
+/// Returns upright triangles of length 1 and width `width`, in a row along x from 0 to 1, with their tips down at z =
+/// 0.
 pub fn needles(count: usize, width: f64) -> Shape {
     let mut mesh = Mesh {
         vertices: Vec::new(),

@@ -9,9 +9,9 @@ use ccd_core::glam::{DQuat, DVec3};
 
 /// A solid with its name for messages.
 pub struct Model {
-    /// The name of the solid in messages.
+    /// The name of the solid, for messages.
     pub name: String,
-    /// The solid as mesh and parts.
+    /// The shape of the solid.
     pub shape: Shape,
 }
 
@@ -23,7 +23,7 @@ impl Model {
         }
     }
 
-    /// Returns the solid rotated into general position, in which rounding breaks coplanarity.
+    /// Returns the solid rotated into general position, where rounding makes coplanar features slightly non-coplanar.
     #[must_use]
     pub fn turned(&self) -> Self {
         let turn = DQuat::from_scaled_axis(DVec3::new(0.3, -0.7, 1.1));
@@ -37,7 +37,7 @@ impl Model {
     }
 }
 
-/// Returns non-convex solids of every kind. Most have up to a thousand faces.
+/// Returns non-convex solids of many kinds for tests of decompositions. Most have up to a thousand faces.
 pub fn solids() -> Vec<Model> {
     let mut all = flat_solids();
     all.extend(curved_solids());
@@ -95,7 +95,7 @@ fn curved_solids() -> Vec<Model> {
     ]
 }
 
-/// Returns convex solids of several shapes.
+/// Returns convex solids of several shapes for tests of decompositions.
 pub fn convex_solids() -> Vec<Model> {
     vec![
         Model::new("cube", cuboid(DVec3::ONE)),

@@ -1,4 +1,4 @@
-//! Generates solids of cells: sheets of four-sided cells, some of them removed, with a thickness. Their tops and
+//! Generates solids of cells: sheets of four-sided cells, thickened, in some of which cells are missing. Their tops and
 //! bottoms are large regions of coplanar triangles, rarely convex.
 
 use super::{Line, Mesh, Shape, lumps::seeded_rng};
@@ -7,7 +7,7 @@ use rand::RngExt;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Returns a gear about z, with a bore, a hole between any two spokes, and twice as many teeth as spokes.
+/// Returns a gear about z, with a bore, a hole between neighbouring spokes, and twice as many teeth as spokes.
 pub fn gear(spokes: usize) -> Shape {
     let radii = [0.2, 0.35, 0.6, 0.8, 1.0];
     let columns = 8 * spokes;
@@ -27,7 +27,7 @@ pub fn gear(spokes: usize) -> Shape {
     .thicken(at, 0.15)
 }
 
-/// Returns a plate of `n × m` square holes, whose sides are as long as the bridges between them.
+/// Returns a plate with `n × m` square holes, which are as wide as the bridges between them.
 pub fn perforated_plate(n: usize, m: usize) -> Shape {
     CellGrid {
         rows: Line::Open(2 * n + 2),
@@ -37,7 +37,8 @@ pub fn perforated_plate(n: usize, m: usize) -> Shape {
     .thicken(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
 }
 
-/// Returns the L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares.
+/// Returns the solid of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares per unit
+/// area.
 pub fn l_block(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     CellGrid {
@@ -48,7 +49,7 @@ pub fn l_block(cells: usize) -> Shape {
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
 
-/// Returns one closed plate with a slit of some width through its middle.
+/// Returns one closed plate with a slit of the given width through its middle.
 pub fn slotted_plate(width: f64) -> Shape {
     let (x, y) = (
         [-2.0, -1.5, 1.5, 2.0],
@@ -62,7 +63,7 @@ pub fn slotted_plate(width: f64) -> Shape {
     .thicken(|i, j| DVec2::new(x[i], y[j]), 0.25)
 }
 
-/// Returns two combs in one mesh, with the teeth of each between those of the other.
+/// Returns two combs in one mesh, with the teeth of each comb between those of the other.
 pub fn meshed_combs(teeth: usize) -> Shape {
     let x = |i: usize| (i / 2) as f64 + if i % 2 == 1 { 0.4 } else { 0.0 };
     let y = [0.0, 0.3, 1.3];
@@ -93,7 +94,7 @@ pub fn divided_cube(cells: usize) -> Shape {
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
 
-/// Returns a block with random heights on its top, flat at its sides and at its bottom.
+/// Returns a block with random heights on its top, and flat sides and bottom.
 pub fn terrain(cells: usize, seed: u64) -> Shape {
     let mut rng = seeded_rng(seed);
     let unit = 1.0 / cells as f64;
@@ -112,7 +113,7 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
     .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
 }
 
-/// A grid of cells, some of which are filled.
+/// A grid of four-sided cells, some of which are filled.
 struct CellGrid<'a> {
     rows: Line,
     columns: Line,
@@ -120,12 +121,13 @@ struct CellGrid<'a> {
 }
 
 impl CellGrid<'_> {
-    /// Returns the solid that extends by `half` to either side of a sheet in the xy-plane.
+    /// Returns the solid that extends by `half` to either side of the filled cells, which are placed in the xy-plane.
     fn thicken(&self, at: impl Fn(usize, usize) -> DVec2, half: f64) -> Shape {
         self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
     }
 
-    /// Returns the solid between two sheets. Seen from above, rows go to the right and columns upwards.
+    /// Returns the solid between two sheets, over the filled cells. Seen from above, rows go to the right and columns
+    /// upwards.
     fn between(
         &self,
         low: impl Fn(usize, usize) -> DVec3,
@@ -157,7 +159,8 @@ impl CellGrid<'_> {
     }
 }
 
-/// Returns the boundary edges of some faces, in order. A boundary edge has no face in the opposite direction.
+/// Returns the boundary edges of some faces, in the order of the faces. A boundary edge has no face in the opposite
+/// direction.
 fn boundary_edges(faces: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let edges = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
     let all: Vec<[u32; 2]> = faces.iter().flat_map(edges).collect();

@@ -1,17 +1,17 @@
-//! Generates lumps: random and bumpy solids, dents, cavities.
+//! Generates lumpy solids: random and bumpy ones, dents and cavities.
 
 use super::{Mesh, Shape, cuboid, icosphere};
 use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Returns a random generator that starts from a seed.
+/// Returns a random generator with the given seed.
 pub(super) fn seeded_rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
 
-/// Returns an icosahedron divided `levels` times, its vertices at random distances between `1 −
-/// roughness` and 1 from the origin.
+/// Returns an icosahedron divided `levels` times, whose vertices are at random distances from `1 − roughness` to 1 from
+/// the origin.
 pub fn boulder(levels: u32, roughness: f64, seed: u64) -> Shape {
     let mut rng = seeded_rng(seed);
     star(levels, |_| 1.0 - roughness * rng.random_range(0.0..1.0))
@@ -27,7 +27,7 @@ pub fn blob(levels: u32) -> Shape {
     })
 }
 
-/// Returns a cube with a pyramid cut into its top: 14 triangles.
+/// Returns a cube with an inverted pyramid cut into its top, of 14 triangles.
 pub fn dented_cube(half: f64, depth: f64) -> Shape {
     let mut mesh = cuboid(DVec3::splat(half)).mesh;
     let top = |face: &[u32; 3]| face.iter().all(|&v| v & 4 != 0);
@@ -38,22 +38,22 @@ pub fn dented_cube(half: f64, depth: f64) -> Shape {
     Shape::closed(mesh)
 }
 
-/// Returns a solid with a cavity: two shells, the inner one reversed.
+/// Returns a solid with a cavity, as two shells of which the inner one is reversed.
 pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
     let mut mesh = outer.mesh.clone();
     mesh.append(&inner.mesh.clone().flipped());
     Shape::closed(mesh)
 }
 
-/// Returns one mesh of two solids apart from each other.
+/// Returns two solids that do not touch as one mesh.
 pub fn both(one: &Shape, other: &Shape) -> Shape {
     let mut mesh = one.mesh.clone();
     mesh.append(&other.mesh);
     Shape::closed(mesh)
 }
 
-/// Returns a divided icosahedron whose vertices are moved to distances from the origin that depend on their
-/// directions.
+/// Returns a divided icosahedron whose vertices are at distances from the origin given by `radius`, a function of the
+/// direction.
 fn star(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape {
     let Mesh {
         mut vertices,

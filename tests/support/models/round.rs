@@ -6,7 +6,7 @@ use ccd_core::order::lesser;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Returns an icosahedron divided `levels` times, every vertex at distance `radius` from the origin.
+/// Returns an icosahedron divided `levels` times, with every vertex at distance `radius` from the origin.
 pub fn icosphere(radius: f64, levels: u32) -> Shape {
     let g = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut vertices = Vec::new();
@@ -65,7 +65,7 @@ pub fn icosphere(radius: f64, levels: u32) -> Shape {
     Shape::convex(Mesh { vertices, faces })
 }
 
-/// Returns the least distance of a face's plane from the origin: the inradius of a convex mesh around the origin.
+/// Returns the inradius of a convex mesh around the origin: the least distance of a face's plane from the origin.
 pub fn inradius(mesh: &Mesh) -> f64 {
     let distance = |face| {
         let [a, b, c] = mesh.triangle(face);
@@ -76,8 +76,8 @@ pub fn inradius(mesh: &Mesh) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Returns a torus about z, with its first section on +x. It has `rings` sections on a circle of radius `major`, each
-/// of `sides` vertices at distance `minor`, one of them nearest to the axis.
+/// Returns a torus about z. It has `rings` sections on a circle of radius `major`, the first of them on +x. Each
+/// section has `sides` vertices at distance `minor` from its centre, the first of them nearest to the axis.
 pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
     let angle = |k: usize, n: usize| TAU * k as f64 / n as f64;
     let vertex = |i: usize, j: usize| {
@@ -94,7 +94,7 @@ pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
     Shape::closed(mesh.flipped())
 }
 
-/// Returns a trefoil's tube of unit size: `rings` sections of `sides` vertices.
+/// Returns a tube around a trefoil knot, of about unit size, with `rings` sections of `sides` vertices.
 pub fn torus_knot(rings: usize, sides: usize) -> Shape {
     let curve = |u: f64| {
         let r = 0.5 + 0.2 * (3.0 * u).cos();

@@ -7,24 +7,25 @@ use std::f64::consts::TAU;
 /// The height of one turn of the thread, in units of length.
 pub const PITCH: f64 = 0.5;
 
-/// The number of segments of the coarsest thread, around the axis and along it for each pitch.
+/// The number of segments around the axis of the coarsest thread.
 const SEGMENTS: usize = 16;
+/// The number of segments along the axis of the coarsest thread, for each pitch.
 const ROWS_PER_PITCH: usize = 6;
 
-/// Returns the screw's surface about z: four pitches of a wavy thread of mean radius 1, depth 0.1.
-/// The number of triangles grows as the square of `fineness`.
+/// Returns the surface of a screw about z: four pitches of a thread with a sine profile, mean radius 1 and amplitude
+/// 0.1. The number of triangles grows as the square of `fineness`.
 pub fn screw(fineness: usize) -> Shape {
     Shape::open(thread(4, 0.0, fineness))
 }
 
-/// Returns the nut's inner surface, one pitch high, its bottom one pitch above the origin, with `clearance` to the
-/// screw everywhere.
+/// Returns the inner surface of the nut: one pitch high, from z = [`PITCH`] on, and wider than the screw by
+/// `clearance`.
 pub fn nut(clearance: f64, fineness: usize) -> Shape {
     Shape::open(thread(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 
-/// Returns a helical surface. A rotation by an angle and a lift by the same fraction of the pitch map it to itself,
-/// up to its facets.
+/// Returns a helical surface: a rotation by an angle and a lift by the same fraction of the pitch map it to itself, up
+/// to its facets.
 fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
     let (segments, rows_per_pitch) = (SEGMENTS * fineness, ROWS_PER_PITCH * fineness);
     let rows = pitches * rows_per_pitch + 1;

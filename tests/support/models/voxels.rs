@@ -1,12 +1,12 @@
-//! Generates solids of unit cubes.
+//! Generates solids made of unit cubes.
 
 use super::{Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::DVec3;
 use rand::RngExt;
 use std::collections::HashMap;
 
-/// Returns a pile of cubes in a corner: columns of random heights up to `size` that decrease away from the corner.
-/// Its sides are coplanar regions of any outline. No two cubes touch each other at an edge.
+/// Returns a pile of unit cubes in a corner, in columns of random heights up to `size` that decrease away from the
+/// corner. Its sides are coplanar regions of any outline. No two cubes touch each other at an edge.
 pub fn pile(size: usize, seed: u64) -> Shape {
     let mut rng = seeded_rng(seed);
     let mut heights = vec![vec![0; size]; size];
@@ -30,7 +30,7 @@ pub fn pile(size: usize, seed: u64) -> Shape {
     cubes(size as i64, full)
 }
 
-/// Returns the surface of the filled cubes of a grid, two triangles for each side.
+/// Returns the surface of the filled cubes of a grid, with two triangles for each square.
 fn cubes(size: i64, full: impl Fn([i64; 3]) -> bool) -> Shape {
     let mut numbers = HashMap::new();
     let mut mesh = Mesh {

@@ -3,8 +3,8 @@
 use crate::query::{MovingShape, Query};
 use ccd_core::glam::DVec3;
 
-/// The map from a body's points to positions in the world at time t. It is relative to the start of body A's centre:
-/// `x(t) = R(t) R₀ (x − c) + d + v t`.
+/// The map from a body's points to positions at time t, relative to the centre of body A: `x(t) = R(t) R₀ (x − c) + d +
+/// v t`.
 ///
 /// Offsets are subtracted before anything is rounded at their size, and A's velocity is subtracted
 /// from both bodies, so that far and fast scenes keep their digits.
@@ -49,13 +49,13 @@ impl Placement {
         }
     }
 
-    /// Returns the position of a point of the body.
+    /// Returns the position of a point of the body at a time, relative to the centre of body A.
     pub fn at(&self, time: f64, point: DVec3) -> DVec3 {
         let arm = apply(self.start, point - self.centre);
         rotated(arm, time * self.spin) + self.offset + time * self.velocity
     }
 
-    /// Returns the point in the world that positions are relative to.
+    /// Returns the point in the world to which positions are relative: the centre of body A at the start.
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
@@ -65,12 +65,12 @@ impl Placement {
         self.velocity
     }
 
-    /// Returns the largest speed of a point due to rotation.
+    /// Returns the largest speed due to rotation of a point of the body.
     pub fn rim_speed(&self) -> f64 {
         self.spin.length() * self.radius
     }
 
-    /// Returns the largest distance of a point of the body from the centre.
+    /// Returns the largest distance of a point of the body from its centre of rotation.
     pub fn radius(&self) -> f64 {
         self.radius
     }

@@ -1,11 +1,11 @@
-//! Computes distances of triangles by brute force, after a box test.
+//! Computes distances of triangles by brute force, except for pairs that bounding boxes exclude.
 
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use std::f64::consts::PI;
 
-/// A mesh with its vertices at the pose of a time.
+/// A mesh with its vertices at the body's pose at one time.
 pub(super) struct PosedMesh<'a> {
     mesh: &'a Mesh,
     points: Vec<DVec3>,
@@ -14,7 +14,7 @@ pub(super) struct PosedMesh<'a> {
     face_group_boxes: Vec<Bounds>,
 }
 
-/// The number of faces that share a box in the coarser of two levels.
+/// The number of faces in a group, which share a bounding box.
 const FACES_PER_GROUP: usize = 8;
 
 impl<'a> PosedMesh<'a> {
@@ -88,8 +88,8 @@ fn members(group: usize, count: usize) -> std::ops::Range<usize> {
     group * FACES_PER_GROUP..((group + 1) * FACES_PER_GROUP).min(count)
 }
 
-/// Returns the squared distance of two triangles over all vertex-face, vertex-edge and edge-edge pairs; 0 if an edge
-/// pierces a face.
+/// Returns the squared distance of two triangles, over all vertex-face and edge-edge pairs; 0 if an edge of one passes
+/// through the other.
 pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
     let edges = |Face { corners: t, .. }: &Face| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let (edges_a, edges_b) = (edges(a), edges(b));
@@ -121,8 +121,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     s * t < 0.0 && (sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0))
 }
 
-/// Returns the squared distance of the nearest points of two edges' lines; infinite unless both points are on their
-/// edges.
+/// Returns the squared distance of the lines of two edges; infinity unless both nearest points are on the edges.
 fn line_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
@@ -154,16 +153,17 @@ pub fn nearest_on_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     Face::new(corners).nearest(p)
 }
 
-/// A triangle, prepared for computing nearest points.
+/// A triangle in the form from which its nearest points are computed.
 pub(crate) struct Face {
-    /// The corner points of the triangle. The longest edge is between the first two.
+    /// The corner points, reordered so that the longest edge is between the first two.
     pub(crate) corners: [DVec3; 3],
-    /// The unit vectors along the longest edge and perpendicular to it. For a needle, whose normal is mostly rounding,
-    /// these two are accurate to the last relevant digits.
+    /// The unit vector along the longest edge. For a needle, whose normal is mostly rounding, this vector and `across`
+    /// are accurate to the last relevant digits.
     along: DVec3,
+    /// The unit vector in the triangle's plane that is perpendicular to the longest edge.
     across: DVec3,
     length: f64,
-    /// The last corner's coordinate along the longest edge.
+    /// The coordinate of the last corner along the longest edge.
     apex: f64,
     height: f64,
 }
@@ -188,8 +188,8 @@ impl Face {
         }
     }
 
-    /// Returns the point of the triangle nearest to `p`: the projection onto the plane if it lies inside, else a
-    /// point on an edge.
+    /// Returns the point of the triangle nearest to `p`: the projection onto its plane if that is inside, else a point
+    /// on an edge.
     fn nearest(&self, p: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
         let (x, y) = ((p - a).dot(self.along), (p - a).dot(self.across));
@@ -231,7 +231,7 @@ fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
     }
 }
 
-/// Returns true if a closed mesh winds around a point: the solid angles of its faces add up to more than half the
+/// Returns true if a point is inside a closed mesh: the solid angles of the mesh's faces add up to more than half the
 /// sphere.
 pub fn contains(mesh: &Mesh, points: &[DVec3], p: DVec3) -> bool {
     let angle = |face: &[u32; 3]| {
@@ -243,7 +243,7 @@ pub fn contains(mesh: &Mesh, points: &[DVec3], p: DVec3) -> bool {
     mesh.faces.iter().map(angle).sum::<f64>() > 2.0 * PI
 }
 
-/// An axis-aligned box around the faces of a group.
+/// An axis-aligned bounding box of a face or of a group of faces.
 #[derive(Clone, Copy)]
 struct Bounds {
     lo: DVec3,

@@ -1,8 +1,9 @@
-//! Casts of parry in both precisions, from one source: its two crates differ only in their number type.
+//! Calls parry in double and in single precision from the same source files, since its two crates differ only in their
+//! number type.
 //!
 //! It has two calls for the question, [`double::cast`] and [`double::sweep`], which share no code.
 
-/// The casts in double precision.
+/// The calls of parry in double precision: nonlinear casts and swept triangles.
 // Some casts are needed in one precision only.
 #[expect(clippy::unnecessary_cast, clippy::useless_conversion)]
 #[path = "parry"]
@@ -17,7 +18,7 @@ pub mod double {
     pub mod sweep;
 }
 
-/// The casts in single precision, from the same source.
+/// The calls of parry in single precision, from the same source files.
 #[path = "parry"]
 pub mod single {
     use parry3d as library;

@@ -13,7 +13,7 @@ use rapier3d_f64::prelude::{
 };
 use rigid_ccd::table::motions::Motions;
 
-/// A rapier world with A as a free body and B as a fixed one; the contact is where one step stops A.
+/// A rapier world in which A moves and B is fixed; the contact is where one step of the simulation stops A.
 ///
 /// The engine does not sweep meshes, only convex bodies and compounds of them. A is therefore a compound
 /// of its triangles here; B stays a mesh. Each triangle is swept against B's by [parry's
@@ -34,11 +34,11 @@ pub struct TwoBodySimulation {
 
 /// The largest distance at which a hit is reported, as a multiple of the allowed error.
 const MAX_HIT_DISTANCE_IN_ERRORS: f64 = 1.25;
-/// The fraction of its motion at which a step counts as complete, because poses are rounded.
+/// The fraction of A's motion from which a step counts as not stopped; it is below 1 because poses are rounded.
 const COMPLETE_SHARE: f64 = 1.0 - 1e-9;
 
 impl TwoBodySimulation {
-    /// Creates a rapier world with two meshes.
+    /// Creates a rapier world with the triangles of A as one free body, and the mesh of B as a fixed body.
     ///
     /// # Errors
     /// If parry refuses a mesh.
@@ -57,7 +57,7 @@ impl TwoBodySimulation {
         Ok(TwoBodySimulation { world, a, b })
     }
 
-    /// Sets the start poses and velocities of both bodies, and the allowed error.
+    /// Sets the start poses of both bodies, the velocity of A relative to B, and the allowed error.
     fn pose(&mut self, query: &Motions, tolerance: f64) {
         let parameters = &mut self.world.integration_parameters;
         parameters.dt = query.duration;
@@ -101,7 +101,8 @@ impl Solver for TwoBodySimulation {
     }
 }
 
-/// Returns the fraction of its motion that a body has covered, or NaN or 1 if there is no motion.
+/// Returns the fraction of A's motion that a step has completed; 1 if there is no motion. It is NaN if the squared
+/// displacement underflows.
 fn completed_motion_fraction(query: &Motions, end: &Pose) -> f64 {
     let motion = &query.a;
     let way = query.duration * (motion.velocity() - query.b.velocity());
@@ -116,8 +117,8 @@ fn completed_motion_fraction(query: &Motions, end: &Pose) -> f64 {
     (centre - start).dot(way) / way.length_squared()
 }
 
-/// Returns the fraction of its rotation that a body has covered, if it only rotates. A sweep mixes two orientations,
-/// the shorter way.
+/// Returns the fraction of its rotation that a step has completed, for a body that does not translate. A sweep mixes
+/// two orientations, the shorter way.
 fn completed_rotation_fraction(motion: &Motion, duration: f64, end: &Pose) -> f64 {
     let turn_to = |rotation: DQuat| {
         let turn = rotation * motion.start().rotation().conjugate();

@@ -1,4 +1,4 @@
-//! Tests every peer on meshes with exact answers: cases that it answers right, and known errors.
+//! Tests every peer on cases with exact answers, including cases that are known to fail.
 
 use super::PeerKind;
 use crate::method::Method;
@@ -33,7 +33,7 @@ impl ExactCase {
         peer.answer(&self.query, TOLERANCE)
     }
 
-    /// Asserts that a peer reports the contact within the error that is allowed for it.
+    /// Asserts that a peer reports the contact time to within its allowed error.
     fn assert_contact_within_error(&self, kind: PeerKind) {
         let reply = self.ask(kind);
         let Claim::Contact { time } = reply.claim else {
@@ -49,7 +49,7 @@ impl ExactCase {
     }
 }
 
-/// Returns the allowed error of a right answer: how early as a length, and how late as a time.
+/// Returns how early, as a distance, and how late, as a time, a peer may report a contact.
 fn allowed_error(kind: PeerKind) -> (f64, f64) {
     match kind {
         PeerKind::ParryF64 => (1e-9, 1e-9),
@@ -74,7 +74,7 @@ fn motion(at: DVec3, turned: DQuat, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(Pose::new(at, turned).unwrap(), velocity, spin).unwrap()
 }
 
-/// Returns case T1: a cube falls flat onto a slab.
+/// Returns the case of a cube that falls flat onto a slab (T1 of `tests/it/scenes.rs`).
 fn face_on_face() -> ExactCase {
     let falling = motion(
         3.0 * DVec3::Z,
@@ -92,7 +92,7 @@ fn face_on_face() -> ExactCase {
     }
 }
 
-/// Returns case T8: two cubes meet with crossed edges.
+/// Returns the case of two cubes that meet with crossed edges (T8 of `tests/it/scenes.rs`).
 fn edge_on_edge() -> ExactCase {
     let about = DQuat::from_axis_angle;
     let upper = motion(
@@ -116,7 +116,7 @@ fn edge_on_edge() -> ExactCase {
     }
 }
 
-/// Returns a case of two moving balls that meet vertex on vertex.
+/// Returns the case of two balls that move towards each other and meet vertex on vertex.
 fn ball_on_ball() -> ExactCase {
     let left = motion(
         -2.5 * DVec3::X,
@@ -134,7 +134,8 @@ fn ball_on_ball() -> ExactCase {
     }
 }
 
-/// Returns case T4: an upright rod rotates by `turns` half circles and hits a wall with an edge.
+/// Returns the case of an upright rod that rotates by `turns` half circles and hits a wall with an edge (T4 of
+/// `tests/it/scenes.rs`).
 fn rod_on_wall(turns: f64) -> ExactCase {
     let (length, width, wall) = (2.0_f64, 0.05_f64, 1.2);
     let spin = turns * PI;
@@ -156,7 +157,7 @@ fn rod_on_wall(turns: f64) -> ExactCase {
     }
 }
 
-/// Returns a triangulated unit ball: an octahedron with each face divided in 16.
+/// Returns a triangulated unit ball: an octahedron with each face divided into 16 triangles.
 fn ball() -> TriangleMesh {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut triangles = Vec::new();
@@ -209,7 +210,8 @@ fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f6
     }
 }
 
-/// Tests a known error: a distance that is not monotone is bisected over the whole time, and a later root is found.
+/// Tests a known error of parry's casts: with a whole turn or more, they report a contact later than the first. They
+/// bisect a distance that is not monotone over the whole time.
 #[rstest]
 fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
@@ -225,8 +227,8 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     }
 }
 
-/// Tests a known error: a step interpolates quaternions instead of rotating at a constant rate, and a whole turn counts
-/// as no rotation.
+/// Tests two known errors of a rapier step: it reports a contact within half a turn late, and misses one within a whole
+/// turn. It interpolates quaternions instead of rotating at a constant rate, and a whole turn counts as no rotation.
 #[test]
 fn large_turns_are_wrong_with_a_whole_step() {
     let half = rod_on_wall(1.0);

@@ -1,4 +1,4 @@
-//! Implements C2A, which advances both bodies by the least safe step over pairs of swept spheres.
+//! Implements C2A, which advances both bodies by the shortest time that is safe for all pairs of swept-sphere nodes.
 
 use super::patience::WorkLimit;
 use super::swept_spheres::{Gap, Pair, PairChildren, Trees, TrianglePair};
@@ -13,7 +13,7 @@ mod closing;
 #[cfg(test)]
 mod tests;
 
-/// The method controlled conservative advancement \[C2A09\], with its trees and its memory.
+/// A solver by controlled conservative advancement \[C2A09\], with the trees of both bodies and reused memory.
 ///
 /// Every step descends both trees as a distance query does. The step is the least (distance) /
 /// (bound of the closing speed) over the pairs of nodes and triangles at which the descent stops.
@@ -37,12 +37,12 @@ pub struct C2a {
     pairs: Vec<CandidatePair>,
 }
 
-/// A pair of nodes whose children a descent may visit.
+/// A pair of nodes on the stack of a descent, with its distance and its safe step.
 #[derive(Clone, Copy, Debug)]
 struct CandidatePair {
     pair: Pair,
     distance: f64,
-    /// The time during which the nodes do not touch.
+    /// A time from now during which the nodes do not touch.
     step: f64,
 }
 
@@ -53,29 +53,29 @@ struct DescentResult {
     distance: f64,
     /// The nearest triangles; `None` before any are found.
     nearest_triangles: Option<(TrianglePair, Pair)>,
-    /// The least of the safe times of all pairs seen so far: none of them touches before it.
+    /// The least safe step of all pairs at which the descent has stopped so far.
     step: f64,
 }
 
 /// The fixed inputs of a descent: the placement of the bodies and the limits.
 struct DescentSetup<'a> {
-    /// The placement of body B in the frame of body A.
+    /// The placement of body B in the frame of body A at the current time.
     placement: &'a Placement,
     /// The time from now to the end of the motions.
     remaining_time: f64,
-    /// The distance at which triangles touch.
+    /// The distance within which two triangles count as touching.
     tolerance: f64,
-    /// The allowed excess of the distance found over the true distance, as a fraction.
+    /// The allowed relative excess of the distance that the descent finds over the true distance.
     max_relative_excess: f64,
 }
 
 /// How a descent of both trees ended.
 enum DescentOutcome {
-    /// The descent stopped at pairs that need not be opened.
+    /// The descent ended with the nearest triangles and a safe step.
     Done(DescentResult),
     /// The descent found triangles within the tolerance.
     WithinTolerance,
-    /// The work limit was reached, or numbers are not finite.
+    /// The work limit was reached, or a computed distance was NaN.
     LimitReached,
 }
 
@@ -133,7 +133,7 @@ impl Solver for C2a {
 }
 
 impl C2a {
-    /// Descends both trees once, nearest pairs first.
+    /// Descends both trees once, nearest pairs first, to find the nearest triangles and a safe step.
     fn descend(
         &mut self,
         setup: &DescentSetup<'_>,
@@ -195,7 +195,7 @@ impl C2a {
         }
     }
 
-    /// Measures the distance of two triangles, and the time until they may touch.
+    /// Measures the distance and the safe step of two triangles, and keeps each in `found` if it is the least so far.
     fn measure_triangles(
         &mut self,
         found: &mut DescentResult,
@@ -225,7 +225,7 @@ impl C2a {
 }
 
 impl CandidatePair {
-    /// Returns true if a pair need not be opened; its step then counts for the whole descent.
+    /// Returns true if the descent may stop at this pair, whose step is then accounted for in `found`.
     #[inline]
     fn may_stop(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
         if self.step >= lesser(found.step, setup.remaining_time) {
@@ -239,16 +239,16 @@ impl CandidatePair {
     }
 }
 
-/// Returns the excess allowed in a step, from the number of steps so far and the distance to
-/// contact.
+/// Returns the allowed relative excess of the distance in a step: large in the first steps, and 0 near a contact.
 fn excess(step: u64, last: Option<&DescentResult>, duration: f64, tolerance: f64) -> f64 {
     /// The number of coarse steps at the start, and the excess that they are allowed.
     const COARSE_STEPS: (u64, f64) = (3, 3.0);
-    /// The number of steps after the coarse ones, and the excess that they are allowed.
+    /// The number of the last finer step, after which all steps are exact, and the excess that the finer steps are
+    /// allowed.
     const FINER_STEPS: (u64, f64) = (6, 0.5);
-    /// The step length below which all later steps are exact, as a fraction of the duration.
+    /// The length of a step at and below which the next step is exact, as a fraction of the duration.
     const EXACT_BELOW_STEP: f64 = 0.005;
-    /// The distance below which all steps are exact, as a multiple of the tolerance.
+    /// The distance at and below which the next step is exact, as a multiple of the tolerance.
     const EXACT_BELOW_DISTANCE: f64 = 16.0;
 
     let exact = last.is_some_and(|last| {

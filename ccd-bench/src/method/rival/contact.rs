@@ -23,15 +23,15 @@ use leaf::{FirstTouch, first_touch};
 use relative::RelativeMotion;
 use rigid_ccd::table::motions::Motions;
 
-/// The ratio above which time is halved: the radius of the enclosure of a box's placement over the half length of the
-/// longer box. Otherwise the boxes are opened.
+/// The ratio of the motion's spread to the larger box's half length above which an interval of time is halved. The
+/// spread is the radius of the enclosure of a corner's position over the interval. Otherwise the boxes are opened.
 ///
 /// Values from 0.1 to 2 were measured; this one is the fastest, on knots of 2,880 and 11,520
 /// triangles and a bunny of 26,000.
 const MAX_RELATIVE_SPREAD: f64 = 0.2;
 
-/// Finds the first contact of two triangle meshes, each of which moves by the
-/// [to_screw_motions](super::to_screw_motions()) between the start and the end pose of its motion.
+/// Finds the first contact of two triangle meshes that move by [screw motions](super::to_screw_motions()) between the
+/// start and end poses of their given motions.
 ///
 /// # Guarantee
 /// Except for rounding, no contact of the screw motions is missed or reported late. At the reported
@@ -53,10 +53,10 @@ pub struct Contact {
     static_stack: Vec<(u32, u32)>,
 }
 
-/// The work limits of one query, some seconds.
+/// The limits on the work of one query, which let it run for some seconds.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
-    /// The maximum number of pairs of boxes examined.
+    /// The maximum number of pairs of boxes to examine.
     pairs: u64,
     /// The maximum number of halvings of time. Surfaces that slide past each other at a distance g are only separated
     /// over intervals in which they move by about g.
@@ -68,7 +68,7 @@ const LIMITS: Limits = Limits {
     max_halvings: 1 << 22,
 };
 
-/// A node of each tree, over an interval of time.
+/// A pair of nodes, one of each tree, over an interval of time.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     nodes: [u32; 2],
@@ -86,7 +86,7 @@ impl Contact {
         }
     }
 
-    /// Returns the first contact for the given motions, which need not be screws.
+    /// Finds the first contact along exactly the given motions, which need not be screws.
     fn first_contact(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, tolerance);
@@ -117,7 +117,7 @@ impl Contact {
 }
 
 impl Solver for Contact {
-    /// Answers a query; the reply counts the halvings of time as steps.
+    /// Answers a query; the reply counts halvings of time as steps.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         match to_screw_motions(query) {
             Ok(query) => self.first_contact(&query, tolerance),
@@ -132,7 +132,7 @@ struct Search<'a> {
     motion_encloser: MotionEncloser,
     max_pairs: u64,
     stack: &'a mut Vec<Pair>,
-    /// The time after which nothing matters: the first known contact, or the duration.
+    /// The end of the time to search: the earliest contact found so far, or else the duration.
     end: f64,
 }
 
@@ -174,8 +174,8 @@ impl Search<'_> {
         }
     }
 
-    /// Examines a pair: drops it, pushes its halves or children onto the stack, or finds when it
-    /// touches.
+    /// Examines a pair: drops it if its boxes stay apart, pushes halves or children onto the stack, or tests its two
+    /// triangles.
     fn visit_pair(&mut self, pair: Pair) -> FirstTouch {
         let Pair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);

@@ -1,5 +1,5 @@
-//! Implements the dynamic collision checker, which halves time until the distances at both ends prove each segment
-//! free.
+//! Implements the dynamic collision checker, which halves time until the distances at the ends of each segment prove
+//! the segment free.
 
 use super::RivalMotion;
 use super::patience::WorkLimit;
@@ -13,7 +13,7 @@ use rigid_ccd::table::motions::Motions;
 #[cfg(test)]
 mod tests;
 
-/// The method of adaptive dynamic collision checking \[DCC02\], for two rigid bodies.
+/// A solver by adaptive dynamic collision checking \[DCC02\], for two rigid bodies.
 ///
 /// A segment of time is free if no point of one body, as seen from the other, travels as far as the
 /// sum of the distances at both ends. Otherwise it is halved, the earlier half first, until nothing
@@ -43,7 +43,7 @@ pub struct DynamicChecker {
     pairs: Vec<(Pair, f64)>,
 }
 
-/// The largest distance of a body's points from its last centre of rotation, kept from query to query.
+/// A cache of the largest distance of a body's points from its centre of rotation, valid until the centre changes.
 #[derive(Clone, Copy, Debug, Default)]
 struct CachedRadius(Option<(DVec3, f64)>);
 
@@ -56,21 +56,21 @@ struct Segment {
     distance_at_end: f64,
 }
 
-/// The required precision of a distance.
+/// The precision at which a lower bound of the distance suffices, so that a descent may stop.
 #[derive(Clone, Copy, Debug)]
 struct RequiredPrecision {
-    /// The distance above which no larger bound is needed.
+    /// The lower bound of the distance that suffices: above it, no larger bound is needed.
     sufficient_distance: f64,
-    /// The largest size of unopened nodes, as a multiple of their distance.
+    /// The largest size of nodes that may stay unopened, as a multiple of their distance.
     coarseness: f64,
 }
 
-/// The result of bounding a distance from below.
+/// The result of computing a lower bound of the bodies' distance.
 #[derive(Clone, Copy, Debug)]
 enum LowerBound {
     Apart(f64),
     Touching,
-    /// The work limit was reached, or numbers are not finite.
+    /// The work limit was reached, or a computed distance was NaN.
     GaveUp,
 }
 
@@ -78,10 +78,10 @@ enum LowerBound {
 struct QueryTask {
     a: RivalMotion,
     b: RivalMotion,
-    /// A bound on the relative speed of any two points of the bodies.
+    /// An upper bound of the relative speed of any two points of the bodies.
     speed: f64,
     tolerance: f64,
-    /// The earliest time at which the bodies were found to touch.
+    /// The earliest time at which the bodies were found to touch; `None` until then.
     earliest_touch: Option<f64>,
     steps: u64,
     pairs_left: u64,
@@ -163,7 +163,8 @@ impl DynamicChecker {
         }
     }
 
-    /// Drops a segment that is proven free, and halves one that may not be free. Returns a claim if the search ends.
+    /// Drops a segment that is proven free, reports a contact in one that is short enough, and halves any other.
+    /// Returns a claim if the search ends.
     fn examine_segment(&mut self, segment: Segment, task: &mut QueryTask) -> Option<Claim> {
         let Segment {
             start: from,
@@ -220,7 +221,8 @@ impl DynamicChecker {
         None
     }
 
-    /// Returns the least distance of nodes at which a descent of both trees stops.
+    /// Returns a lower bound of the distance of the bodies at a time, by a descent of both trees to the required
+    /// precision.
     fn distance_lower_bound(
         &mut self,
         time: f64,
@@ -267,7 +269,7 @@ impl DynamicChecker {
         LowerBound::Apart(least)
     }
 
-    /// Pushes two pairs, the nearer one on top, without pairs that cannot matter.
+    /// Pushes two pairs onto the stack, the nearer one on top, but drops those that are not nearer than `least`.
     fn push_pairs(&mut self, [first, second]: [Pair; 2], least: f64) {
         let (first, second) = (
             (first, self.trees.distance(&first)),
@@ -288,9 +290,9 @@ impl DynamicChecker {
 
 impl RequiredPrecision {
     fn coarse_up_to(sufficient: f64) -> Self {
-        /// The default ratio of a node's size to its distance above which it is opened, the fastest on the scenes. At
-        /// 0, three times as much work goes into distances that are better than needed. Without a bound, as published,
-        /// up to twenty times as much work goes into halvings.
+        /// The ratio of the nodes' size to their distance above which they are opened; this value is the fastest on the
+        /// scenes. At 0, three times as much work goes into distances that are better than needed. Without a bound, as
+        /// published, up to twenty times as much work goes into halvings.
         const COARSENESS: f64 = 16.0;
         RequiredPrecision {
             sufficient_distance: sufficient,
@@ -305,7 +307,7 @@ impl RequiredPrecision {
         }
     }
 
-    /// Returns true if nodes at a distance, of the given sizes, are precise enough to be left unopened.
+    /// Returns true if two nodes with this distance and these sizes need not be opened.
     fn is_met(self, distance: f64, sizes: impl Fn() -> f64) -> bool {
         distance > 0.0
             && (distance > self.sufficient_distance || sizes() <= self.coarseness * distance)

@@ -84,7 +84,7 @@ impl<T: Add<Output = T> + Sub<Output = T>> Sub for Interval<T> {
 }
 
 impl IntervalVec {
-    /// Returns the interval of dot products with a vector.
+    /// Returns the interval of the dot products of this interval's vectors with a vector.
     #[inline]
     pub(super) fn dot_point(self, other: DVec3) -> Interval {
         Interval {
@@ -93,7 +93,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the interval of dot products with the vectors of another interval.
+    /// Returns the interval of the dot products of this interval's vectors with those of another interval.
     #[inline]
     pub(super) fn dot(self, other: IntervalVec) -> Interval {
         Interval {
@@ -103,7 +103,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the interval of cross products with a vector.
+    /// Returns the interval of the cross products of this interval's vectors with a vector.
     #[inline]
     pub(super) fn cross_point(self, other: DVec3) -> IntervalVec {
         IntervalVec {
@@ -112,7 +112,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the interval of cross products with the vectors of another interval.
+    /// Returns the interval of the cross products of this interval's vectors with those of another interval.
     #[inline]
     pub(super) fn cross(self, other: IntervalVec) -> IntervalVec {
         IntervalVec {
@@ -122,7 +122,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the interval of differences from a vector.
+    /// Returns the interval of the differences between this interval's vectors and a vector.
     #[inline]
     pub(super) fn minus_point(self, other: DVec3) -> IntervalVec {
         IntervalVec {
@@ -144,7 +144,7 @@ impl IntervalVec {
     }
 }
 
-/// Returns the formula of the cross product with plus instead of minus, by which radii add up.
+/// Returns the cross product with sums in place of differences, which bounds the radius of a cross product.
 #[inline]
 pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(
@@ -191,7 +191,7 @@ impl Mul for IntervalMat {
 }
 
 impl IntervalMat {
-    /// Returns the transposed matrix interval.
+    /// Returns the interval of the transposed matrices.
     pub(super) fn transpose(self) -> IntervalMat {
         IntervalMat {
             middle: self.middle.transpose(),

@@ -3,7 +3,7 @@
 use ccd_core::glam::DVec3;
 use wide::f64x4;
 
-/// Four vectors, stored by coordinates.
+/// Four vectors in SIMD lanes, with one register for each coordinate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vec3x4(pub(super) [f64x4; 3]);
 
@@ -87,7 +87,7 @@ impl Vec3x4 {
 }
 
 impl ShortestVectors {
-    /// Returns the state before any vectors are added.
+    /// Returns the state before any vectors are added, with infinite lengths.
     #[inline(always)]
     pub(super) fn empty() -> Self {
         ShortestVectors {

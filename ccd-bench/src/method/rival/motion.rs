@@ -1,4 +1,4 @@
-//! Computes the pose of a moving body from the formula of its motion.
+//! Computes the pose of a moving body by a formula that the engine does not share.
 
 use ccd_core::Motion;
 use ccd_core::glam::{DMat3, DQuat, DVec3};

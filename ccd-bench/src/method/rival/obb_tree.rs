@@ -107,8 +107,9 @@ impl Obb {
     }
 }
 
-/// Partitions triangles by their centres: on which side of the mean they are along the longest axis. If all lie on one
-/// side, the next axis is used, and halves if no axis splits them. Returns the number of triangles in the first part.
+/// Partitions triangles by the side of the mean on which their centres lie along the box's longest axis. If all lie on
+/// one side, the next axis is used, and halves if no axis splits them. Returns the number of triangles in the first
+/// part.
 fn partition_triangles(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {
     for axis in [axes.x_axis, axes.y_axis, axes.z_axis] {
         let before = |t: &[DVec3; 3]| (t[0] + t[1] + t[2] - 3.0 * mean).dot(axis) < 0.0;

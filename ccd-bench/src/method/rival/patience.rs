@@ -1,4 +1,4 @@
-//! The limit on the work of a rival in one query.
+//! Defines the limit on the work of a rival in one query.
 
 /// The maximum work of a rival in one query.
 #[derive(Clone, Copy, Debug)]

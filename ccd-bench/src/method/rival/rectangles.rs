@@ -59,7 +59,7 @@ fn corners(lengths: DVec2, placement: &Placement) -> Vec3x4 {
         .plus_scaled(y, placement.rotation.y_axis)
 }
 
-/// Returns the vectors from the nearest points of a rectangle, in its own frame, to the given points.
+/// Returns the vector to each given point from the nearest point of a rectangle, in the rectangle's frame.
 #[inline(always)]
 fn vectors_from_face(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
     let zero = f64x4::splat(0.0);
@@ -70,7 +70,8 @@ fn vectors_from_face(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
     ])
 }
 
-/// Returns the vectors between the four pairs of edges of A along axis `I` and of B along axis `J`.
+/// Returns `shortest` with the vectors between four pairs of edges added: those of A along axis `I` with those of B
+/// along axis `J`.
 #[inline(always)]
 fn vectors_between_edges<const I: usize, const J: usize>(
     shortest: ShortestVectors,
@@ -112,7 +113,7 @@ fn straddles_plane(Vec3x4([_, _, z]): Vec3x4) -> bool {
     z.simd_lt(zero).any() && z.simd_gt(zero).any()
 }
 
-/// Returns true if an edge between successive corners runs through a rectangle in its own frame.
+/// Returns true if an edge between two successive corners passes through a rectangle, in that rectangle's frame.
 fn edges_pierce(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> bool {
     let next = |v: f64x4| {
         let [a, b, c, d] = v.to_array();

@@ -11,7 +11,7 @@ use rigid_ccd::table::motions::Motions;
 /// at 2⁻¹² about 3e-13 of the travel.
 const MIN_HALF_ANGLE_SINE: f64 = 1.0 / 4096.0;
 
-/// The largest distance of a point's positions on two equal motions due to rounding, as a share of its displacement.
+/// The largest distance of two positions that count as equal up to rounding, as a share of the motion's displacement.
 const ROUNDING_SHARE: f64 = 1e-9;
 
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose

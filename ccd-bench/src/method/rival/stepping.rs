@@ -1,4 +1,4 @@
-//! Tests the bodies for intersection at equal steps, the usual practice without continuous collision detection.
+//! Tests the bodies for intersection at equal steps in time, the usual practice without continuous collision detection.
 
 use super::RivalMotion;
 use super::obb_tree::{ObbTree, trees_intersect};
@@ -7,10 +7,10 @@ use crate::method::solver::{Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
-/// The maximum number of samples of one query, some seconds of work.
+/// The maximum number of samples of one query, which take some seconds.
 const MAX_SAMPLES: u64 = 1 << 20;
 
-/// The method of static intersection tests at equal steps in time.
+/// A solver by static intersection tests at equal steps in time.
 ///
 /// # Guarantee
 /// None. The steps are so short that no point moves by more than the tolerance from one to the
@@ -42,7 +42,7 @@ impl Stepping {
 }
 
 impl Solver for Stepping {
-    /// Answers a query; its steps are samples, of which the last is at the end of the duration.
+    /// Answers a query; the reply counts samples as steps, from the start of the motions to their end.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let step = resolution(&courses, &self.trees, tolerance);

@@ -12,7 +12,7 @@ mod fit;
 #[cfg(test)]
 mod tests;
 
-/// A tree over all triangles of a mesh, one per leaf \[PQP99 §3\].
+/// A tree of rectangles swept by spheres over the triangles of a mesh, one triangle per leaf \[PQP99 §3\].
 ///
 /// A node splits at the mean of its triangles' centres along its longest axis. The authors leave
 /// the case of a lopsided split open. Here it becomes a split into halves, so that no tree is deep.
@@ -48,11 +48,11 @@ pub(super) struct Trees {
 pub(super) struct Pair {
     pub(super) a: u32,
     pub(super) b: u32,
-    /// B's rectangle in the frame of A's.
+    /// The frame of B's rectangle in the frame of A's rectangle.
     placement: Placement,
 }
 
-/// What is below a pair of nodes.
+/// The pairs below a pair of nodes.
 pub(super) enum PairChildren {
     /// The children of one node, each paired with the other node.
     Pairs([Pair; 2]),
@@ -67,7 +67,7 @@ pub(super) struct TrianglePair {
     b: u32,
 }
 
-/// A lower bound of the distance of two nodes, with its direction.
+/// A lower bound of the distance of two nodes, with the direction from A to B.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     /// The lower bound of the distance; zero if the nodes overlap.
@@ -98,7 +98,7 @@ impl RssTree {
         farthest.sqrt() + node.radius
     }
 
-    /// Returns the number of nodes in the tree.
+    /// Returns the number of nodes in the tree, including leaves.
     pub(super) fn len(&self) -> usize {
         self.nodes.len()
     }
@@ -165,7 +165,7 @@ impl Trees {
         }
     }
 
-    /// Returns the largest amount by which the distance of the nodes' contents can exceed that of the nodes.
+    /// Returns an upper bound of how much farther apart the triangles in two nodes can be than the nodes are.
     pub(super) fn distance_slack(&self, pair: &Pair) -> f64 {
         let (a, b) = self.nodes(pair);
         a.diameter_bound() + b.diameter_bound()
@@ -178,7 +178,8 @@ impl Trees {
         nearest(&self.a.triangles[leaves.a as usize], &moved)
     }
 
-    /// Returns the children of the larger node \[PQP99 §5\], or the triangles of two leaves.
+    /// Returns the pairs that replace a pair of nodes: the larger node is opened \[PQP99 §5\], and two leaves give
+    /// their triangles.
     #[inline]
     pub(super) fn children(&self, pair: &Pair) -> PairChildren {
         let (a, b) = self.nodes(pair);

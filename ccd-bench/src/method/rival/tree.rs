@@ -2,10 +2,10 @@
 
 use super::triangles_apart::Triangle;
 
-/// What is below a node of a tree.
+/// The children of a node, or the triangle of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NodeContent {
-    /// The node contains these two nodes.
+    /// The node has two children, given by their indices.
     Nodes([u32; 2]),
     /// The node is a leaf, and contains the triangle with this index.
     Triangle(u32),

@@ -121,7 +121,7 @@ fn nearest_edge_points(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
 /// represent the triangle, since its normal is mostly rounding.
 const MIN_HEIGHT_RATIO: f64 = 1e-12;
 
-/// A triangle with its normal, to which distances of points are computed.
+/// A triangle with its normal, from which the heights of points above the triangle's plane are computed.
 struct TrianglePlane {
     corners: Triangle,
     /// The normal, not of unit length; zero for a needle.
@@ -176,7 +176,8 @@ impl TrianglePlane {
         inside(a, u) & inside(b, v) & inside(c, w)
     }
 
-    /// Returns the lowest of the points that are above the triangle itself: its squared height, its foot and its index.
+    /// Returns the squared height, the foot and the index of the point nearest to the plane, among those that project
+    /// into the triangle.
     #[inline(always)]
     fn least_height(&self, heights: f64x4, points: &Triangle) -> Option<(f64, DVec3, usize)> {
         if self.is_needle() {
@@ -195,7 +196,7 @@ impl TrianglePlane {
     }
 }
 
-/// Returns the point where an edge of a triangle runs through a face, from the heights of its corners.
+/// Returns the point where an edge of the triangle `corners` passes through `face`, given the heights of the corners.
 fn piercing_point(face: &TrianglePlane, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
@@ -224,7 +225,8 @@ fn pack_vectors([a, b, c]: &Triangle) -> Vec3x4 {
     Vec3x4::new([*a, *b, *c, *a])
 }
 
-/// Returns the reciprocal in each lane, and zero for zero: the nearest point of an edge without length is its start.
+/// Returns the reciprocal in each lane, or zero where a lane is zero. The nearest point of an edge without length is
+/// then its start.
 #[inline(always)]
 fn reciprocal(x: f64x4) -> f64x4 {
     let zero = f64x4::splat(0.0);

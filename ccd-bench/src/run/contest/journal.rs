@@ -10,13 +10,13 @@ use std::collections::{HashMap, HashSet};
 use std::fs::{self, OpenOptions};
 use std::path::{Path, PathBuf};
 
-/// The files `chart.csv` and `trials.csv` in a folder, to which one cell is added at a time.
+/// The measurements in the files `chart.csv` and `trials.csv` of a folder, to which one cell is added at a time.
 #[derive(Debug)]
 pub struct Journal {
     cells: Vec<Cell>,
     trials: Vec<Trial>,
     folder: PathBuf,
-    /// The claim that excludes other processes from the folder.
+    /// The claim that keeps other processes from writing to the folder; `None` if the journal is only read.
     _folder_lock: Option<Claim>,
 }
 
@@ -25,11 +25,11 @@ const STAMP_FILE: &str = "measured-with.txt";
 const CHART_FILE: &str = "chart.csv";
 const TRIALS_FILE: &str = "trials.csv";
 
-/// The scene, the method and the bits of the tolerance of a cell.
+/// The key of a cell: its scene, its method, and the bits of its tolerance.
 type Key = (String, String, u64);
 
 impl Journal {
-    /// Opens the journal in a folder. Keeps its content if it was measured with the same stamp, and
+    /// Opens the journal in a folder for writing. Keeps its content if it was measured with the same stamp, and
     /// otherwise moves it aside.
     ///
     /// # Errors
@@ -62,7 +62,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Reads the journal of a folder, whatever its settings.
+    /// Reads the journal in a folder, whatever settings its measurements were made with.
     pub fn read(folder: &Path) -> Self {
         let mut cells: Vec<Cell> = read_valid_rows(&folder.join(CHART_FILE));
         let mut trials: Vec<Trial> = read_valid_rows(&folder.join(TRIALS_FILE));
@@ -82,7 +82,7 @@ impl Journal {
         }
     }
 
-    /// Returns true if a cell has been measured.
+    /// Returns true if the journal has the cell of this scene, method and tolerance.
     pub fn has_cell(&self, scene: &str, method: &str, tolerance: f64) -> bool {
         let is = |cell: &Cell| {
             cell.scene == scene && cell.method == method && cell.tolerance == tolerance
@@ -118,7 +118,7 @@ impl Journal {
     }
 }
 
-/// Returns the line of a stamp that identifies this program.
+/// Returns a line of text that identifies this build of the program by a checksum.
 pub fn program_stamp() -> String {
     let program = std::env::current_exe().and_then(fs::read);
     let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
@@ -135,7 +135,7 @@ fn trial_key(trial: &Trial) -> Key {
     (trial.scene.clone(), trial.method.clone(), tolerance)
 }
 
-/// Reads the rows of a table up to the first invalid one, which an interruption may have truncated.
+/// Reads the rows of a table up to the first invalid row, which an interruption may have truncated.
 fn read_valid_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
     let Ok(reader) = csv::Reader::from_path(path) else {
         return Vec::new();

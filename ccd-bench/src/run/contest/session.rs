@@ -11,7 +11,7 @@ use rigid_ccd::table::motions::Motions;
 use std::io;
 use std::time::{Duration, Instant};
 
-/// A method that is ready for queries about one scene.
+/// A method that is prepared for queries about one scene, with the solver or the process that answers.
 pub struct Session<'s> {
     method: Method,
     runner: Runner<'s>,
@@ -56,8 +56,8 @@ impl<'s> Session<'s> {
         self.method
     }
 
-    /// Runs some queries for a limited time, for solvers that prepare pieces on first use. Returns the number of
-    /// prepared queries.
+    /// Answers queries for a limited time before they are measured, if the solver prepares pieces on first use. Returns
+    /// the number of prepared queries.
     pub(super) fn run_warm_up_queries<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Motions>,

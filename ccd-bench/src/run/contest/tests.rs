@@ -16,7 +16,8 @@ fn cube() -> TriangleMesh {
     cuboid(0.5, 0.5, 0.5).unwrap()
 }
 
-/// Returns a query in which a cube flies at another from 4 away with speed 8, with contact at 3/8.
+/// Returns a query in which a cube flies at speed 8 towards another cube, whose centre is 4 away, so that they touch at
+/// 3/8.
 fn flight() -> Motions {
     let start = Pose::at(-4.0 * DVec3::X).unwrap();
     Motions {

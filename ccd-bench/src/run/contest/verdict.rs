@@ -44,24 +44,24 @@ pub enum Verdict {
 pub struct Judgement {
     /// The verdict on the claim.
     pub verdict: Verdict,
-    /// The distance of the reported time of contact from the bracket of the true one, as a fraction
-    /// of the duration; `None` if either time is missing.
+    /// The distance of the reported time of contact from the bracket of the exact one, as a fraction of the duration;
+    /// `None` if either time is missing.
     pub time_error: Option<f64>,
 }
 
-/// The lateness above which a contact is late, as a fraction of the duration. Poses by two formulas of one motion
-/// differ by about 1e-15 of the coordinates, and the slowest scene moves by a hundredth of these during its duration;
-/// the value is ten times that.
+/// The lateness above which a reported contact is judged late, as a fraction of the duration. Poses by two formulas of
+/// one motion differ by about 1e-15 of the coordinates, and the slowest scene moves by a hundredth of these during its
+/// duration; the value is ten times that.
 const MAX_LATENESS: f64 = 1e-12;
 
 /// The widest bracket that counts as an exact time, as a fraction of the duration.
 const MAX_BRACKET_WIDTH: f64 = 1e-9;
 
-/// The allowed excess of a solver's distance over the tolerance due to rounding, as a fraction of the tolerance.
+/// The allowed excess of the bodies' distance over the tolerance due to rounding, as a fraction of the tolerance.
 const ROUNDING: f64 = 1e-6;
 
 impl Judgement {
-    /// Returns a judgement for claims whose time is not compared with the exact one.
+    /// Returns a judgement without a time error, for a claim whose time is not compared with the exact one.
     pub fn without_error(verdict: Verdict) -> Self {
         Judgement {
             verdict,
@@ -70,7 +70,7 @@ impl Judgement {
     }
 }
 
-/// Judges the outcome of a query, where the function `judge` judges a reply.
+/// Judges the outcome of a query: a reply by the function `judge`, and a stopped or crashed process without it.
 pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judgement) -> Judgement {
     match outcome {
         QueryOutcome::Answered(timed) => judge(&timed.reply),
@@ -79,7 +79,7 @@ pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judge
     }
 }
 
-/// Judges a claim made with a tolerance.
+/// Judges a claim about a query by the exact answer and the tolerance.
 pub fn judge(
     referee: &Referee<'_>,
     query: &Motions,
@@ -119,8 +119,8 @@ pub fn is_within_tolerance(
     referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING)
 }
 
-/// Judges a claim about bodies whose first contact is between `lo` and `hi`; `near` returns whether they are within the
-/// tolerance at a time.
+/// Judges a claim about bodies whose exact first contact is between `lo` and `hi`; `near` tells whether the bodies are
+/// within the tolerance at a time.
 pub fn judge_contact(
     duration: f64,
     [lo, hi]: [f64; 2],

@@ -111,7 +111,7 @@ struct Ripple {
     phase: f64,
 }
 
-/// The number of plane waves that are added up.
+/// The number of plane waves that add up to the ripples.
 const RIPPLE_COUNT: usize = 24;
 /// The highest wave number along each axis, in radians per core radius.
 const MAX_WAVE_NUMBER: f64 = 20.0;

@@ -1,10 +1,10 @@
-//! Makes a box: two triangles per side, the coarsest closed mesh of it.
+//! Makes the mesh of a box with two triangles per side.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 
-/// Corner `k` has a positive x, y, z if bit 2, 1, 0 of `k` is set; two triangles per side, for −x,
-/// +x, −y, +y, −z, +z.
+/// The triangles of a box, two per side, in the order −x, +x, −y, +y, −z, +z. Corner `k` has a positive x, y, z if bit
+/// 2, 1, 0 of `k` is set.
 const FACES: [[u32; 3]; 12] = [
     [0, 1, 3],
     [0, 3, 2],

@@ -1,12 +1,13 @@
-//! Makes a ring: a torus, through whose hole a body passes only with exact methods.
+//! Makes the mesh of a torus. A body can pass through its hole only with methods that do not fill it by a hull.
 
 use super::grid::closed_grid;
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
 
-/// Returns the closed mesh of a torus about the z axis: `2 · segments · sides` triangles of as many cross-sections of
-/// the tube, at least 3, with as many corners, at least 3. The radius is that from the axis to the middle of the tube.
+/// Returns the closed mesh of a torus about the z axis, with `segments` cross-sections of `sides` corners each. Either
+/// number is at least 3, and the mesh has `2 · segments · sides` triangles. The radius is that from the axis to the
+/// middle of the tube.
 ///
 /// # Errors
 /// If a number of parts is too small or too large for a mesh.

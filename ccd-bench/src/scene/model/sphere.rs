@@ -3,7 +3,7 @@
 use ccd_core::glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Returns the unit vectors of a sphere's vertices, and its `2 · vertices − 4` triangles, outward.
+/// Returns the vertices of a triangulated unit sphere, and its `2 · vertices − 4` triangles, which face outward.
 ///
 /// Circles of latitude at equal spacing hold vertices in proportion to their length, and are joined
 /// by strips of triangles. The construction needs about 12 vertices.
@@ -37,7 +37,7 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (points, faces)
 }
 
-/// A circle of latitude: consecutive vertices, eastward; at a pole it has one vertex.
+/// A circle of latitude: vertices with consecutive indices, counted eastward; a pole is a circle of one vertex.
 #[derive(Clone, Copy)]
 struct Ring {
     first: u32,
@@ -59,7 +59,7 @@ impl Ring {
     }
 }
 
-/// Returns the number of vertices on each circle of latitude, without the poles.
+/// Returns the number of vertices on each circle of latitude from north to south, without the poles.
 fn ring_counts(vertices: usize) -> Vec<usize> {
     let between_poles = vertices.saturating_sub(2) as f64;
     // The height of equilateral triangles of area 4π / (2 · vertices).
@@ -80,8 +80,8 @@ fn ring_counts(vertices: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Adds the strip of triangles between two circles, the northern one first. The next step is always
-/// the one whose middle comes first, which keeps the triangles well shaped.
+/// Adds the strip of triangles between two neighbouring circles of latitude, the northern one given first. The next
+/// step is always the one whose middle comes first, which keeps the triangles well shaped.
 fn join_rings(north: Ring, south: Ring, faces: &mut Vec<[u32; 3]>) {
     let (n, s) = (north.steps(), south.steps());
     let (mut i, mut j) = (0, 0);

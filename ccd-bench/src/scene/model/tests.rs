@@ -2,7 +2,7 @@ use super::*;
 use ccd_core::order::greater;
 use std::collections::HashSet;
 
-/// Returns six times the volume that a closed mesh encloses.
+/// Returns the volume that a closed mesh encloses.
 fn sextuple_volume(mesh: &TriangleMesh) -> f64 {
     let v = mesh.vertices();
     let tetrahedron =
@@ -10,7 +10,7 @@ fn sextuple_volume(mesh: &TriangleMesh) -> f64 {
     mesh.faces().iter().map(tetrahedron).sum()
 }
 
-/// Asserts that every directed edge appears once in a mesh, and its opposite once.
+/// Asserts that every directed edge of a mesh appears once, and so does the edge in the opposite direction.
 fn assert_closed(mesh: &TriangleMesh, name: &str) {
     let mut edges = HashSet::new();
     for &[a, b, c] in mesh.faces() {

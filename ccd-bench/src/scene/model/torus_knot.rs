@@ -7,13 +7,13 @@ use std::f64::consts::TAU;
 
 /// The number of turns of the knot around the torus' axis.
 const TURNS: f64 = 2.0;
-/// The number of turns of the knot around the torus' tube in the same period.
+/// The number of turns of the knot around the torus' tube, while it makes all its turns around the axis.
 const WINDINGS: f64 = 3.0;
-/// The radius of the torus that the knot lies on, and the radius of the torus' tube.
+/// The radius of the torus on which the knot lies, and the radius of the tube of this torus.
 const TORUS_RADII: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
 
-/// Returns the closed mesh of a tube around the (2, 3) torus knot, the trefoil, centred at the torus' centre:
-/// `2 · segments · sides` triangles of as many rings along the tube, at least 3, with as many corners, at least 3. The
+/// Returns the closed mesh of a tube around the (2, 3) torus knot, the trefoil, with its centre at the origin. The tube
+/// has `segments` rings of `sides` corners each, at least 3 of either, and so `2 · segments · sides` triangles. The
 /// tube's radius is below 0.33, at which it would touch itself in the middle.
 ///
 /// # Errors

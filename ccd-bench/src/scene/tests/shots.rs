@@ -1,4 +1,4 @@
-//! Makes motions of bodies that are shot at resting ones.
+//! Makes motions of bodies that fly at resting bodies.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
@@ -13,7 +13,7 @@ use std::ops::Range;
 pub(crate) struct Shots {
     /// The number of flights to make.
     pub(crate) count: usize,
-    /// The number of flights, the first ones, that do not rotate.
+    /// The number of flights without rotation, which come first.
     pub(crate) translation_count: usize,
     /// The range of distances from the resting body's origin at which flights start.
     pub(crate) distance: Range<f64>,
@@ -47,8 +47,8 @@ impl Shots {
     }
 }
 
-/// Returns drops of a body of radius 1 from height 5 to −5 with 3/8 of a turn. A board that reaches
-/// 1.5 to either side lies across its way, each time a little lower, or in one of four drops so far
+/// Returns queries in which a body of radius 1 falls from height 5 to −5, with 3/8 of a turn, past a resting board. A
+/// board that reaches 1.5 to either side lies across its way, each time a little lower, or in one of four drops so far
 /// aside that the body hardly passes it.
 ///
 /// # Errors
@@ -94,7 +94,7 @@ fn random_unit_ball_point(rng: &mut impl Rng) -> DVec3 {
     radius * random_unit_vector(rng)
 }
 
-/// Returns a uniformly distributed rotation: a point of the sphere in four dimensions.
+/// Returns a uniformly distributed rotation, as a point of the unit sphere in four dimensions.
 fn orientation(rng: &mut impl Rng) -> DQuat {
     let share: f64 = rng.random_range(0.0..1.0);
     let (sin_a, cos_a) = rng.random_range(0.0..TAU).sin_cos();

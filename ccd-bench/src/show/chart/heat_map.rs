@@ -11,10 +11,10 @@ use anyhow::Result;
 use plotters::style::text_anchor::HPos;
 use plotters::style::{FontTransform, RGBColor, WHITE};
 
-/// A heat map of families and methods.
+/// A heat map with a row for each family of scenes, and a column for each method.
 #[derive(Clone, Debug)]
 pub struct HeatMap {
-    /// What the colours of the cells show.
+    /// The kind of map: what the colours of its cells mean.
     pub kind: &'static HeatMapKind,
     /// The names of the methods, one for each column.
     pub methods: Vec<String>,
@@ -33,7 +33,7 @@ pub struct HeatRow {
     pub cells: Vec<Option<HeatCell>>,
 }
 
-/// What the colours of a heat map show, in words.
+/// The texts of a heat map that say what its colours mean: title, remark and legend.
 #[derive(Debug)]
 pub struct HeatMapKind {
     title: &'static str,
@@ -42,7 +42,7 @@ pub struct HeatMapKind {
     legend: &'static [(&'static str, RGBColor)],
 }
 
-/// The kind of map that shows how far each method is right in each family: cells of [`HeatCell::reach`].
+/// The kind of map that shows how far each method is right in each family; it has cells of [`HeatCell::reach`].
 pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
     title: "How far each method follows each family: bluer is better",
     remark: [
@@ -59,7 +59,8 @@ pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
     ],
 };
 
-/// The kind of map that shows how the cost of each method grows: cells of [`HeatCell::cost_growth`].
+/// The kind of map that shows how the cost of each method grows in each family; it has cells of
+/// [`HeatCell::cost_growth`].
 pub const COST_GROWTH: &HeatMapKind = &HeatMapKind {
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
     remark: [
@@ -74,7 +75,7 @@ pub const COST_GROWTH: &HeatMapKind = &HeatMapKind {
     ],
 };
 
-/// The colours of growing costs, from light to dark: up to 3, 30 and 1000 times, and more.
+/// The colours of cost growth, from light to dark: up to 3, 30 and 1000 times, and more.
 const GROWTH_COLOURS: [RGBColor; 4] = [
     RGBColor(0xea, 0xf2, 0xf8),
     RGBColor(0x9e, 0xc4, 0xe0),
@@ -90,18 +91,20 @@ const ROW_HEIGHT: f64 = 24.0;
 const BAR_HEIGHT: f64 = 5.0;
 /// The distance of the first row from the top of the sheet, in pixels.
 const FIRST_ROW_TOP: f64 = 250.0;
-/// The font sizes of small and of the smallest text, in pixels.
+/// The font size of small text, in pixels.
 const SMALL_FONT_SIZE: f64 = 10.5;
+/// The font size of the smallest text, in pixels.
 const SMALLEST_FONT_SIZE: f64 = 7.5;
 
-/// The colour of families in which all answers are right.
+/// The colour of cells in which all answers are right, and of bars.
 const CORRECT_COLOUR: RGBColor = COLOURS[0];
-/// The colour of missing answers.
+/// The colour of cells whose worst answer is undecided, refused or unresolved.
 const MISSING_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
-/// The colours of early contacts and of false contacts.
+/// The colour of cells whose worst answer is an early contact.
 const EARLY_COLOUR: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
+/// The colour of cells whose worst answer is a false contact.
 const FALSE_CONTACT_COLOUR: RGBColor = COLOURS[4];
-/// The colour of late and missed contacts.
+/// The colour of cells whose worst answer is a late or a missed contact.
 const MISSED_COLOUR: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
@@ -116,8 +119,9 @@ pub struct HeatCell {
 }
 
 impl HeatCell {
-    /// Returns the cell that shows how far a method is right: its worst verdict, the share of the values before the
-    /// first wrong answer, and the first value with the worst verdict, empty if all are right.
+    /// Returns the cell that shows how far a method is right in a family. `worst` is its worst verdict, `share` is the
+    /// share of the values before the first wrong answer, and `limit` is the first value with the worst verdict, empty
+    /// if all are right.
     pub fn reach(worst: Verdict, share: f64, limit: String) -> Self {
         let (fill, word, ink) = verdict_style(worst);
         HeatCell {
@@ -128,7 +132,8 @@ impl HeatCell {
         }
     }
 
-    /// Returns the cell that shows the largest cost of a step, as a multiple of that of the easiest one.
+    /// Returns the cell that shows by which factor a method's cost grows, from the easiest value of a family to the
+    /// costliest.
     pub fn cost_growth(factor: f64) -> Self {
         let steps = [3.0, 30.0, 1000.0].iter();
         let darkness = steps.filter(|&&most| factor > most).count();
@@ -237,7 +242,7 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
     Ok(())
 }
 
-/// Draws a cell at its upper left corner, with a given width.
+/// Draws a cell with the given upper left corner and width, in pixels.
 fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW_HEIGHT - 1.0;
     fill_rect(sheet, (x, y), (width, height), cell.fill)?;

@@ -1,4 +1,4 @@
-//! Draws the charts of time against error: one plane for each scene, with a strip for unsafe methods.
+//! Draws the chart of time against error: one plane for each scene, with a strip for unsafe methods.
 
 use super::plane::{
     HEAD_HEIGHT, PlotArea, PlotPoint, decades, draw_footer, draw_header, draw_marker, draw_series,
@@ -16,10 +16,10 @@ use plotters::prelude::*;
 const LEAST_ERROR: f64 = 1e-12;
 /// The number of planes side by side, and their height in pixels.
 const PANELS_AND_HEIGHT: (usize, f64) = (3, 260.0);
-/// The width in pixels of a method's lane in the strip of unsafe methods, and the least width of the strip.
+/// The width of a method's lane in the strip of unsafe methods, and the least width of the strip, in pixels.
 const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 
-/// Draws a plane for each scene that was measured; `None` without any.
+/// Returns the SVG text of the chart, with a plane for each measured scene; `None` if there are no times.
 pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
     let scenes = charts.measured_scenes();
     let shown = charts.methods_with_styles(&MethodFamily::COMPARED_FAMILIES);
@@ -127,7 +127,8 @@ fn draw_scene(
     Ok(())
 }
 
-/// Returns true if a cell's median is that of unfinished queries, so that the true time is longer.
+/// Returns true if half of a cell's queries or more are unresolved, so that its median is only a lower bound of the
+/// time.
 fn is_lower_bound(cell: &Cell) -> bool {
     cell.rows > 0 && 2 * cell.unresolved >= cell.rows
 }

@@ -28,10 +28,11 @@ pub(super) struct PlotArea {
     pub(super) y: (Range<f64>, &'static str),
 }
 
-/// A plane that is drawn on a sheet, with its coordinates.
+/// The drawing library's handle for a plane on a sheet, which converts values on the axes to positions.
 type Drawn<'a, 's> = ChartContext<'a, SVGBackend<'s>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 
-/// A point to draw, in the units of the axes. The quantity of `y` is at least this if the measurement was cut off.
+/// A point of a line on a plane, in the units of the axes. The quantity of `y` is at least this if the measurement was
+/// cut off.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlotPoint {
     pub(super) x: f64,
@@ -42,7 +43,8 @@ pub(super) struct PlotPoint {
 /// A method on a chart, with its style.
 pub(super) type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
 
-/// Returns the whole decades around positive values, at least one; `None` without values.
+/// Returns the range of whole decades that has all positive values, at least one decade; `None` without positive
+/// values.
 pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     let exponents = values.map(f64::log10).filter(|value| value.is_finite());
     let exponents: Vec<f64> = exponents.collect();
@@ -72,7 +74,8 @@ impl PlotArea {
         Ok(drawn)
     }
 
-    /// Prepares a plane of the same height without numbers and grid lines, such as a strip beside this one.
+    /// Prepares a plane with the same vertical axis, but without numbers and grid lines, such as a strip beside this
+    /// plane.
     pub(super) fn empty_plane_beside<'a, 's>(
         &self,
         sheet: &'a Sheet<'s>,
@@ -89,7 +92,7 @@ impl PlotArea {
     }
 }
 
-/// Draws a line through values, with a marker on each. Values beyond the axes are at the edge.
+/// Draws a line through points, with a marker on each. Values beyond the axes are at the edge.
 pub(super) fn draw_series(
     drawn: &mut Drawn<'_, '_>,
     plane: &PlotArea,
@@ -138,7 +141,7 @@ pub(super) fn draw_marker(
     Ok(())
 }
 
-/// Returns the marker of a method at a position.
+/// Returns the drawing of a method's marker at a position.
 fn glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
     let corners = style.corners();
     let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();

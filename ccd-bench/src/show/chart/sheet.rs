@@ -5,7 +5,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// The width of every chart in pixels, for the text width of a README.
+/// The width of every chart, in pixels, which fits the text of a README.
 pub(super) const CHART_WIDTH: f64 = 840.0;
 /// The width of the empty margin around a chart, in pixels.
 pub(super) const CHART_MARGIN: f64 = 10.0;
@@ -26,7 +26,7 @@ pub(super) type Sheet<'s> = DrawingArea<SVGBackend<'s>, Shift>;
 /// A position in pixels: right of and below the upper left corner.
 pub(super) type PixelPosition = (f64, f64);
 
-/// The size, weight, colour and alignment of a text.
+/// The size, colour, weight, alignment and rotation of a text.
 pub(super) struct TextFormat {
     pub(super) size: f64,
     pub(super) colour: RGBColor,

@@ -15,7 +15,7 @@ pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0x56, 0xb4, 0xe9),
     RGBColor(0x00, 0x00, 0x00),
 ];
-/// The colour of methods that are late or miss a contact.
+/// The colour of the strip for methods that are late or miss a contact.
 pub(super) const WARNING_COLOUR: RGBColor = COLOURS[1];
 /// The distance of a marker's corners from its centre, in pixels.
 pub(super) const MARKER_RADIUS: f64 = 4.5;

@@ -4,8 +4,8 @@ use crate::show::tables::tests::trial;
 
 const REFERENCE_METHOD: &str = "best-first direct";
 
-/// Returns trials of the default method on four rows, of which the last two are hard, and of a slow method on the first
-/// two.
+/// Returns trials of the reference method on four rows, the last two of which are hard, and of a slow method on the
+/// first two.
 fn trials() -> Vec<Trial> {
     let of = |method: &str, times: &[f64]| {
         let rows = times.iter().enumerate();

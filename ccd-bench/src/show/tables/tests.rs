@@ -1,7 +1,7 @@
 use super::*;
 use crate::run::contest::summarise_trials;
 
-/// Returns a trial at tolerance 1e-3.
+/// Returns a trial at tolerance 1e-3, with the given time in microseconds and verdict.
 pub(crate) fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: Verdict) -> Trial {
     Trial {
         scene: scene.to_owned(),

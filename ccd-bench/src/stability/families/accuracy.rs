@@ -1,4 +1,4 @@
-//! Scenes whose contact depends on the last digits: nearly parallel parts, hardly any overlap.
+//! Scenes whose contact depends on the last digits, because parts are nearly parallel or hardly overlap.
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
@@ -34,14 +34,14 @@ pub(super) fn families() -> Vec<Family> {
 /// The error of contact times computed from coordinates of a few units, at speeds of at least 1.
 const TIME_ERROR: f64 = 1e-14;
 
-/// Makes case T1, tilted by an angle: a face falls onto a face.
+/// Makes a cube that falls onto a slab, with its lower face tilted by a small angle (case T1).
 fn face_onto_face(angle: f64) -> Result<FamilyStep> {
     let reach = 0.5 * (angle.sin() + angle.cos());
     let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_y(angle));
     fall_onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
 }
 
-/// Makes case T8 with rods at a small angle: an edge meets an edge.
+/// Makes a rod that falls onto another rod, edge onto edge, at a small angle (case T8).
 fn edge_across_edge(angle: f64) -> Result<FamilyStep> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_z(angle) * on_edge);
@@ -51,7 +51,7 @@ fn edge_across_edge(angle: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(falling, lying, expected)
 }
 
-/// Makes case T8: a cube falls onto a slab on a corner, with its diagonal nearly upright.
+/// Makes a cube that falls onto a slab corner first, with its diagonal tilted by a small angle from upright (case T8).
 fn corner_onto_face(angle: f64) -> Result<FamilyStep> {
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
     let turned = DQuat::from_rotation_x(angle) * upright;
@@ -60,7 +60,8 @@ fn corner_onto_face(angle: f64) -> Result<FamilyStep> {
     fall_onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
 }
 
-/// Makes case T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
+/// Makes a square peg that rotates in a slightly wider square hole, until all four corners meet the hole at once (case
+/// T12).
 fn peg_in_a_hole(clearance: f64) -> Result<FamilyStep> {
     let half = 0.5;
     let hole = half + clearance;
@@ -73,7 +74,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(turning, BodyMotion::STILL, expected)
 }
 
-/// Makes case T25: a cube falls flat onto a slab, and rotates very little.
+/// Makes a cube that falls flat onto a slab while it rotates by a very small angle (case T25).
 fn slight_rotation(turn: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING.with_spin(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
@@ -85,7 +86,7 @@ fn slight_rotation(turn: f64) -> Result<FamilyStep> {
     fall_onto_slab(cube()?, falling, time)
 }
 
-/// Makes a cube that comes down on a slab at a small angle, halfway through its flight.
+/// Makes a cube that flies down to a slab at a small angle, and meets it halfway through its flight.
 fn flat_approach(angle: f64) -> Result<FamilyStep> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
@@ -103,7 +104,7 @@ fn barely_overlapping_cubes(overlap: f64) -> Result<FamilyStep> {
     step.with_rotated_queries_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
 
-/// Makes case T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
+/// Makes a rod that rotates until its corner barely reaches a wall, shortly before the corner would pass it (case T5).
 fn rod_barely_reaching_wall(share: f64) -> Result<FamilyStep> {
     let (long, thin) = ROD_HALF_SIDES;
     let wall = long.hypot(thin) * (1.0 - share);
@@ -114,7 +115,7 @@ fn rod_barely_reaching_wall(share: f64) -> Result<FamilyStep> {
     rod_beside_wall(turning, wall, expected)
 }
 
-/// Makes case T17: two linked rings, a small distance apart.
+/// Makes two linked rings, one of which moves a small distance until they touch (case T17).
 fn linked_rings(way: f64) -> Result<FamilyStep> {
     let (radius, tube) = (1.0, 0.25);
     // At the start the rings are each in the middle of the other's hole; then one moves until their inner

@@ -27,7 +27,7 @@ fn tolerance(gap: f64) -> f64 {
     greater(0.25 * gap, 2.5e-13)
 }
 
-/// Returns a step with a gap, in rotated worlds too if the gap survives their rounding.
+/// Returns the step with a contact-free query, repeated in rotated worlds if the gap survives their rounding.
 fn contact_free_step(
     step: FamilyStep,
     gap: f64,
@@ -68,7 +68,7 @@ fn cube_leaving_slab(gap: f64) -> Result<FamilyStep> {
     contact_free_step(step, gap, rising, BodyMotion::SLAB_BELOW)
 }
 
-/// Makes case T16: a peg moves through a hole with a gap on all four sides.
+/// Makes a square peg that moves through a square hole, with a gap on all four sides (case T16).
 fn peg_through_a_hole(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
     let falling = BodyMotion::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
@@ -81,8 +81,7 @@ fn spinning_top(gap: f64) -> Result<FamilyStep> {
     contact_free_step(step, gap, spinning, BodyMotion::SLAB_BELOW)
 }
 
-/// Makes a rod of half length 2 that rotates by half a turn about its middle, past a wall that its corners just do not
-/// reach.
+/// Makes a rod that rotates by half a turn about its middle, past a wall that its corners miss by a gap.
 fn rod_past_a_wall(gap: f64) -> Result<FamilyStep> {
     let reach = f64::hypot(ROD_HALF_SIDES.0, ROD_HALF_SIDES.1);
     let turning = BodyMotion::STILL.with_spin(std::f64::consts::PI * DVec3::Y);

@@ -33,7 +33,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// Makes case T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
+/// Makes two interlocked hooks, at right angles to each other, that are pulled apart until their bars meet (case T15).
 fn hooks(slack: f64) -> Result<FamilyStep> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
@@ -50,7 +50,7 @@ fn hooks(slack: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
 }
 
-/// Makes a ring that falls flat onto an equal one; they meet all around.
+/// Makes a ring that falls flat onto an equal ring, and meets it all around.
 fn ring_onto_ring(way: f64) -> Result<FamilyStep> {
     let (radius, tube) = (1.0, 0.25);
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
@@ -64,8 +64,8 @@ const PITCH: f64 = 0.2;
 /// The inner and outer radii of the threads.
 const THREAD_RADII: [f64; 2] = [0.9, 1.0];
 
-/// Makes case T18: the flank of a screw rotates between those of its nut at their common pitch; `play` is its share
-/// between the flanks.
+/// Makes the flank of a screw that rotates between the flanks of its nut at their common pitch (case T18). `play` is
+/// the distance between the flanks, as a share of the pitch.
 fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyStep> {
     // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
     // here: the flanks keep more than half of their play.
@@ -77,7 +77,7 @@ fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(turning, BodyMotion::STILL, Truth::Free)
 }
 
-/// Makes a sheet that slides between two others.
+/// Makes a sheet that slides between two other sheets, at a gap from each.
 fn between(gap: f64) -> Result<FamilyStep> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free_step(
@@ -90,7 +90,7 @@ fn between(gap: f64) -> Result<FamilyStep> {
     )
 }
 
-/// Makes case T16: a tilted plate moves through a slit that is wider than its edges by a gap.
+/// Makes a tilted plate that moves through a slit, which is wider than the plate's edges by a gap (case T16).
 fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
@@ -108,7 +108,7 @@ fn free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilySte
     step.with_rotated_queries_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
 
-/// Makes case T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
+/// Makes a rod that rotates into a wall, with its mesh stored in a frame that is rotated by the given angle (case T3).
 fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());

@@ -1,4 +1,4 @@
-//! Scenes of meshes with many triangles, and of meshes with bad ones.
+//! Scenes of meshes with many triangles, and of meshes with repeated, collapsed or sliver triangles.
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{
@@ -30,7 +30,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// Makes case T19: the teeth of two combs pass between each other, until their tips meet the bars.
+/// Makes two combs whose teeth pass between each other, until their tips meet the bars (case T19).
 fn comb_into_comb(teeth: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(comb(teeth as u32)?, comb(teeth as u32)?);
     // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
@@ -41,7 +41,7 @@ fn comb_into_comb(teeth: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
-/// Makes case T22: a ball with a vertex at its pole falls onto a slab.
+/// Makes a ball with a vertex at its pole that falls onto a slab (case T22).
 fn ball_onto_slab(triangles: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING.with_spin(2.0 * DVec3::Z);
     fall_onto_slab(ball(0.5, triangles as usize / 2 + 2)?, falling, 0.625)
@@ -60,7 +60,7 @@ fn cube_onto_layers(count: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.625, 1e-14))
 }
 
-/// Makes case T21: a cube with repeated and collapsed faces.
+/// Makes a cube with repeated and collapsed faces that falls onto a slab (case T21).
 fn cube_with_bad_faces(count: f64) -> Result<FamilyStep> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
     fall_onto_slab(cube, BodyMotion::FALLING, 0.625)
@@ -73,7 +73,7 @@ fn cube_onto_sliver(width: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// Makes a cube that falls onto one mesh of many cubes, of which every other one is inside out.
+/// Makes a cube that falls onto one mesh of many cubes, every other one of which is inside out.
 fn field_of_solids(count: f64) -> Result<FamilyStep> {
     // The cube covers the middle of the field, where at least four others are.
     let step = FamilyStep::new(cube()?, field_of_cubes(count as u32)?);
@@ -81,7 +81,7 @@ fn field_of_solids(count: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::STILL, expected)
 }
 
-/// Makes two cones that meet beside their tips: the tip of each touches a face of the other.
+/// Makes two cones of which each meets a face of the other with its tip, slightly beside the other's tip.
 fn tip_onto_tip(aside: f64) -> Result<FamilyStep> {
     let (sides, radius) = (8, 0.7);
     // After a rotation by half a side, a face looks along x. It rises by 1 up to its middle.

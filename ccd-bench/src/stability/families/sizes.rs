@@ -43,7 +43,7 @@ fn margins() -> Vec<f64> {
     margins
 }
 
-/// Makes a cube that falls onto a larger or smaller one, which it meets halfway.
+/// Makes a cube that falls onto a larger or smaller cube, and reaches it at half the duration.
 fn size_against_size(size: f64) -> Result<FamilyStep> {
     let way = greater(size, 1.0);
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
@@ -52,7 +52,8 @@ fn size_against_size(size: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
-/// Makes case T1 in other units of length.
+/// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
+/// `tests/it/scenes.rs`.
 fn unit_of_length(size: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
@@ -65,7 +66,7 @@ fn unit_of_length(size: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
-/// Makes case T1 in other units of time.
+/// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
 fn unit_of_time(duration: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING;
     let step = FamilyStep::new(cube()?, slab()?);
@@ -74,7 +75,7 @@ fn unit_of_time(duration: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
-/// Makes a cube that falls onto another one, while both travel far to the side.
+/// Makes a cube that falls onto another cube while both move sideways by `travel`.
 fn cubes_moving_together(travel: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
@@ -82,7 +83,7 @@ fn cubes_moving_together(travel: f64) -> Result<FamilyStep> {
     step.with_query(falling, fleeing, contact_at(0.5, 1e-14))
 }
 
-/// Makes a cube that rotates about a centre far below it, and so moves nearly straight to a wall.
+/// Makes a cube that rotates about a centre far below it, so that it moves towards a wall nearly in a straight line.
 fn far_centre(distance: f64) -> Result<FamilyStep> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
@@ -98,13 +99,13 @@ fn far_centre(distance: f64) -> Result<FamilyStep> {
     step.with_query(turning, BodyMotion::resting_at(2.0 * DVec3::X), expected)
 }
 
-/// Makes a cone that falls onto a slab on its tip; its sides are long and thin triangles.
+/// Makes a cone that falls onto a slab with its tip first; the sides of the cone are long and thin triangles.
 fn needle(width: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     fall_onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
 
-/// Makes case T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
+/// Makes a cube that falls onto another cube, both at coordinates of about `distance` in the world frame.
 fn far_from_the_origin(distance: f64) -> Result<FamilyStep> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
@@ -117,7 +118,7 @@ fn far_from_the_origin(distance: f64) -> Result<FamilyStep> {
     )
 }
 
-/// Makes a needle that falls onto a slab; its sides are long and thin triangles.
+/// Makes a long and thin box that falls onto a slab; the sides of the box are long and thin triangles.
 fn slender_needle(ratio: f64) -> Result<FamilyStep> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
@@ -126,7 +127,8 @@ fn slender_needle(ratio: f64) -> Result<FamilyStep> {
     fall_onto_slab(cuboid(1.0, thin, thin)?, falling, (3.0 - reach) / 4.0)
 }
 
-/// Makes case T13: a bullet travels distance 1; a thin sheet stands halfway.
+/// Makes a small cube that moves by distance 1, and hits a thin plate at half of that distance. The scene is like T13
+/// of `tests/it/scenes.rs`.
 fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
@@ -136,7 +138,7 @@ fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(flying, paper, expected)
 }
 
-/// Makes a cube that falls onto a slab, and comes as near as the margin halfway.
+/// Makes a cube that falls towards a slab, and is at the distance `margin` from it at half the duration.
 fn margin(margin: f64) -> Result<FamilyStep> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
@@ -147,7 +149,8 @@ fn margin(margin: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(falling, slab, contact_at(0.5, 1e-14))
 }
 
-/// Makes case T24: a cube inside another one, both closed.
+/// Makes a small cube that moves inside a larger cube, so that the solids overlap but their surfaces do not meet. The
+/// scene is like T24 of `tests/it/scenes.rs`.
 fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
     let half = 0.9 * size;
     let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);

@@ -1,4 +1,4 @@
-//! Compares the exact answers of the families with those of the referee.
+//! Tests that the exact answers of the families agree with the answers of the referee.
 
 use super::families;
 use crate::stability::{ExactCase, Family, FamilyStep};
@@ -9,7 +9,7 @@ use std::collections::HashSet;
 /// The number of triangles above which the referee takes too long for a test.
 const MAX_TRIANGLES: usize = 3000;
 
-/// The share of a family's values, from the easiest, that are checked; the referee is slow on harder ones.
+/// The share of a family's parameter values that are checked, the easiest first; the referee is slow on harder values.
 const CHECKED_SHARE: f64 = 0.4;
 
 #[test]
@@ -70,7 +70,7 @@ fn the_referee_finds_the_answers_that_are_claimed() {
     assert!(checked >= 200, "{checked}");
 }
 
-/// Asserts that the referee agrees on a step, and returns the number of queries that it decided.
+/// Asserts that the referee agrees with the exact answers of a step, and returns the number of queries that it decided.
 fn assert_referee_agrees(family: &Family, value: f64) -> usize {
     let step = (family.make)(value).unwrap();
     let FamilyStep { meshes, cases, .. } = &step;

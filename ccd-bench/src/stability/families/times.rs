@@ -34,7 +34,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// Returns a cube that falls at speed 1 onto a slab, and reaches it at a given time.
+/// Returns the meshes and the motion of a cube that falls at speed 1 onto a slab, and reaches it at a given time.
 fn cube_falling_onto_slab(time: f64) -> Result<(FamilyStep, BodyMotion)> {
     let step = FamilyStep::new(cube()?, slab()?);
     Ok((
@@ -63,7 +63,7 @@ fn contact_after_end(after: f64) -> Result<FamilyStep> {
     step.with_rotated_queries_if(after > 1e-12, falling, slab, Truth::Free)
 }
 
-/// Makes two flat sheets without thickness, a small distance apart, that meet face to face.
+/// Makes two flat sheets without thickness that start at a small distance and meet face to face.
 fn sheet_onto_sheet(way: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyStep::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));

@@ -28,7 +28,8 @@ fn cube_falling_while_spinning(turns: f64) -> Result<FamilyStep> {
     fall_onto_slab(cube()?, falling, 0.625)
 }
 
-/// Makes case T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
+/// Makes an upright rod that rotates until its corner meets a wall at x = 1.2, within the first quarter of a turn. The
+/// scene is like T4 of `tests/it/scenes.rs`.
 fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let spin = TAU * turns;
@@ -37,8 +38,9 @@ fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
     rod_beside_wall(turning, wall, expected)
 }
 
-/// Makes case T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip
-/// moves along the wall, so that a bound on the speeds of that moment finds no approach.
+/// Makes an arm that hangs down from its centre of rotation, and swings round until it hits a wall above the centre.
+/// The scene is like T9 of `tests/it/scenes.rs`. At the start its tip moves along the wall, so that a bound on the
+/// speeds of that moment finds no approach.
 fn swinging_arm(spin: f64) -> Result<FamilyStep> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(ROD_HALF_SIDES.1, 0.5 * arm, ROD_HALF_SIDES.1)?;
@@ -54,7 +56,8 @@ fn swinging_arm(spin: f64) -> Result<FamilyStep> {
     )
 }
 
-/// Makes case T14: two rods rotate against each other, as mirror images.
+/// Makes two parallel rods that rotate in opposite directions, as mirror images, until they meet. The scene is like T14
+/// of `tests/it/scenes.rs`.
 fn counter_rotating_rods(turns: f64) -> Result<FamilyStep> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning =

@@ -14,8 +14,8 @@ fn unresolved(safe_until: f64) -> Claim {
     Claim::Unresolved { safe_until }
 }
 
-/// Tests verdicts on the easiest step of each family: a contact at 0.5 with a margin of 0.01, a gap of 0.1, a start
-/// inside.
+/// Tests the verdict on each kind of claim, on a step with a contact at 0.5, a step without contact, and a step that
+/// starts with one body inside the other.
 #[rstest]
 #[case("margin", contact(0.5), Verdict::Right)]
 #[case("margin", contact(0.5 - 1e-7), Verdict::Right)]
@@ -48,7 +48,7 @@ fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict
     }
 }
 
-/// Tests bodies that approach at speed 4, so that 0.01 in time is 0.04 in distance.
+/// Tests that an answer which is 0.04 too far away is right only if the method states a tolerance of at least 0.04.
 #[rstest]
 #[case(None, Verdict::Early)]
 #[case(Some(0.02), Verdict::Early)]

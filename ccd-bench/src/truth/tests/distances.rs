@@ -1,4 +1,5 @@
-//! Compares distances with those of all pairs of triangles, and those of two triangles with a grid of points.
+//! Tests distances of surfaces against a scan of all pairs of triangles, and distances of triangles against a grid of
+//! points.
 
 use super::super::triangle::{nearest, nearest_or_common_points};
 use super::super::{Referee, Surface};

@@ -1,11 +1,11 @@
-//! Compares sines, cosines and rotations with known values.
+//! Tests that interval sines and cosines contain known values, and that interval rotations are close to known ones.
 
 use super::super::enclosure::{IntervalMatrix, sin_cos};
 use super::super::interval::{Interval, point_interval};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
-/// Known values: an argument, its sine and its cosine. Sine and cosine are unevaluated sums of two
-/// floats, from 120 decimals.
+/// An argument in radians, its sine and its cosine, the last two as a float and the remainder. Sine and cosine are
+/// unevaluated sums of two floats, from 120 decimals.
 #[rustfmt::skip]
 #[expect(clippy::approx_constant, reason = "floats, not the constants near them")]
 const KNOWN_VALUES: [(f64, [f64; 2], [f64; 2]); 11] = [

@@ -1,4 +1,4 @@
-//! Tests scenes whose first contact is known exactly.
+//! Tests that the referee brackets first contacts and distances that are known exactly.
 
 use super::super::{DistanceBounds, Referee, Surface, Truth};
 use super::{at, cuboid, judge, query, still};
@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// The change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.
+/// The allowed change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.
 const SCENE_ROUNDING: f64 = 1e-14;
 
 fn assert_hit(bodies: [&Surface; 2], query: &Motions, exact: f64) {

@@ -1,4 +1,4 @@
-//! Compares interval operations with exact fractions.
+//! Tests that interval operations contain the exact results, computed as fractions, and are tight.
 
 use super::super::interval::{Interval, point_interval};
 use dashu_ratio::Relaxed;
@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 /// The number of random pairs of operands for each operation.
 const PAIR_COUNT: u32 = 20_000;
 
-/// The extreme floats: the largest and least of all, of the normal ones, and of those with finite and normal squares.
+/// Special floats, such as the least and the largest ones, and those whose squares are barely normal or finite.
 const EXTREMES: [f64; 12] = [
     0.0,
     5e-324,
@@ -36,7 +36,7 @@ fn random_float(rng: &mut impl Rng) -> f64 {
     if rng.random() { size } else { -size }
 }
 
-/// Returns a random interval: one number, two neighbours, or a wide interval.
+/// Returns a random interval: a single float, two neighbouring floats, or a wide interval.
 fn random_interval(rng: &mut impl Rng) -> Interval {
     let x = random_float(rng);
     let y = match rng.random_range(0..3) {
@@ -55,7 +55,7 @@ fn to_rational(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite number")
 }
 
-/// Returns numbers in an interval to test with: its bounds, and others between them.
+/// Returns three exact numbers in an interval to test with: its bounds and its middle.
 fn sample_numbers(x: Interval) -> [Relaxed; 3] {
     [x.inf(), x.mid(), x.sup()].map(to_rational)
 }
@@ -72,7 +72,7 @@ fn contains(found: Interval, exact: &Relaxed) -> bool {
     !is_above(found.inf(), exact) && !is_below(found.sup(), exact)
 }
 
-/// Asserts that an interval holds exact results and extends at most two floats beyond them.
+/// Asserts that an interval contains all exact results, and exceeds their range by at most two floats on each side.
 fn assert_tight(found: Interval, results: &[Relaxed], context: &str) {
     for exact in results {
         assert!(

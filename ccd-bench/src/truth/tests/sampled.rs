@@ -1,4 +1,4 @@
-//! Compares answers for random triangles with brute force: all pairs of triangles at many times.
+//! Tests the referee's answers for random triangles against a test of all pairs of triangles at many times.
 
 use super::super::{Referee, Surface, Truth};
 use super::{query, random_motion, random_vector, triangle_soup};
@@ -66,7 +66,8 @@ fn brackets_agree_with_all_pairs_at_many_times() {
     );
 }
 
-/// Returns true if an edge of any triangle passes through another one, by the engine's own poses.
+/// Returns true if an edge of one mesh passes through a triangle of the other mesh, at the poses that the engine
+/// computes.
 fn meshes_pierce(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
     let placed = [0, 1].map(|body| {
         let pose = motions[body].pose(time);

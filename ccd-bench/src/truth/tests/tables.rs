@@ -1,4 +1,4 @@
-//! Tests how exact answers are written.
+//! Tests that each kind of exact answer becomes the expected row of the table.
 
 use super::super::{Truth, TruthRow};
 

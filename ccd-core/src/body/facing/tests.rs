@@ -1,4 +1,4 @@
-//! Tests that the outward side is found for every face, whatever the winding of the shells.
+//! Tests that the outward side of every face is found, however the shells of the solid are wound.
 
 use super::Facing;
 use crate::body::{Body, Volume};
@@ -11,7 +11,7 @@ fn solid_body(triangles: &[Triangle]) -> Body {
     Body::new(&pieces(triangles), Volume::Solid).unwrap()
 }
 
-/// Checks the normal of every face against the direction away from the middle of its shell.
+/// Asserts that every face's outward normal agrees with the direction that `out_of` gives for the face's centroid.
 fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
     for piece in 0..body.pieces().len() as u32 {
         let out = out_of(body.centroid(piece));
@@ -45,7 +45,8 @@ fn a_cavity_faces_inward_however_the_whole_is_wound() {
     }
 }
 
-/// Tests a cube as thin as a few units in the last place of its coordinates.
+/// Tests that both faces of a plate have outward normals, at a thickness below 200 units in the last place of the
+/// coordinates.
 #[test]
 fn a_thin_wall_has_two_sides() {
     let thin = |p: DVec3| DVec3::new(p.x, p.y, 1e-11 * p.z) + DVec3::splat(1e3);
@@ -74,7 +75,7 @@ fn faces_back_to_back_and_surfaces_face_neither_way() {
     assert_eq!(surface.facing(0), Facing::NoOutwardSide);
 }
 
-/// Tests two lobes of one shell with opposite windings: the cross section is a figure of eight.
+/// Tests that a face has no clear side if parts of it bound lobes of opposite winding, as in a figure of eight.
 #[test]
 fn a_face_on_which_the_sides_change_is_unclear() {
     let eight = [(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)];

@@ -1,11 +1,11 @@
-//! Compares the lookup by a table of facets with a scan of all facets.
+//! Tests that the feature found by a table of facets is the one found by a scan of all facets.
 
 use super::*;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, Polytope};
 use crate::tests::scene::{RngExt, rng};
 
-/// Creates a prism of 60 sides, every third of which is virtual.
+/// Creates a prism of 60 sides; every third facet is virtual, which means no face of the mesh.
 fn prism() -> Pieces {
     let count = 60;
     let rim = |height: f64| {

@@ -1,4 +1,4 @@
-//! Tests properties of hierarchies, and that invalid nodes are refused.
+//! Tests that valid nodes make a balanced or a deep hierarchy, and that invalid nodes are refused.
 
 use super::{Hierarchy, HierarchyNode::Inner, HierarchyNode::Leaf};
 use crate::body::{Body, Volume};
@@ -92,7 +92,7 @@ fn depth(nodes: &[super::HierarchyNode], at: u32) -> u32 {
     }
 }
 
-/// Tests that chains of a hundred thousand nodes exhaust no stack, and make bodies.
+/// Tests that a tree as deep as its number of pieces is accepted without a stack overflow, and makes a body.
 #[test]
 fn a_chain_is_a_hierarchy_too() {
     let count = 100_000;

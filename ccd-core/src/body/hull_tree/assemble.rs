@@ -67,7 +67,7 @@ impl HullTree {
     }
 }
 
-/// Moves the hulls of all nodes to one list, and frees each node's memory once its hull is copied.
+/// Copies the hulls of all nodes to one list of pieces, and frees each node once its hull is copied.
 fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     let mut builder = PiecesBuilder::default();
     for node in nodes {
@@ -85,7 +85,7 @@ fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     builder.into_pieces()
 }
 
-/// Returns the facets that meet in each point of all hulls, in ascending order.
+/// Returns, for each point of all hulls, the indices of the facets that meet there, in ascending order.
 fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
     let mut count = 0;
     let mut starts = Vec::with_capacity(nodes.len());
@@ -100,7 +100,7 @@ fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
     AdjacencyLists::new(count, pairs)
 }
 
-/// Creates the leaf for a piece.
+/// Creates the leaf node for a piece, whose hull is the piece itself.
 fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     if let Some(point) = too_fine(&piece.points) {
         let point = point as u32;
@@ -120,7 +120,7 @@ fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError>
     })
 }
 
-/// Creates the inner node with a given hull over two children.
+/// Checks the hull of an inner node against its two children, and creates the node.
 fn inner_node<'a>(
     at: usize,
     hull: &'a Hull,

@@ -7,7 +7,8 @@ use std::num::NonZero;
 use std::ops::Range;
 use std::thread::available_parallelism;
 
-/// Computes a value for every node from the values of its two children. Leaves receive two arbitrary values.
+/// Computes a value for every node of a tree from the values of its two children, in parallel. Leaves receive two
+/// arbitrary values.
 ///
 /// # Guarantee
 /// The result does not depend on the number of cores. Of several errors, that of the first node in sequential order
@@ -52,7 +53,7 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
     Ok(sorted)
 }
 
-/// The nodes in postorder: the first child's subtree, the second child's subtree, then the node.
+/// The nodes of a tree in postorder, with the function that computes a node's value from its children's values.
 struct Postorder<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
@@ -62,8 +63,9 @@ struct Postorder<'a, F> {
 }
 
 impl<F> Postorder<'_, F> {
-    /// Computes the values of one subtree, in at most `parts` parts at a time. The parts are divided by size, and
-    /// either side gets fewer, so that the depth of recursion is at most their number.
+    /// Computes the values of one subtree, split into at most `parts` parts that may run in parallel. The parts are
+    /// shared between both children by size. Each child gets fewer of them, so that the depth of recursion is at most
+    /// `parts`.
     fn compute_subtree<T: Default + Send>(
         &self,
         range: Range<usize>,
@@ -89,7 +91,7 @@ impl<F> Postorder<'_, F> {
         }
     }
 
-    /// Computes two subtrees, in parallel if both are large enough and a thread is free.
+    /// Computes the values of two subtrees, in parallel if both subtrees are large enough and a thread is free.
     fn compute_two_subtrees<T: Default + Send>(
         &self,
         [one, other]: [Range<usize>; 2],
@@ -107,8 +109,8 @@ impl<F> Postorder<'_, F> {
         first.and(second)
     }
 
-    /// Computes the value of one node after its children's. `done` has the values from position `start` of the
-    /// postorder on.
+    /// Computes the value of one node from the values of its children, which are computed already. `done` has the
+    /// values from position `start` of the postorder on.
     fn compute_node<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,

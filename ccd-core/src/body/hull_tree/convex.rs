@@ -1,4 +1,4 @@
-//! Decides exactly whether facets are those of a convex polytope.
+//! Decides with exact arithmetic whether a piece's facets bound a convex polytope.
 
 use crate::body::facets::{edges_of, fan_of};
 use crate::body::piece::Piece;
@@ -7,8 +7,8 @@ use crate::math::exact::{side, too_fine};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Builds the search structure for extremal points of a hull of many points. Edges are climbed if they are proven to be
-/// those of the hull. Otherwise a tree is searched, which uses no facets.
+/// Builds the search structure for extremal points of a hull with many points. Edges are climbed if they are proven to
+/// be those of the hull. Otherwise a tree is searched, which uses no facets.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     if is_convex(hull) {
         Support::new(hull.points, hull.facets)
@@ -56,14 +56,15 @@ fn are_coplanar(points: &[DVec3], corners: &[u32]) -> bool {
     others.all(|p| side(first, p).is_eq())
 }
 
-/// Returns whether a facet is convex: it has no reflex corner, seen from a point behind it.
+/// Returns whether a facet is a convex polygon: seen from the point `middle` behind it, no corner is reflex.
 fn is_convex_polygon(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
     let position = |k: usize| points[corners[k % corners.len()] as usize];
     let fan = |k: usize| [position(k), position(k + 1), position(k + 2)];
     (0..corners.len()).all(|k| side(fan(k), middle).is_le())
 }
 
-/// Returns whether the surface is locally convex: no triangle's neighbour across an edge rises in front of its plane.
+/// Returns whether the surface is locally convex: the neighbour across every edge is not in front of the triangle's
+/// plane.
 fn is_locally_convex(triangles: &[[u32; 3]], position: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
     let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
         .iter()
@@ -85,7 +86,7 @@ fn is_locally_convex(triangles: &[[u32; 3]], position: impl Fn(&[u32; 3]) -> [DV
     once && sides.iter().all(bends)
 }
 
-/// Returns whether some ray from the middle that avoids all edges meets exactly one triangle.
+/// Returns whether the ray from `middle` through the first triangle meets no other triangle and no edge.
 fn winds_once(
     triangles: &[[u32; 3]],
     position: impl Fn(&[u32; 3]) -> [DVec3; 3],

@@ -1,11 +1,12 @@
-//! The edges of polygons, and maps keyed by edges without hashing.
+//! Checks the edges of a hull's facets, and maps directed edges to values without hashing.
 
 use super::error::HullFault;
 use super::hull::Hull;
 use crate::body::adjacency::AdjacencyLists;
 use crate::body::facets::edges_of;
 
-/// Checks that the facets are polygons that close a surface. The check takes O(n log n).
+/// Checks that the facets of a hull are polygons with valid corners, and that together they close a surface. The check
+/// takes O(n log n).
 pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let good = |corners: &[u32]| corners.len() >= 3 && corners.iter().all(exists);
@@ -32,12 +33,12 @@ pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     open(unpaired.map(|&(_, facet)| facet).min())
 }
 
-/// A map from directed edges to values, for points numbered from 0. It has the end point and the value of each point's
-/// edges, sorted by end point.
+/// A map from directed edges to values, for points numbered from 0. For each start point it has the end points and the
+/// values of its edges, sorted by end point.
 pub(super) struct EdgeMap(AdjacencyLists<(u32, u32)>);
 
 impl EdgeMap {
-    /// Creates the map in O(n log n). Of repeated edges the last one counts.
+    /// Creates the map from edges and their values, in O(n log n). Of a repeated edge, the last value counts.
     pub(super) fn new(
         points: usize,
         edges: impl Iterator<Item = ((u32, u32), u32)> + Clone,
@@ -48,7 +49,7 @@ impl EdgeMap {
         EdgeMap(edges)
     }
 
-    /// Returns the value of an edge.
+    /// Returns the value of a directed edge; `None` if the map does not have the edge.
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
         let from = self.0.of(from as usize);
         let up_to = from.partition_point(|edge| edge.0 <= to);

@@ -7,11 +7,11 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HullTreeError {
-    /// The nodes form no hierarchy over the pieces, or there are too many of them.
+    /// The nodes form no hierarchy over the pieces, or there are too many nodes.
     Input(InputError),
-    /// A node is invalid.
+    /// One of the input nodes is invalid.
     Node {
-        /// The index of the node.
+        /// The index of the invalid node in the list of input nodes.
         node: u32,
         /// What is wrong with the node.
         fault: HullFault,
@@ -24,17 +24,17 @@ pub enum HullTreeError {
 pub enum HullFault {
     /// A corner of the hull is not a point of either child.
     ForeignPoint {
-        /// The index of the corner.
+        /// The index of the corner in the hull's list of points.
         point: u32,
     },
     /// A facet has fewer than three corners, or refers to a point that the hull does not have.
     BadFacet {
-        /// The index of the facet.
+        /// The index of the invalid facet in the hull's list of facets.
         facet: u32,
     },
     /// The facets do not close a surface: an edge does not occur exactly once in reverse in another facet.
     OpenSurface {
-        /// The index of the facet with that edge.
+        /// The index of the facet with the unmatched or repeated edge.
         facet: u32,
     },
     /// A point of a child is outside of the hull, or the hull's facets do not prove that it is inside.
@@ -46,7 +46,7 @@ pub enum HullFault {
     },
     /// A point has a coordinate too close to 0 for exact predicates.
     CoordinateTooSmall {
-        /// The index of the point.
+        /// The index of the point among the points of the node's hull.
         point: u32,
     },
     /// The leaf is not one of the body's pieces, or another leaf is already that piece.

@@ -7,13 +7,13 @@ use glam::DVec3;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HullNode {
-    /// A leaf with one piece, by its index.
+    /// A leaf, with the index of its piece.
     Leaf(u32),
-    /// An inner node with two children, by their indices, and the hull of both.
+    /// An inner node, with the indices of its two children and the convex hull of both.
     Inner([u32; 2], Hull),
 }
 
-/// The convex hull of an inner node.
+/// The convex hull of an inner node's children: corners and facets.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hull {
@@ -25,7 +25,7 @@ pub struct Hull {
     pub facets: PolygonList,
 }
 
-/// Where a facet of a node's hull lies relative to the mesh and the pieces below; better classes come first.
+/// The class of a hull's facet: whether it lies on the mesh, on a piece, or on neither; better classes come first.
 ///
 /// The nearest features of two nodes that are both not [`Free`](FacetClass::Free) belong to pieces:
 /// no pair of pieces below is nearer, or farther.
@@ -33,7 +33,7 @@ pub struct Hull {
 pub enum FacetClass {
     /// The facet is part of the mesh.
     Original,
-    /// The facet is part of pieces but not of the mesh: it closes a piece inside the solid.
+    /// The facet belongs to pieces but not to the mesh: it closes a piece inside the solid.
     Contained,
     /// The facet bridges a gap between pieces, outside all of them.
     Free,

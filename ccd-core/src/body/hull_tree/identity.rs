@@ -5,20 +5,21 @@ use super::hull::Hull;
 use super::node::Node;
 use glam::DVec3;
 
-/// Common numbers for the points of two children and of their parent's hull: equal points have one number.
+/// Common numbers for the points of two children and of their parent's hull; equal points have the same number.
 ///
 /// Numbers below the hull's count of points name the hull's points. The others name hidden points.
 pub(super) struct PointNumbering {
     pub(super) left_numbers: Vec<u32>,
     pub(super) right_numbers: Vec<u32>,
-    /// The position of each number.
+    /// The position of the point with each common number.
     pub(super) positions: Vec<DVec3>,
     /// The mesh's vertex number of each point of the hull.
     pub(super) vertex_ids: Vec<u32>,
 }
 
 impl PointNumbering {
-    /// Numbers the points, in O(n log n).
+    /// Numbers the points of a hull and of its two children in O(n log n); fails if a hull point is not a child's
+    /// point.
     pub(super) fn new(hull: &Hull, [left, right]: [&Node<'_>; 2]) -> Result<Self, HullFault> {
         let own = hull.points.len();
         let all = [&hull.points[..], &left.points, &right.points];
@@ -57,8 +58,8 @@ impl PointNumbering {
     }
 }
 
-/// Returns for each point of the concatenated lists the index of an equal point that represents it. This is the last
-/// equal one among the first `own` points, or otherwise the first equal one.
+/// Returns, for each point of three concatenated lists, the index of the equal point that represents it. This is the
+/// last equal one among the first `own` points, or otherwise the first equal one.
 fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
     // Adding zero turns −0 into 0.
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());

@@ -1,4 +1,5 @@
-//! Derives what each facet of an inner node's hull is made of from the facets of its children's hulls.
+//! Derives the origin, class and mesh faces of each facet of an inner node's hull from the facets of its children's
+//! hulls.
 //!
 //! A child's hull meets the plane of a facet of its parent in at most one facet of the child. A facet of the parent
 //! is therefore a facet of a child, or is tiled by one facet of each child, or is a bridge.
@@ -46,7 +47,7 @@ impl FacetData {
         facet_data
     }
 
-    /// Merges the data of two facets that together tile a third.
+    /// Merges the data of two facets that together tile a facet of the parent's hull.
     fn merge_facets(parts: [&ChildFacet<'_>; 2]) -> FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
@@ -98,7 +99,7 @@ pub(super) fn inherit_facet_data(
     hull.facets.iter().map(facet).collect()
 }
 
-/// One facet of a child.
+/// A facet of a child's hull with its corners and its data.
 struct ChildFacet<'a> {
     child: Child<'a>,
     /// The corners, as indices of the child's points.
@@ -107,7 +108,7 @@ struct ChildFacet<'a> {
 }
 
 impl ChildFacet<'_> {
-    /// Returns the corners of the facet by their common numbers.
+    /// Returns the common numbers of the facet's corners.
     fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
         self.corners.iter().map(|&v| self.child.ids[v as usize])
     }
@@ -131,20 +132,20 @@ impl ChildFacet<'_> {
     }
 }
 
-/// The facets of a child, with a lookup by edge.
+/// The facets of a child's hull, which can be looked up by a directed edge.
 struct ChildFacets<'a> {
     child: Child<'a>,
-    /// The data of the front and the back, if the child is a single triangle.
+    /// The data of both sides of the triangle, if the child is a single triangle, which lists no facets.
     single_triangle: Option<&'a FacetData>,
-    /// The index of the facet at each directed edge.
+    /// A map from each directed edge to the index of the facet that has it.
     facet_at_edge: EdgeMap,
 }
 
-/// The corners of the front and the back of a single triangle.
+/// The corners of the two sides of a single triangle, in the order of each side.
 const TRIANGLE_SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> ChildFacets<'a> {
-    /// Creates the lookup for a child whose points have common numbers below `positions`.
+    /// Creates the lookup for a child; `positions` is the number of common numbers.
     fn new(child: Child<'a>, single_triangle: Option<&'a FacetData>, positions: usize) -> Self {
         let sides = TRIANGLE_SIDES.iter().map(|corners| &corners[..]);
         let loops = child
@@ -185,7 +186,7 @@ impl<'a> ChildFacets<'a> {
     }
 }
 
-/// Returns the data of a child that is a single triangle, which lists no facets.
+/// Returns the facet data of a child that is a single triangle; `None` for other children.
 fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.facets.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
@@ -209,7 +210,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Returns whether two cyclic lists of corners are equal up to rotation.
+/// Returns whether a child's facet has the same corners, in the same cyclic order, as a facet of the hull.
 fn same_loop(part: &ChildFacet<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;

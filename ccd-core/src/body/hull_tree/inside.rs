@@ -7,18 +7,18 @@ use crate::math::point_tree::PointTree;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A convex hull, prepared for tests whether it contains points.
+/// A convex hull with its facets cut into triangles, for exact tests of which points it contains.
 pub(super) struct PreparedHull<'a> {
     points: &'a [DVec3],
     /// The facets as fans of triangles.
     fans: Vec<[DVec3; 3]>,
-    /// The corners of the first facet.
+    /// The corners of the first facet, which decide if the hull is flat.
     first: Vec<DVec3>,
 }
 
 impl<'a> PreparedHull<'a> {
-    /// Prepares a hull for tests whether it contains points. Every edge of the facets must occur exactly once in
-    /// reverse in another facet.
+    /// Cuts the facets of a hull into triangles, to test which points the hull contains. Every edge of the facets must
+    /// occur exactly once in reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &PolygonList) -> Self {
         let at = |&v: &u32| points[v as usize];
         let fans = facets.iter().flat_map(fan_of);
@@ -65,7 +65,7 @@ impl<'a> PreparedHull<'a> {
     }
 }
 
-/// Returns whether a point is in the simplex of up to three points.
+/// Returns whether a point is equal to one point, on a segment of two points, or in a triangle of three points.
 fn in_simplex(points: &[DVec3], point: DVec3) -> bool {
     match *points {
         [a] => a == point,

@@ -15,7 +15,7 @@
 #[cfg_attr(feature = "serde", serde(from = "Vec<Vec<u32>>"))]
 pub struct PolygonList {
     corners: Vec<u32>,
-    /// The end of each polygon's corners.
+    /// The end of each polygon's corners in `corners`.
     ends: Vec<usize>,
 }
 
@@ -39,12 +39,12 @@ impl PolygonList {
         self.ends.len()
     }
 
-    /// Returns whether the list is empty.
+    /// Returns whether the list has no polygons.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// Returns the corners of polygon `k`.
+    /// Returns the corners of polygon `k`; `None` if there are fewer polygons.
     pub fn get(&self, k: usize) -> Option<&[u32]> {
         let end = *self.ends.get(k)?;
         let start = if k == 0 { 0 } else { self.ends[k - 1] };
@@ -61,7 +61,7 @@ impl PolygonList {
         &self.corners
     }
 
-    /// Returns the corners of all polygons for renumbering.
+    /// Returns the corners of all polygons, one after the other, so that a caller can renumber them.
     pub fn corners_mut(&mut self) -> &mut [u32] {
         &mut self.corners
     }

@@ -6,7 +6,7 @@ use crate::body::polytope::{Face, FacetOrigin};
 use glam::DVec3;
 use std::borrow::Cow;
 
-/// A node whose hull and children have been checked.
+/// A node of a hull tree under construction, whose hull has been checked against its children.
 #[derive(Debug, Default)]
 pub(super) struct Node<'a> {
     pub(super) points: Cow<'a, [DVec3]>,
@@ -15,24 +15,24 @@ pub(super) struct Node<'a> {
     pub(super) facets: Cow<'a, PolygonList>,
     /// The origin, class and mesh faces of each facet.
     pub(super) facet_data: Vec<FacetData>,
-    /// The mesh's faces on a leaf; `None` for an inner node, which has those of its facets.
+    /// The mesh's faces on a leaf's piece; `None` for an inner node, whose faces are listed by facet.
     pub(super) leaf_faces: Option<Vec<Face>>,
     pub(super) radius: f64,
     pub(super) has_uniform_radius: bool,
     pub(super) size: f64,
 }
 
-/// The origin, class and mesh faces of one facet.
+/// What one facet of a hull is made of: its origin in the mesh, its class and the mesh's triangles in it.
 #[derive(Clone, Debug)]
 pub(super) struct FacetData {
     pub(super) origin: FacetOrigin,
     pub(super) class: FacetClass,
-    /// The mesh's triangles in the facet; empty if the facet is one face.
+    /// The mesh's triangles in the facet; empty if the facet is itself a face of the mesh.
     pub(super) faces: Vec<Face>,
 }
 
 impl Node<'_> {
-    /// Returns the mesh's faces on the node's surface.
+    /// Returns the mesh's faces on the surface of the node's hull.
     pub(super) fn faces(&self) -> impl Iterator<Item = &Face> {
         let of_skins = self.facet_data.iter().flat_map(|facet| &facet.faces);
         let (own, of_skins) = match &self.leaf_faces {

@@ -7,7 +7,7 @@ use crate::body::pieces::Pieces;
 use std::cmp::Ordering;
 
 impl HullTree {
-    /// Renumbers the leaves so that they refer to the same pieces in another list.
+    /// Renumbers the leaves so that they refer to the same pieces in another order.
     ///
     /// # Errors
     /// [`HullFault::NotAPiece`] at a leaf that is not in the list.
@@ -17,8 +17,8 @@ impl HullTree {
     }
 }
 
-/// Returns the hierarchy with leaves renumbered for `pieces`, which must be bitwise equal to the tree's pieces. Among
-/// equal pieces, the first leaf gets the first.
+/// Returns the tree's hierarchy with its leaves renumbered for `pieces`. These must be the tree's pieces, bitwise
+/// equal, in any order. Among equal pieces, the first leaf gets the first piece.
 fn renumbered_hierarchy(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
     let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
@@ -47,7 +47,7 @@ fn renumbered_hierarchy(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, H
     Ok(Hierarchy::new(renamed, pieces.len())?)
 }
 
-/// Returns the piece numbers sorted by content, then by number.
+/// Returns the numbers sorted by `order`, and by number where `order` finds two of them equal.
 fn sort_by_content(
     mut numbers: Vec<usize>,
     order: impl Fn(usize, usize) -> Ordering,

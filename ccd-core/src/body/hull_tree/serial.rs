@@ -1,4 +1,4 @@
-//! Serialisation of hull trees. A tree that is read is checked like one that is built.
+//! Serialises a hull tree as its pieces and its input nodes. A tree that is read is checked like one that is built.
 
 use super::{HullNode, HullTree, HullTreeError};
 use crate::body::hierarchy::HierarchyNode;

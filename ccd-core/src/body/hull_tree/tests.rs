@@ -1,4 +1,4 @@
-//! Tests small trees made by hand: data that facets inherit, and nodes that are refused.
+//! Tests on small hull trees that facets inherit the right data, and that invalid nodes are refused.
 
 use super::*;
 use crate::body::feature::Feature;
@@ -8,7 +8,7 @@ use crate::error::InputError;
 use glam::DVec3;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The facets of a box whose corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+/// The facets of a box: bits 0, 1 and 2 of a corner's number choose the upper bound of x, y and z.
 const BOX_FACETS: [[u32; 4]; 6] = [
     [0, 4, 6, 2],
     [1, 3, 7, 5],
@@ -25,7 +25,7 @@ fn corners(lo: DVec3, hi: DVec3) -> Vec<DVec3> {
         .collect()
 }
 
-/// Creates a box between two values of x, 1 high and 1 wide. Its faces are numbered from `first` on.
+/// Creates a box between two values of x, with y and z from 0 to 1. Its faces are numbered from `first` on.
 fn box_between(from: f64, to: f64, first: u32) -> Polytope {
     let facet = |(k, corners): (usize, &[u32; 4])| Facet {
         origin: FacetOrigin::Face(first + k as u32),

@@ -1,11 +1,12 @@
-//! Builds a list of pieces, one by one.
+//! Builds a list of pieces by adding one polytope after the other.
 
 use super::{PieceShapes, Pieces, Polytopes};
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
 use crate::error::InputError;
 use glam::DVec3;
 
-/// The data of a polytope, as in [`Polytope`](crate::Polytope).
+/// The data of a polytope that is added to a list, borrowed or as iterators; otherwise as in
+/// [`Polytope`](crate::Polytope).
 pub(crate) struct PolytopeParts<'a, A, B> {
     pub(crate) points: &'a [DVec3],
     pub(crate) vertex_ids: &'a [u32],
@@ -51,7 +52,7 @@ impl Pieces {
 }
 
 impl PiecesBuilder {
-    /// Adds a piece to the list.
+    /// Adds a polytope to the list as a piece, without checks.
     pub(crate) fn push<'a>(
         &mut self,
         polytope: PolytopeParts<
@@ -80,7 +81,7 @@ impl PiecesBuilder {
         polytopes.face_ends.push(polytopes.faces.len() as u32);
     }
 
-    /// Returns the finished list of pieces.
+    /// Checks the pieces, and returns the finished list.
     ///
     /// # Errors
     /// The errors of [`Pieces::polytopes`].
@@ -88,7 +89,7 @@ impl PiecesBuilder {
         self.into_unchecked_pieces().into_validated()
     }
 
-    /// Returns the finished list of pieces, which are known to be valid.
+    /// Returns the finished list without checks, for pieces that are known to be valid.
     pub(super) fn into_unchecked_pieces(self) -> Pieces {
         let shape = PieceShapes::Polytopes(Box::new(self.polytopes));
         Pieces::with_shape(self.points, self.vertex_ids, shape)

@@ -1,4 +1,5 @@
-//! Serialisation of lists of pieces. Pieces that are read are checked like pieces that are built.
+//! Serialises a list of pieces as triangles or as polytopes. Pieces that are read are checked like pieces that are
+//! built.
 
 use super::{PieceShapes, Pieces};
 use crate::body::polytope::Polytope;

@@ -1,4 +1,4 @@
-//! Tests pieces that are refused, and the features of pieces.
+//! Tests that invalid pieces are refused, and that points of pieces have the right mesh features.
 
 use super::*;
 use crate::body::Body;
@@ -148,7 +148,7 @@ fn balls_and_capsules_name_their_points() {
 }
 
 proptest! {
-    /// Tests that reordered pieces keep their points and their mesh numbers.
+    /// Tests that reordering pieces keeps each piece's points, radius, facets and mesh numbers.
     #[test]
     fn order_changes_nothing_but_the_order(seed in any::<u64>(), count in 1usize..12) {
         use rand::seq::SliceRandom;
@@ -181,7 +181,7 @@ proptest! {
     }
 }
 
-/// Returns the mean of some corners.
+/// Returns the combination of some corners with equal weights.
 fn mean(corners: &[u32]) -> Combination {
     let mut mean = Combination::EMPTY;
     corners.iter().for_each(|&corner| mean.push(corner, 1.0));
@@ -233,7 +233,7 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
     assert_eq!(weighted(&[(0, 0.5), (7, 0.5)]), Feature::Piece(0));
 }
 
-/// Tests a polytope whose corners are not vertices of the mesh.
+/// Tests that points of a polytope with only virtual facets have no mesh feature, but the piece as a whole.
 #[test]
 fn a_polytope_of_virtual_facets_has_no_names() {
     let loops = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];

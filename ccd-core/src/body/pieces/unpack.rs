@@ -4,7 +4,7 @@ use super::{PieceShapes, Pieces};
 use crate::body::polytope::{Face, Facet, Polytope};
 
 impl Pieces {
-    /// Converts a piece to an input of [`Pieces::polytopes`]; a triangle lists its face.
+    /// Converts a piece to a polytope, which is an input of [`Pieces::polytopes`]; a triangle lists its mesh face.
     ///
     /// # Panics
     /// When `index` is not below [`Pieces::len`].
@@ -31,12 +31,12 @@ impl Pieces {
         }
     }
 
-    /// Returns the mesh's vertex numbers of all points.
+    /// Returns the mesh's vertex number of each point, for the points of all pieces.
     pub(crate) fn all_vertex_ids(&self) -> &[u32] {
         &self.vertex_ids
     }
 
-    /// Returns the mesh's vertex numbers of a piece's points.
+    /// Returns the mesh's vertex number of each point of a piece.
     pub(crate) fn vertex_ids(&self, index: usize) -> &[u32] {
         &self.vertex_ids[self.point_range(index)]
     }

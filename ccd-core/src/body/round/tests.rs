@@ -10,7 +10,7 @@ fn cylinder_and_cone(radius: f64, half_height: f64) -> [SolidOfRevolution; 2] {
     ]
 }
 
-/// Checks exactly that a polygon winds once about the origin, and that no edge enters the disc.
+/// Asserts with exact arithmetic that a polygon winds about the origin once and that no edge enters the disc.
 fn assert_encloses_disc(corners: &[DVec3], radius: f64) {
     let squared = |x: f64| exact(x) * exact(x);
     let corners: Vec<[Relaxed; 2]> = corners

@@ -1,4 +1,4 @@
-//! Tests that parts are connected exactly if they share a point.
+//! Tests that pieces belong to the same connected part exactly if shared points connect them.
 
 use super::{DisjointSets, Shell, shells};
 use crate::body::pieces::Pieces;

@@ -6,7 +6,8 @@ use std::f64::consts::FRAC_PI_8;
 /// The number of directions: both poles, and 16 on each of seven circles of latitude.
 pub const DIRECTIONS: usize = 2 + 7 * 16;
 
-/// The squared cosines of 11.25, 33.75, 56.25 and 78.75 degrees, the angles halfway between circles.
+/// The squared cosines of the angles from the pole that are halfway between circles: 11.25, 33.75, 56.25 and 78.75
+/// degrees.
 const COS_SQUARED: [f64; 4] = [
     0.961939766255643,
     0.691341716182545,
@@ -14,7 +15,7 @@ const COS_SQUARED: [f64; 4] = [
     0.038060233744357,
 ];
 
-/// The tangents of the angles halfway between meridians, which are the same.
+/// The tangents of the longitudes that are halfway between meridians: 11.25, 33.75, 56.25 and 78.75 degrees.
 const MERIDIAN_TANGENTS: [f64; 4] = [
     0.198912367379658,
     0.668178637919299,
@@ -22,7 +23,8 @@ const MERIDIAN_TANGENTS: [f64; 4] = [
     5.027339492125846,
 ];
 
-/// Returns all directions in the order of their numbers.
+/// Returns all directions in the order of their numbers: the north pole, the circles from north to south, the south
+/// pole.
 pub(super) fn all_directions() -> impl Iterator<Item = DVec3> {
     let circle = |latitude: u32| {
         let (sin, cos) = (f64::from(latitude) * FRAC_PI_8).sin_cos();
@@ -36,8 +38,8 @@ pub(super) fn all_directions() -> impl Iterator<Item = DVec3> {
     north.chain((1..8).flat_map(circle)).chain(south)
 }
 
-/// Returns the number of the direction that is nearest in latitude and longitude to a vector of any length. The number
-/// is arbitrary if the vector is not finite.
+/// Returns the number of the fixed direction that is nearest to a vector of any length in latitude and in longitude.
+/// The number is arbitrary if the vector is not finite.
 #[inline]
 pub(super) fn nearest_direction(v: DVec3) -> usize {
     let square = v.length_squared();

@@ -3,19 +3,20 @@
 use crate::math::order::greater;
 use glam::DVec3;
 
-/// The number of points that are evaluated together, in two vectors of 256 bits.
+/// The number of points whose heights are computed together, in two vector registers of 256 bits.
 const LANES: usize = 8;
 
-/// The points of a piece in a layout for vector instructions. A scan is slow for many points, fast for few.
+/// A search for extremal points that scans all points of a piece, in a layout for vector instructions. A scan is slow
+/// for many points, fast for few.
 #[derive(Clone, Debug)]
 pub struct SupportScan {
-    /// The x, y and z of eight points each; the last point is repeated to fill the last block.
+    /// Blocks of the x, y and z of eight points each; the last point is repeated to fill the last block.
     blocks: Vec<[[f64; LANES]; 3]>,
     last: u32,
 }
 
 impl SupportScan {
-    /// Creates the layout for one or more points.
+    /// Creates the search for one or more points.
     pub fn new(points: &[DVec3]) -> Self {
         let last = points.len().saturating_sub(1);
         let point = |k: usize| points.get(k.min(last)).copied().unwrap_or_default();
@@ -28,7 +29,7 @@ impl SupportScan {
         }
     }
 
-    /// Returns the index of a point that is farthest along a direction; the first of several.
+    /// Returns the index of the point that is farthest along a direction; the first one if several are equally far.
     ///
     /// # Guarantee
     /// The guarantee of [`Support::extremal`](crate::Support::extremal).

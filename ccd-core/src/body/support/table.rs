@@ -1,4 +1,4 @@
-//! Finds extremal corners by climbing along edges, from a start in a table of directions.
+//! Finds extremal corners of a polytope by climbing along its edges, from a start that a table of directions gives.
 
 use super::directions::{self, DIRECTIONS};
 use super::tree::bounding_ball;
@@ -9,15 +9,15 @@ use crate::rounding::HEIGHT_ERROR_F64;
 use crate::tuning::MAX_PLATEAU_POINTS;
 use glam::DVec3;
 
-/// The corners of a convex polytope, the edges between them, and the corners that are farthest
-/// along 114 directions.
+/// A search for extremal corners of a convex polytope: the corners, their edges, and the extremal corners along 114
+/// directions.
 ///
 /// # Memory
 /// About 70 bytes for each corner, and half a kilobyte.
 #[derive(Clone, Debug)]
 pub struct SupportTable {
     points: Vec<DVec3>,
-    /// The largest absolute coordinate.
+    /// The largest absolute value of the corners' coordinates.
     reach: f64,
     ball: (DVec3, f64),
     neighbours: AdjacencyLists<u32>,
@@ -25,7 +25,7 @@ pub struct SupportTable {
 }
 
 impl SupportTable {
-    /// Builds the table for points with the facets of their hull; `None` if no facets are known.
+    /// Builds the table for points and the facets of their hull; `None` if no facets are known.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Option<Self> {
         let first = *facets.iter().next()?.first()?;
         let edges = facets.iter().flat_map(edges_of);
@@ -117,7 +117,8 @@ impl SupportTable {
         at
     }
 
-    /// Returns a higher corner that is reached across corners of equal height up to rounding; `None` if there is none.
+    /// Returns a corner higher than `at` that can be reached across corners as high as `at` up to rounding; `None` if
+    /// there is no higher one.
     fn higher_across_plateau(
         &self,
         at: u32,

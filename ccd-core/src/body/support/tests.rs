@@ -1,4 +1,4 @@
-//! Compares climbing on polytopes of integer coordinates with a scan of every corner.
+//! Tests that climbing finds corners as high as a scan does, on polytopes with integer coordinates.
 
 mod tree;
 
@@ -23,7 +23,7 @@ fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
     Pieces::polytopes(&[polytope]).unwrap()
 }
 
-/// Creates a square grid lifted to a paraboloid, closed by squares below, four arches and a lid.
+/// Creates a polytope of a square grid that is lifted to a paraboloid, closed by four side facets and a lid.
 fn paraboloid_grid(side: u32) -> Pieces {
     let place = |k: u32| (f64::from(k % side), f64::from(k / side));
     let points = (0..side * side).map(|k| {
@@ -49,7 +49,7 @@ fn paraboloid_grid(side: u32) -> Pieces {
     polytope(points.collect(), facets.collect())
 }
 
-/// Creates the cyclic polytope, whose slivers all meet in the first or the last point.
+/// Creates the cyclic polytope, all of whose thin facets contain the first or the last point.
 fn cyclic_polytope(count: u32) -> Pieces {
     let curve = |t: u32| f64::from(t) - 0.5 * f64::from(count);
     let point = |t: u32| DVec3::new(curve(t), curve(t).powi(2), curve(t).powi(3));
@@ -58,7 +58,7 @@ fn cyclic_polytope(count: u32) -> Pieces {
     polytope((0..count).map(point).collect(), first.chain(last).collect())
 }
 
-/// Creates a prism over a convex polygon on a parabola.
+/// Creates a prism over a convex polygon whose corners are on a parabola.
 fn prism(corners: u32) -> Pieces {
     let base = |k: u32| DVec3::new(f64::from(k), f64::from(k * k), 0.0);
     let points = (0..2 * corners).map(|k| {
@@ -86,7 +86,7 @@ fn shapes() -> Vec<Pieces> {
     bowls.into_iter().chain(curves).chain(prisms).collect()
 }
 
-/// Returns directions, along some of which several corners have the same height.
+/// Returns random directions of any length; along many of them, several corners have the same height.
 fn directions_with_ties(count: usize) -> Vec<DVec3> {
     let mut rng = rng(11);
     let mut whole = || DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-3..=3))));

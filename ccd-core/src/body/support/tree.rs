@@ -1,4 +1,4 @@
-//! Finds extremal points by a tree, and visits only the parts that may contain them.
+//! Finds extremal points by a tree over the points, and visits only nodes that may contain an extremal point.
 
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
@@ -20,17 +20,19 @@ const LANES: usize = 8;
 pub struct SupportTree {
     blocks: Vec<Block>,
     groups: Vec<Discs>,
-    /// The start of each level's groups, from the blocks upward. The last level is one group.
+    /// The index in `groups` of each level's first group; the lowest level is that above the blocks. The last level is
+    /// one group.
     level_starts: Vec<usize>,
     ball: (DVec3, f64),
 }
 
-/// Eight points minus the middle, in units of the piece's size; the last point is repeated.
+/// Eight points, relative to the middle of the piece and scaled to its size; the last point is repeated to fill the
+/// block.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 struct Block {
     points: [[f64; LANES]; 3],
-    /// The indices of the block's points.
+    /// The indices of the block's points among the piece's points.
     numbers: [u32; LANES],
 }
 
@@ -43,7 +45,8 @@ struct Discs {
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     thickness: [f32; LANES],
-    /// The allowance for rounding. In lanes without a disc it is so low that these are never visited.
+    /// The rounding error by which the bound of each disc is raised. In lanes without a disc it is −∞, so that these
+    /// lanes are never visited.
     rounding: [f32; LANES],
 }
 
@@ -106,7 +109,8 @@ impl SupportTree {
         search.visits
     }
 
-    /// Visits the children of a node of a level, in descending order of their bounds.
+    /// Searches below a node: visits its children in descending order of their bounds while they may contain a farther
+    /// point.
     fn descend(&self, level: usize, at: usize, search: &mut Search) {
         #[cfg(test)]
         {
@@ -128,14 +132,14 @@ impl SupportTree {
     }
 }
 
-/// The state of a search: its direction, and the farthest point so far.
+/// The state of a search for the farthest point: the direction, and the farthest point so far.
 struct Search {
     direction: DVec3,
     /// The direction of the search, scaled so that its largest component is 1.
     scaled_direction: Vec3,
     size: f64,
     highest: f64,
-    /// The height above which a disc is visited.
+    /// The height that a disc's upper bound must exceed for the disc to be visited.
     min_height: f32,
     highest_point: u32,
     #[cfg(test)]
@@ -186,7 +190,7 @@ impl Block {
 }
 
 impl Discs {
-    /// Builds the group over at most eight blocks of `width` points.
+    /// Builds the discs around at most eight consecutive runs of `width` points each.
     fn new(points: &[DVec3], width: usize) -> Self {
         let mut discs = Discs {
             rounding: [f32::NEG_INFINITY; LANES],
@@ -205,7 +209,7 @@ impl Discs {
         discs
     }
 
-    /// Returns an upper bound of the heights in each disc, along a direction whose largest component is 1.
+    /// Returns an upper bound of the heights of each disc's points along a direction whose largest component is 1.
     #[inline]
     fn bounds(&self, d: Vec3) -> [f32; LANES] {
         let square = d.length_squared() * (1.0 + DISC_TILT_ERROR_F32);
@@ -223,7 +227,7 @@ impl Discs {
     }
 }
 
-/// A disc around points, rounded as it is stored.
+/// A disc that bounds points, in f32, with its radius and thickness rounded up.
 struct Disc {
     centre: Vec3,
     normal: Vec3,
@@ -232,7 +236,7 @@ struct Disc {
 }
 
 impl Disc {
-    /// Creates a disc whose normal is the direction in which the points vary least.
+    /// Creates a disc around points, whose normal is the principal axis along which their extent is least.
     fn enclosing(points: &[DVec3]) -> Self {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         // An axis that is not of unit length, due to rounding or underflow, is not used.
@@ -265,7 +269,7 @@ impl Disc {
     }
 }
 
-/// Sorts points so that those of each block, of each eight blocks, and so on, are near each other.
+/// Sorts the indices of points so that points in the same block, and in the same group of blocks, are near each other.
 fn sort_spatially(points: &[DVec3], order: &mut [u32]) {
     if order.len() <= LANES {
         return;
@@ -284,7 +288,7 @@ fn sort_spatially(points: &[DVec3], order: &mut [u32]) {
     sort_spatially(points, after);
 }
 
-/// Returns the middle of the bounding box of one or more points, and their largest distance from it.
+/// Returns the middle of the bounding box of one or more points, and an upper bound of their distances from it.
 pub(super) fn bounding_ball(points: &[DVec3]) -> (DVec3, f64) {
     let (low, high) = bounding_box(points.iter().copied());
     let middle = low + 0.5 * (high - low);
@@ -301,7 +305,7 @@ fn power_of_two_above(x: f64) -> f64 {
     }
 }
 
-/// Returns the index of the highest value; the first of several.
+/// Returns the index of the highest value; the first one if several are equal.
 #[inline]
 fn index_of_highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
     let (mut best, mut most) = (0, values[0]);

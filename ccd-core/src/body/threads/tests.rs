@@ -1,4 +1,4 @@
-//! Tests that results are the same on any number of threads.
+//! Tests that every element and both functions are processed once, on any number of threads.
 
 use super::{join, parallel_for_each_on};
 

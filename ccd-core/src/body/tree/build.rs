@@ -1,4 +1,4 @@
-//! Builds the wide tree from a binary hierarchy.
+//! Builds the tree with eight children per node from a binary hierarchy.
 
 use super::fit::{NodePoints, Sample, fit};
 use super::group::longest_length;
@@ -13,7 +13,7 @@ use crate::error::InputError;
 use crate::math::order::greater;
 use glam::DVec3;
 
-/// The nodes and groups of a tree before boxes are fitted to their pieces.
+/// The nodes and groups of a wide tree before boxes are fitted to the pieces below them.
 #[derive(Default)]
 pub(crate) struct Layout {
     nodes: Vec<NodeLayout>,
@@ -21,7 +21,7 @@ pub(crate) struct Layout {
     triangles: Vec<ChildTriangles>,
 }
 
-/// Returns the largest distance of a point from the origin, rounding radii included.
+/// Returns the largest distance of the pieces' points from the body's origin, rounding radii included.
 fn max_point_distance(pieces: &Pieces) -> f64 {
     let farthest = |points: &[DVec3]| longest_length(points.iter().copied());
     if pieces.all_triangles() {
@@ -31,10 +31,10 @@ fn max_point_distance(pieces: &Pieces) -> f64 {
     pieces.iter().map(reach).fold(0.0, greater)
 }
 
-/// For each node of the hierarchy, the range of its pieces in depth-first order.
+/// The pieces in depth-first order, and the range of each hierarchy node's pieces in that order.
 struct PieceRanges {
     order: Vec<u32>,
-    /// The start and end in `order` of each node of the hierarchy.
+    /// The start and the end of each hierarchy node's pieces in `order`.
     of: Vec<(u32, u32)>,
 }
 
@@ -75,35 +75,35 @@ impl PieceRanges {
     }
 }
 
-/// A node of the wide tree: its pieces, and its children.
+/// A node of the wide tree before its box is fitted: the range of its pieces, and its children.
 struct NodeLayout {
     start: u32,
     end: u32,
     children: NodeChildren,
 }
 
-/// The children of a node that are nodes, by the index of the first.
+/// A group of consecutive nodes that are the children of a node.
 struct ChildBoxes {
     parent: u32,
     first: u32,
     count: u32,
 }
 
-/// The children of a node that are triangles, by the index of the first.
+/// A group of consecutive triangles that are the children of a node.
 struct ChildTriangles {
     parent: u32,
     start: u32,
     end: u32,
 }
 
-/// The number of full triangle groups that count as a full group of nodes, as hardly any group is full.
+/// The planned capacity of the lowest groups of nodes, in full triangle groups; fewer than eight, as few are full.
 ///
 /// Unit: groups. Less: more memory, as most groups of nodes are at the bottom. More: nodes that
 /// just exceed it are split into two.
 const TRIANGLE_GROUPS_PER_NODE_GROUP: u64 = 6;
 
 impl Layout {
-    /// Arranges the nodes of the tree, and returns the pieces in the tree's order.
+    /// Arranges the nodes of the wide tree, and returns the layout and the pieces in the tree's order.
     ///
     /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
     /// triangles, or one piece of another kind.
@@ -169,8 +169,8 @@ impl Layout {
         });
     }
 
-    /// Fits boxes to the nodes, and creates the groups. Each of them depends on its own pieces alone, so that all can
-    /// be computed in parallel.
+    /// Creates the tree: fits a box and a ball to each node, and fills the groups of children. Each of them depends on
+    /// its own pieces alone, so that all can be computed in parallel.
     pub(crate) fn fit_tree(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         parallel_for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
@@ -210,7 +210,7 @@ impl Layout {
 }
 
 impl Layout {
-    /// Returns the slabs around flat nodes of triangles.
+    /// Returns the slabs around all flat nodes, with the nodes' ids; none unless all pieces are triangles.
     fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
         if !pieces.all_triangles() {
             return Vec::new();
@@ -234,7 +234,7 @@ impl NodeLayout {
         fit(&self.node_points(pieces), self.children, sample)
     }
 
-    /// Returns the points and radii that the node's box has to contain.
+    /// Returns the points, and their rounding radius, that the node's box has to contain.
     fn node_points<'p>(&self, pieces: &'p Pieces) -> NodePoints<'p> {
         let range = self.start as usize..self.end as usize;
         let triangles = pieces.all_triangles();
@@ -255,14 +255,15 @@ impl NodeLayout {
 struct ChildChooser<'a> {
     hierarchy: &'a Hierarchy,
     ranges: &'a PieceRanges,
-    /// The largest number of pieces of a node that becomes a leaf.
+    /// The largest number of pieces of a hierarchy node that becomes a child at the bottom of the wide tree.
     max_leaf_pieces: usize,
-    /// The largest number of pieces of a node, for each layer from the bottom.
+    /// The largest number of pieces below a node, for each layer of the wide tree from the bottom.
     layer_capacities: Vec<usize>,
 }
 
-/// Returns the largest number of pieces of a node, for each layer from the bottom. Full groups come first, then by even
-/// ratios as many layers as needed.
+/// Returns the largest number of pieces below a node, for each layer of the wide tree from the bottom. The lowest two
+/// layers have fixed capacities. The capacities above grow by the least even ratio with which the root holds all
+/// pieces.
 fn layer_capacities(pieces: usize) -> Vec<usize> {
     let (full, pieces) = (LANES as u64 * TRIANGLE_GROUPS_PER_NODE_GROUP, pieces as u64);
     let mut count = 1;
@@ -278,7 +279,7 @@ fn layer_capacities(pieces: usize) -> Vec<usize> {
 }
 
 impl ChildChooser<'_> {
-    /// Returns the largest number of pieces of a child of a node with this many pieces.
+    /// Returns the largest number of pieces that a child may have if its parent has `pieces` pieces.
     fn max_child_pieces(&self, pieces: usize) -> usize {
         let lower = self
             .layer_capacities
@@ -288,8 +289,8 @@ impl ChildChooser<'_> {
         lower.copied().unwrap_or(self.max_leaf_pieces)
     }
 
-    /// Returns the descendants that become a node's children, and their number. The one with the most pieces is opened
-    /// repeatedly, unless it fits into a lower layer of full groups.
+    /// Returns the hierarchy nodes that become the children of a wide node, and their number. The one with the most
+    /// pieces is replaced by its two children, again and again, until it fits into a lower layer.
     ///
     /// Groups are full at the bottom, where most of the groups are.
     fn choose_children(&self, at: u32) -> ([u32; LANES], usize) {

@@ -1,4 +1,4 @@
-//! Fits the oriented box and the ball of a node.
+//! Fits the oriented bounding box and the bounding ball of a node.
 
 mod sample;
 
@@ -11,16 +11,17 @@ use crate::rounding::{FRAME_ERROR_F64, UNIT_ROUNDOFF_F64};
 use glam::{DMat3, DVec3, Vec3};
 pub(crate) use sample::Sample;
 
-/// The pieces below a node, as input of a fit.
+/// The points of all pieces below a node, to which a box is fitted.
 pub(crate) struct NodePoints<'a> {
     pub(crate) points: &'a [DVec3],
     /// The largest rounding radius of the pieces.
     pub(crate) radius: f64,
-    /// True if the points are corners of triangles, three each.
+    /// True if every three consecutive points are the corners of a triangle.
     pub(crate) triangles: bool,
 }
 
-/// The sines and cosines of the tried rotations about the mean normal, in even steps over a right angle.
+/// The sines and cosines of the angles by which trial frames are turned about the mean normal: 0 to 75 degrees in steps
+/// of 15.
 const TRIED_ROTATIONS: [(f64, f64); 6] = [
     (0.0, 1.0),
     (0.258_819_045_102_520_74, 0.965_925_826_289_068_3),
@@ -33,8 +34,8 @@ const TRIED_ROTATIONS: [(f64, f64); 6] = [
     (0.965_925_826_289_068_3, 0.258_819_045_102_520_74),
 ];
 
-/// Fits a node's box to all points. Several frames are tried on a sample of them, and the one whose box has the least
-/// surface is taken.
+/// Creates a node with a box and a ball fitted to all points. Several frames are tried on a sample of the points, and
+/// the frame whose box has the least surface is taken.
 ///
 /// # Guarantee
 /// The box and the ball contain all points: the sample only chooses the frame.
@@ -86,7 +87,7 @@ fn is_orthonormal(frame: &DMat3) -> bool {
     within(off.x_axis) && within(off.y_axis) && within(off.z_axis)
 }
 
-/// A frame, and the extent of the points along its axes.
+/// A frame, and the least and largest coordinates of the points along its axes.
 struct FittedBox {
     frame: DMat3,
     low: DVec3,
@@ -100,7 +101,8 @@ impl FittedBox {
         FittedBox { frame, low, high }
     }
 
-    /// Creates the node, with axes rounded to f32, the longest first. The sizes are measured along the rounded axes.
+    /// Creates the node with the box's axes rounded to f32; the axis of the largest extent is first. The sizes are
+    /// measured along the rounded axes.
     fn to_node(&self, node_points: &NodePoints<'_>, below: NodeChildren) -> Node {
         let size = self.high - self.low;
         let mut order = [0, 1, 2];

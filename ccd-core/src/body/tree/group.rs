@@ -1,4 +1,4 @@
-//! Nodes of the wide tree, and groups of eight children, one array per coordinate, to bound eight pairs at once.
+//! The nodes of the wide tree, and groups of eight children in arrays by coordinate, for vector instructions.
 
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 /// The number of children in a group.
 pub(crate) const LANES: usize = 8;
 
-/// Three coordinates of eight vectors.
+/// The x, y and z coordinates of eight vectors, as one row each.
 pub(crate) type Rows3 = [[f32; LANES]; 3];
 
 /// The boxes of up to eight nodes, relative to an origin; unused lanes repeat the last child.
@@ -21,11 +21,12 @@ pub(crate) struct BoxGroup {
     pub(crate) rounding: [f32; LANES],
     pub(crate) radius: [f32; LANES],
     pub(crate) header: GroupHeader,
-    /// The lanes whose child is a single piece, as bits.
+    /// A bit for each lane, set if the child in that lane is a node with a single piece.
     pub(crate) leaf_mask: u8,
 }
 
-/// The stored data of a group of up to eight triangles. Their corners are in the pieces.
+/// The stored data of a group of up to eight triangles: the common fields and the radius of each triangle's ball. The
+/// corners are stored with the pieces.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StoredTriangleGroup {
     pub(crate) members: GroupHeader,
@@ -33,7 +34,8 @@ pub(crate) struct StoredTriangleGroup {
     radius: [f32; LANES],
 }
 
-/// Up to eight triangles, relative to an origin. The triangles of unused lanes are points at the origin.
+/// The corners of up to eight triangles, relative to an origin, in arrays by coordinate for vector instructions. The
+/// triangles of unused lanes are points at the origin.
 ///
 /// The layout is computed when a node is split, which takes a tenth of the time of bounding it. If stored, the groups
 /// would take half of the memory of a body.
@@ -46,7 +48,7 @@ pub(crate) struct TriangleGroup {
     pub(crate) members: GroupHeader,
 }
 
-/// The fields that groups of boxes and of triangles share.
+/// The fields that both kinds of groups have: the origin of coordinates, and the ids of the children.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct GroupHeader {
     /// The origin of the group's coordinates, in the body's frame.
@@ -59,7 +61,7 @@ pub(crate) struct GroupHeader {
 }
 
 impl BoxGroup {
-    /// Creates a group of consecutive nodes; `first` is the id of the first one.
+    /// Creates the group of consecutive child nodes; `first` is the id of the first node.
     pub(crate) fn new(nodes: &[Node], first: u32, origin: DVec3) -> Self {
         let mut group = BoxGroup {
             header: GroupHeader {
@@ -96,7 +98,7 @@ impl BoxGroup {
 }
 
 impl StoredTriangleGroup {
-    /// Computes the balls of consecutive triangles; `first` is the id of the first one.
+    /// Creates the stored data of consecutive triangles; `first` is the id of the first triangle.
     pub(crate) fn new(triangles: &[[DVec3; 3]], first: u32, origin: DVec3) -> Self {
         let mut row = StoredTriangleGroup {
             members: GroupHeader {
@@ -121,7 +123,7 @@ impl StoredTriangleGroup {
 }
 
 impl TriangleGroup {
-    /// Creates the layout for vector instructions from a row and its triangles' corners.
+    /// Creates the group in the layout for vector instructions, from its stored data and its triangles' corners.
     #[inline(always)]
     pub(crate) fn new(row: &StoredTriangleGroup, triangles: &[[DVec3; 3]]) -> Self {
         let mut group = TriangleGroup {
@@ -150,7 +152,7 @@ pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
     }
 }
 
-/// Returns the length of the longest of some vectors, as accurate as [`length`].
+/// Returns the length of the longest vector, as accurately as [`length`] computes it; 0 without vectors.
 pub(super) fn longest_length(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     let squares = vectors.clone().map(DVec3::length_squared);
     let square = squares.fold(0.0, greater);
@@ -162,7 +164,7 @@ pub(super) fn longest_length(vectors: impl Iterator<Item = DVec3> + Clone) -> f6
     }
 }
 
-/// Rounds a number up to f32.
+/// Rounds a number to f32, upward if f32 cannot represent it.
 pub(crate) fn round_up_to_f32(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) < x {
@@ -179,20 +181,21 @@ fn set_lane(rows: &mut Rows3, lane: usize, v: Vec3) {
     }
 }
 
-/// An oriented box and a ball with the same centre, which both contain all pieces below, and the children.
+/// A node of the wide tree: an oriented box and a ball with the same centre, each around all pieces below, and its
+/// children.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) centre: DVec3,
-    /// The axes of the box as unit vectors, the direction of the least extent last.
+    /// The axes of the box as unit vectors rounded to f32; the axis of the least extent is last.
     pub(crate) axes: [Vec3; 3],
     pub(crate) half: [f32; 3],
     pub(crate) radius: f32,
-    /// The largest rounding radius of the pieces below, which the half sizes do not include.
+    /// The largest rounding radius of the pieces below, which the half extents `half` do not include.
     pub(crate) rounding: f32,
     pub(crate) below: NodeChildren,
 }
 
-/// The children of a node.
+/// The children of a node: a group of nodes, a group of triangles, or a single piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NodeChildren {
     /// A group of nodes, by its index.
@@ -219,7 +222,8 @@ impl Node {
         self.half[2] <= FLAT_THICKNESS_F32 * self.radius
     }
 
-    /// Returns half the extent of the box along one of its axes, widened because the axes are rounded.
+    /// Returns half the extent of the box along one of its axes, rounding radius included, widened for the rounding of
+    /// the axes.
     pub(super) fn half_extent(&self, axis: usize) -> f64 {
         f64::from(self.half[axis])
             + f64::from(self.rounding)

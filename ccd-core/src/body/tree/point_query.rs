@@ -1,4 +1,4 @@
-//! Finds the pieces at a point, and the surface near it.
+//! Finds the pieces whose boxes contain a point or are near it, and tests whether the surface is far from it.
 
 use super::waiting::NodeStack;
 use super::{NodeChildren, Tree};
@@ -7,7 +7,7 @@ use crate::rounding::DETERMINANT_ERROR_F64;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Returns the pieces other than triangles whose boxes contain a point, or almost contain it.
+/// Returns the pieces whose boxes contain a point up to rounding, without pieces that are triangles.
 pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, 0.0).filter_map(|leaf| match leaf {
         Leaf::Piece(piece) => Some(piece),
@@ -15,8 +15,8 @@ pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> 
     })
 }
 
-/// Returns the pieces whose boxes are within about `reach` of a point, and all triangles that share such a box.
-/// Triangles in such a box are all returned.
+/// Returns the pieces whose boxes are within about `reach` of a point. Of a group of triangles with a common box, all
+/// are returned.
 pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, reach).flat_map(|leaf| match leaf {
         Leaf::Piece(piece) => piece..piece + 1,
@@ -24,7 +24,7 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
     })
 }
 
-/// Returns whether a point is certainly farther than `reach` from all triangles and mesh faces.
+/// Returns whether a point is certainly farther than `reach` from all triangles of the body's surface.
 pub(crate) fn is_far_from_surface(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     leaves_near(tree, point, reach).all(|leaf| match leaf {
         Leaf::Triangles(mut triangles) => {
@@ -37,7 +37,7 @@ pub(crate) fn is_far_from_surface(tree: &Tree, pieces: &Pieces, point: DVec3, re
     })
 }
 
-/// A leaf of a search in the tree: one piece or several triangles.
+/// A leaf of the tree that a search finds: one piece, or several triangles with a common box.
 enum Leaf {
     Piece(u32),
     /// Several triangles, by the indices of their pieces.
@@ -70,8 +70,8 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
     })
 }
 
-/// Returns whether a separating axis proves that a point is farther than `reach` from a triangle. It tries the normal
-/// of the plane, and the directions from the edges and corners.
+/// Returns whether a tested axis proves that a point is farther than `reach` from a triangle. It tries the normal of
+/// the plane, and the directions from the edges and corners.
 pub(crate) fn is_farther_than(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();

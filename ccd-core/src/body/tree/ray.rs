@@ -1,4 +1,4 @@
-//! Computes the winding number of a body's surface about a point, by a ray.
+//! Computes the winding number of a body's surface about a point by counting the crossings of a ray.
 
 use super::waiting::NodeStack;
 use super::{Node, NodeChildren, Tree};
@@ -9,22 +9,22 @@ use crate::tuning::MAX_RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The signed crossings of a ray with a surface: 1 where the ray leaves, −1 where it enters.
+/// The sums of a ray's signed crossings with a surface: 1 where the ray leaves the solid, −1 where it enters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RayCrossings {
     /// The sum of the crossings beyond the ray's start. For a closed surface this is the winding number about points
     /// just ahead of the start.
     pub(crate) sum_ahead: i32,
-    /// The sum of the crossings at the start, up to rounding.
+    /// The sum of the crossings that coincide with the start up to rounding.
     pub(crate) sum_at_start: i32,
-    /// The number of triangles that contain the start.
+    /// The number of triangles that contain the start, up to rounding.
     pub(crate) triangles_at_start: u32,
-    /// The direction of the ray.
+    /// The direction of the ray in the body's frame, of unit length.
     pub(crate) direction: DVec3,
 }
 
-/// Counts the crossings along a ray from a point that certainly passes all edges; `None` if no such ray is found. A
-/// triangle contains the point if it is at most `slack` from it.
+/// Counts the crossings along a ray from a point that certainly meets no edge; `None` if no such ray is found. A
+/// triangle contains the point if the triangle's plane is at most `slack` away.
 ///
 /// # Guarantee
 /// The count of crossings ahead of the point by more than rounding is that of exact arithmetic, and no crossing
@@ -39,14 +39,14 @@ pub(crate) fn crossings(
     (0..MAX_RAYS).find_map(|k| crossings_along(tree, pieces, start, direction(k)))
 }
 
-/// The start of a ray, with the accuracy of its position.
+/// The start point of a ray, and the distance up to which a triangle counts as containing it.
 #[derive(Clone, Copy)]
 struct Start {
     from: DVec3,
     slack: f64,
 }
 
-/// Returns the `k`-th of directions that are spread over the sphere, in general position.
+/// Returns the `k`-th direction of a sequence that is spread evenly over the sphere.
 fn direction(k: u32) -> DVec3 {
     // Multiples of these two fractions are spread evenly over a square.
     let [x, y] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|f| (f64::from(k) + 0.5) * f);
@@ -96,7 +96,7 @@ fn crossings_along(
     Some(found)
 }
 
-/// Returns whether a ray may hit a node's box.
+/// Returns whether a ray may hit a node's box; false only if it certainly misses the box.
 fn may_hit(node: &Node, from: DVec3, along: DVec3) -> bool {
     let way = from - node.centre;
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
@@ -113,7 +113,7 @@ fn may_hit(node: &Node, from: DVec3, along: DVec3) -> bool {
     !(enter > leave)
 }
 
-/// The sign of a number, if rounding leaves it certain.
+/// The sign of a computed number, or unclear if rounding leaves it uncertain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sign {
     Negative,
@@ -122,7 +122,7 @@ enum Sign {
 }
 
 impl Sign {
-    /// Returns the sign of a number with an error of at most [`DETERMINANT_ERROR_F64`] times `size`.
+    /// Returns the sign of a number whose rounding error is at most [`DETERMINANT_ERROR_F64`] times `size`.
     fn of_number(number: f64, size: f64) -> Sign {
         // Written so that NaN is unclear. Products that underflow are off by less than the added term.
         let rounding = DETERMINANT_ERROR_F64 * size + f64::MIN_POSITIVE;
@@ -135,7 +135,7 @@ impl Sign {
 }
 
 impl RayCrossings {
-    /// Adds the crossing of the ray with a triangle; `None` if it is uncertain.
+    /// Adds the crossing of the ray with a triangle, if any; `None` if rounding leaves it uncertain whether they cross.
     fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
         let along = self.direction;
         let corners = triangle.map(|p| p - start.from);
@@ -185,8 +185,8 @@ impl RayCrossings {
     }
 }
 
-/// Returns on which side of the start a triangle is, computed from its edges. They may be far shorter than the vectors
-/// to its corners.
+/// Returns whether a triangle is ahead of a ray's start or behind it, computed from the triangle's edges. The edges may
+/// be far shorter than the vectors to the corners.
 fn sign_by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {

@@ -1,4 +1,4 @@
-//! Slabs around flat nodes, in f64.
+//! Slabs that bound the triangles of flat nodes between two planes, in f64.
 
 use crate::math::order::greater;
 use crate::math::vector::unit;
@@ -6,8 +6,8 @@ use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tuning::MAX_FLAT_THICKNESS;
 use glam::DVec3;
 
-/// Two parallel planes that bound a flat node's triangles, at equal distances from the node's centre. It contains all
-/// triangles of the node.
+/// Two parallel planes that bound a flat node's triangles, at equal distances from the node's centre. All triangles of
+/// the node are between the planes.
 ///
 /// The axes of a node's box are rounded to f32. The box of a flat node that is not parallel to the coordinates is
 /// therefore thicker than the node by that rounding.
@@ -20,7 +20,7 @@ pub(crate) struct Slab {
 }
 
 impl Slab {
-    /// Fits a slab to corners around a centre; `None` unless the triangles are in one plane up to rounding.
+    /// Fits a slab about a centre to the corners of triangles; `None` unless they are in one plane up to rounding.
     pub(super) fn fit_to(corners: &[DVec3], centre: DVec3) -> Option<Self> {
         let triangles = corners.as_chunks().0.iter();
         let normal = unit(triangles.map(|[a, b, c]| (b - a).cross(c - a)).sum())?;

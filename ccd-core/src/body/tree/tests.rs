@@ -1,4 +1,4 @@
-//! Tests properties of trees, for bodies of all kinds.
+//! Tests that trees have every piece once, and that all boxes and balls contain the pieces below them.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -12,11 +12,10 @@ use crate::tests::scene::{
 };
 use glam::{DVec3, Vec3};
 
-/// The tolerance of the checks: boxes and balls contain the points up to the rounding of the f64 arithmetic that
-/// checks it.
+/// The relative tolerance of the checks, which covers the rounding of their own f64 arithmetic.
 const CHECK_TOLERANCE: f64 = 1e-14;
 
-/// Checks the properties of a body's tree, and returns its number of groups.
+/// Asserts that a body's tree has each piece once, within all bounds above it; returns the number of groups.
 fn check(body: &Body) -> usize {
     let (tree, pieces) = (body.tree(), body.pieces());
     let mut seen = vec![0; pieces.len()];
@@ -34,7 +33,7 @@ fn farthest(pieces: &Pieces) -> f64 {
     pieces.iter().map(reach).fold(0.0, greater)
 }
 
-/// Checks a node and all nodes below it, and returns the pieces below.
+/// Asserts that a node and all nodes below it bound their pieces, and returns the pieces below.
 fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
     let NodeOrTriangle::Node(node) = tree.get(id) else {
         let piece = tree.piece(id).expect("a triangle");
@@ -81,7 +80,7 @@ fn members(members: &GroupHeader) -> std::ops::Range<NodeId> {
     members.first..members.first + members.count
 }
 
-/// Checks that the box and the ball contain all points, rounding radii included.
+/// Asserts that a node's box and ball contain all points of its pieces, rounding radii included.
 fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
     assert!(node.half.iter().all(|h| h.is_finite()) && node.radius.is_finite());
     for axis in node.axes {
@@ -106,7 +105,7 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// Checks that the box and ball in a group's lane contain the points, with the rounded centre of the group.
+/// Asserts that the box and the ball in one lane of a group contain the child's points, about the rounded centre.
 fn check_lane(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     let at =
         |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
@@ -128,8 +127,7 @@ fn check_lane(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// Checks a triangle of a group: its corners are rounded relative to the group's origin, and the ball contains the
-/// exact ones.
+/// Asserts that a group has a triangle's corners correctly rounded, and that its ball contains the exact corners.
 fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
     let mean = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     for (k, &corner) in triangle.iter().enumerate() {
@@ -193,7 +191,8 @@ fn coordinates_up_to_the_largest_and_down_to_the_least() {
     }
 }
 
-/// Tests components below 1e-154, whose squares lose digits, and below 1e-162, whose squares are 0.
+/// Tests that trees are valid at coordinates so small that their squares lose digits (below 1e-154) or are 0 (below
+/// 1e-162).
 #[test]
 fn components_whose_squares_are_no_numbers() {
     let mut rng = rng(4);

@@ -2,20 +2,20 @@
 
 use super::NodeId;
 
-/// A stack of nodes that allocates nothing unless the tree is deeper than any balanced one.
+/// A stack of nodes that allocates memory only if the tree is deeper than a balanced tree can be.
 pub(super) struct NodeStack {
     inline_nodes: [NodeId; INLINE_CAPACITY],
     count: usize,
-    /// The nodes for which `inline_nodes` has no room.
+    /// The nodes on top of the stack for which `inline_nodes` has no room.
     overflow: Vec<NodeId>,
 }
 
-/// The number of nodes that need no allocation. Each level leaves up to seven nodes: this is enough for nine levels of
-/// eight children, 10⁸ pieces.
+/// The number of nodes that the stack holds without an allocation. Each level leaves up to seven nodes: this is enough
+/// for nine levels of eight children, 10⁸ pieces.
 const INLINE_CAPACITY: usize = 64;
 
 impl NodeStack {
-    /// Creates a stack that holds the root.
+    /// Creates a stack that contains only the tree's root.
     pub(super) fn root() -> Self {
         NodeStack {
             inline_nodes: [0; INLINE_CAPACITY],

@@ -6,7 +6,7 @@ use crate::math::vector::{bounding_box, componentwise_max, length};
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use glam::{DMat3, DVec3};
 
-/// The oriented bounding box of a body, as tight as f64 allows. The root's own box is rounded to f32: with it, bodies
+/// The oriented bounding box of a whole body, computed in f64. The root's own box is rounded to f32: with it, bodies
 /// that slide along each other closer than that would count as near each other everywhere.
 ///
 /// # Guarantee
@@ -20,12 +20,12 @@ pub(crate) struct BodyBox {
     pub(crate) half: DVec3,
     /// An upper bound of the distances of the pieces' points from the centre.
     pub(crate) radius: f64,
-    /// The pieces' rounding radius, plus the error of the axes and half extents.
+    /// The pieces' rounding radius, plus a bound of the errors of the axes and half extents.
     pub(crate) slack: f64,
 }
 
 impl BodyBox {
-    /// Fits the box to all points of a body.
+    /// Fits the box to all points of a body, in the best frame that a sample of the points gives.
     pub(super) fn fit_to(node_points: &NodePoints<'_>, sample: &mut Sample) -> Self {
         sample.fill_from(node_points);
         let axes = best_frame(sample, node_points.triangles);

@@ -11,7 +11,8 @@ use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{direction, random_box_corners};
 use crate::tests::worst::{Worst, share};
 
-/// Compares the projection of a box on a direction, without the widening, with that of the box's points.
+/// Searches for the largest rounding error of a box's projection on a direction, as a share of its allowance, the
+/// widening.
 #[test]
 fn worst_box() {
     let still = Motion::still(Pose::IDENTITY);

@@ -9,7 +9,8 @@ use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// A triangle with its feature, and its corners with their mesh numbers. Corners have a number if the mesh has one.
+/// A triangle: its feature in the mesh, and its corners with their mesh numbers. Corners have a number if the mesh has
+/// one.
 type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
 
 impl NearSurface<'_> {
@@ -62,7 +63,7 @@ impl NearSurface<'_> {
         hull.into_iter().map(whole).collect()
     }
 
-    /// Returns the mesh's triangles on a polytope.
+    /// Returns the triangles of the mesh that lie on a polytope; empty if the polytope has none.
     fn mesh_triangles_of(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
         let mut triangles = piece.mesh_triangles().peekable();
         if triangles.peek().is_none() {
@@ -90,8 +91,8 @@ impl NearSurface<'_> {
         named.collect()
     }
 
-    /// Returns the number of a corner's vertex in the mesh. If its own piece does not have it, this is the least number
-    /// among pieces with a point at the same position.
+    /// Returns the mesh's number of the vertex at a corner; `None` if no piece there has one. If the corner's own piece
+    /// does not have the number, this is the least number among pieces with a point at the same position.
     pub(super) fn mesh_number(&self, corner: u32) -> Option<u32> {
         let Corner {
             position_bits: here,
@@ -111,7 +112,7 @@ impl NearSurface<'_> {
         })
     }
 
-    /// Returns the mesh number of a point of a piece.
+    /// Returns the mesh's number of a point of a piece; `None` if the point has none.
     fn mesh_number_of_point(&self, piece: u32, point: u32) -> Option<u32> {
         let pieces = self.body.pieces();
         match pieces.feature(piece as usize, &Combination::point(point)) {
@@ -133,7 +134,7 @@ impl NearSurface<'_> {
     }
 }
 
-/// Returns the bit pattern of a point. Both zeros have the same one.
+/// Returns the bit patterns of a point's coordinates, which are the same for both zeros.
 fn point_bits(point: DVec3) -> PointBits {
     point.to_array().map(|x| (x + 0.0).to_bits())
 }

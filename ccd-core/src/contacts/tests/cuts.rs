@@ -1,5 +1,5 @@
-//! Tests that the pairs of flat surfaces do not depend on how they are cut into triangles. Also tests pieces of many
-//! faces, or with shared corners.
+//! Tests that the contacts of a flat surface do not depend on its triangulation. Also tests pieces of many faces, or
+//! with shared corners.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -26,7 +26,7 @@ fn slab_with_centre_points(half: DVec3) -> Body {
     .unwrap()
 }
 
-/// Tests that the contact on a flat side is the point's projection, for any triangulation of the side.
+/// Tests that the contact of a point with the inside of a flat side is the point's projection, for any triangulation.
 #[test]
 fn only_the_foot_on_a_side_is_reported() {
     let rng = &mut rng(74);
@@ -57,7 +57,7 @@ fn only_the_foot_on_a_side_is_reported() {
     }
 }
 
-/// Creates a polyhedron of flat faces around the centre of a sphere.
+/// Creates a triangulated unit sphere of rings and sectors, with its poles on the z axis.
 fn uv_sphere(rings: u32, sectors: u32) -> Mesh {
     let angle = |k: u32, of: u32| std::f64::consts::PI * f64::from(k) / f64::from(of);
     let point = |(i, j): (u32, u32)| {
@@ -136,7 +136,8 @@ fn a_piece_of_many_faces_is_sorted_once() {
     assert_eq!(refused, Err(ContactsError::TooManyPairs { budget }));
 }
 
-/// Tests two pieces with different radii that share a corner: the one with the larger radius is nearer.
+/// Tests that the contact at a corner that two pieces share is measured to the piece with the larger radius, which is
+/// nearer.
 #[test]
 fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
     let limb = |x: f64, id: u32, radius: f64| Polytope {

@@ -1,4 +1,4 @@
-//! Finds all pairs of features by brute force, as a reference.
+//! Finds the contacts of two meshes by brute force over all pairs of features, as a reference.
 
 use crate::body::feature::Feature;
 use crate::body::pieces::Pieces;
@@ -16,7 +16,7 @@ pub(super) struct Mesh {
     pub(super) faces: Vec<[u32; 3]>,
 }
 
-/// The expected pairs of features with their distances, and the pairs that depend on rounding.
+/// The pairs of features that a search must report, with their distances, and those that it may report due to rounding.
 pub(super) struct ExpectedPairs {
     pub(super) certain_pairs: BTreeMap<String, f64>,
     pub(super) uncertain_pairs: BTreeSet<String>,
@@ -100,7 +100,7 @@ impl Mesh {
         self.faces[face].map(|v| self.points[v as usize])
     }
 
-    /// Returns each edge once, with the two coplanar faces on either side if there are any.
+    /// Returns each edge once, with its two faces if these are coplanar.
     fn edges(&self, rounding: f64) -> Vec<([u32; 2], Option<[u32; 2]>)> {
         let mut sides: BTreeMap<[u32; 2], Vec<(u32, u32)>> = BTreeMap::new();
         for (k, face) in (0u32..).zip(&self.faces) {
@@ -141,10 +141,10 @@ impl Mesh {
     }
 }
 
-/// A pair of features, of A and of B.
+/// A feature of A and a feature of B.
 type Key = [Feature; 2];
 
-/// Returns the pairs of features of two meshes within reach.
+/// Returns the pairs of features of two meshes that are at most `reach` apart.
 pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> ExpectedPairs {
     let mut offers = CollectedPairs {
         reach,
@@ -175,7 +175,8 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
     offers.into_expected_pairs([a, b])
 }
 
-/// The pairs of features within reach: those that certainly are, with their distances, and those that may be.
+/// The pairs of features found so far: those certainly within reach, with their distances, and those possibly within
+/// reach.
 struct CollectedPairs {
     reach: f64,
     rounding: f64,
@@ -184,7 +185,7 @@ struct CollectedPairs {
 }
 
 impl CollectedPairs {
-    /// Adds a pair if its distance is within reach up to rounding.
+    /// Adds a pair if its distance is at most the reach, up to rounding.
     fn add_if_near(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
@@ -195,7 +196,8 @@ impl CollectedPairs {
         }
     }
 
-    /// Adds a vertex and the nearest part of a face. The pair is clear if no smaller part is equally near.
+    /// Adds the pair of a vertex and the corner, edge or inside of a face that is nearest to it. The pair is clear if
+    /// no smaller part is equally near.
     fn add_vertex_and_face(
         &mut self,
         v: DVec3,
@@ -239,7 +241,8 @@ impl CollectedPairs {
         }
     }
 
-    /// Adds two crossing edges. The pair is clear if both are nearer inside than at any end.
+    /// Adds the pair of two edges whose nearest points are inside both edges. The pair is clear if the edges are nearer
+    /// there than at any end.
     fn edges(&mut self, e: [DVec3; 2], f: [DVec3; 2], names: Key) {
         let (d, along, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
         let across = d.cross(along);
@@ -258,7 +261,8 @@ impl CollectedPairs {
         self.add_if_near(names, distance, clear);
     }
 
-    /// Drops pairs that follow from others, and replaces edges inside flat parts by faces.
+    /// Removes a vertex's pairs with the boundary of any feature that it pairs with, and names edges inside flat parts
+    /// by a face.
     fn into_expected_pairs(self, meshes: [&Mesh; 2]) -> ExpectedPairs {
         let larger = |key: &Key, other: &Key| {
             (0..2).any(|k| {

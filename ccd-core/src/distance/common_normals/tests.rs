@@ -14,7 +14,7 @@ fn common_normals(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
     normals
 }
 
-/// Returns the vectors from a corner of a cube to its other corners, which are on this side of it.
+/// Returns the edge vectors of a cube at one of its corners; `side` has their signs.
 fn cube_corner_offsets(side: DVec3) -> Vec<DVec3> {
     vec![side.x * DVec3::X, side.y * DVec3::Y, side.z * DVec3::Z]
 }
@@ -23,7 +23,7 @@ fn turned(turn: DQuat, offsets: &[DVec3]) -> Vec<DVec3> {
     offsets.iter().map(|&offset| turn * offset).collect()
 }
 
-/// Returns vectors from a point within a face of a cube along its surface and inward.
+/// Returns vectors from a point of the plane z = 0 to points around it in that plane.
 fn level() -> Vec<DVec3> {
     vec![DVec3::X, -DVec3::X, 0.1 * DVec3::Y, -3.0 * DVec3::Y]
 }
@@ -54,7 +54,7 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
     }
 }
 
-/// Draws vectors within a cone about an axis. The normals of both bundles are opposite.
+/// Draws up to 11 vectors, most of which point along `about`. The normals of both bundles are opposite.
 fn random_cone_vectors(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
     let count = rng.random_range(1..12);
     let offsets =
@@ -62,7 +62,8 @@ fn random_cone_vectors(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
     offsets.collect()
 }
 
-/// Tests the projection on a cone against the best of the projections on its sides and edges.
+/// Tests that the projection onto a cone of normals is as good as the best one found by trying all sides and edges of
+/// the cone.
 #[test]
 fn the_nearest_normal_is_the_best_of_all_candidates() {
     let rng = &mut rng(82);

@@ -1,4 +1,4 @@
-//! Computes points of a thin piece beside the edges of another piece that lie on it.
+//! Computes test points on a thin piece, next to the edges of another piece that lie on it.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -7,8 +7,8 @@ use crate::math::vector::unit_or_any;
 use crate::rounding::BESIDE_EDGE_DISTANCE;
 use glam::DVec3;
 
-/// Returns points of a thin piece beside the edges of `other` that lie on it: two for each edge, on either side of the
-/// middle of the common part. An edge counts as on the piece if it leaves its plane by at most `reach`.
+/// Returns points on a thin piece, next to the edges of `other` that lie on it: two for each edge, on either side of
+/// the middle of the common part. An edge counts as on the piece if it leaves its plane by at most `reach`.
 ///
 /// A surface that passes through a piece's inside, without any of its faces intersecting it, does
 /// so along such edges. For a part that is entirely in the plane, the faces beyond its edges
@@ -47,7 +47,7 @@ struct FlatOutline<'a> {
 }
 
 impl<'a> FlatOutline<'a> {
-    /// Creates the outline; `None` for a piece of fewer than three corners.
+    /// Returns the outline of a piece; `None` for a piece with fewer than three corners.
     fn of_piece(piece: &Piece<'a>) -> Option<Self> {
         let spread = |corners: &[u32]| match *corners {
             [a, b, c, ..] => {
@@ -86,7 +86,7 @@ impl<'a> FlatOutline<'a> {
         self.normal.dot(point - self.corner(0))
     }
 
-    /// Returns for each side of the outline a point on it, and the inward direction.
+    /// Returns a point on each side of the outline, with the direction from that side into the outline.
     fn side_points(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let count = self.count();
         (0..count).map(move |k| {
@@ -100,7 +100,8 @@ impl<'a> FlatOutline<'a> {
             .all(|(from, inward)| inward.dot(point - from) > 0.0)
     }
 
-    /// Returns points on both sides of the middle of the part of an edge within the outline.
+    /// Returns two points, one on either side of an edge, next to the middle of the edge's part inside the outline;
+    /// `None` if no part is inside.
     fn points_beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let way = to - from;
         let (mut enter, mut leave) = (0.0, 1.0);
@@ -121,7 +122,7 @@ impl<'a> FlatOutline<'a> {
     }
 }
 
-/// Returns the edges of a piece as indices of its points, each at least once.
+/// Returns the edges of a piece as pairs of point indices; each edge occurs at least once.
 fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
     let around = |corners: &'a [u32]| {
         let ends = move |k: usize| [corners[k], corners[(k + 1) % corners.len()]];

@@ -1,4 +1,4 @@
-//! Tests the inside and outside of solids, points on the surface, and nested shells.
+//! Tests which points and bodies count as inside a solid, outside of it, or on its surface, also for nested shells.
 
 use super::containment_at_start;
 use crate::answer::{Limit, Outcome, Overlap};
@@ -71,7 +71,8 @@ fn a_point_on_the_surface_is_not_inside() {
     }
 }
 
-/// Tests that rays exactly through corners and edges are counted correctly.
+/// Tests that points are inside or outside a cube as expected, although rays from them pass exactly through corners and
+/// edges.
 #[test]
 fn regular_points_in_line_with_edges_are_decided() {
     let body = solid(&cube(1.0, 8));
@@ -141,7 +142,8 @@ fn a_surface_contains_nothing() {
     assert!(matches!(overlap, Some(Overlap::BInsideA(_))));
 }
 
-/// Tests a triangle whose extreme points are all on a cube: the touching pieces decide, if there are any.
+/// Tests that a triangle on the surface of a cube is not inside it if the touching pieces are given, and undecided
+/// otherwise.
 #[test]
 fn a_part_on_the_surface_is_left_to_its_pieces() {
     let on_top = [[0.5, 0.0, 1.0], [0.75, 0.25, 1.0], [0.5, 0.25, 1.0]].map(DVec3::from);
@@ -184,7 +186,8 @@ fn placement_and_size_do_not_matter() {
     }
 }
 
-/// Tests a large triangle through the common square of two pyramids: no face passes through the triangle.
+/// Tests that a triangle in the common square of two pyramids is inside their union, although no face passes through
+/// it.
 #[test]
 fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let tip = |k: usize| match k % 2 {
@@ -227,8 +230,8 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     assert_eq!(found(&above), None);
 }
 
-/// Tests a case that the fuzz target `query` found: the needle enters the cube through the common edge of two faces,
-/// and ends inside.
+/// Tests that a needle that enters a cube through the common edge of two faces is found to end inside. The fuzz target
+/// `query` found this case.
 #[test]
 fn a_lone_needle_through_an_edge_is_inside() {
     let needle = [-4.0 * DVec3::Z, DVec3::ZERO, DVec3::ZERO];
@@ -250,7 +253,8 @@ fn a_lone_needle_through_an_edge_is_inside() {
     ));
 }
 
-/// Tests a case that the fuzz target `query` found: the errors of volumes exceed the height of a very long face.
+/// Tests that points near a face of length 4e10 are decided, although rounding errors of volumes exceed their distance
+/// from it. The fuzz target `query` found this case.
 #[test]
 fn points_near_very_long_faces_are_decided() {
     let long = cube(1.0, 1).into_iter().map(|face| {
@@ -263,7 +267,8 @@ fn points_near_very_long_faces_are_decided() {
     assert_eq!(contains(&beam, DVec3::X * 3.75), Some(true));
 }
 
-/// Tests a plate along the plane y = 0, so thin that no face proves an intersection; x and z are its half extents.
+/// Returns the outcome for a plate in a cube, perpendicular to y, and so thin that no face proves an intersection; `x`
+/// and `z` are its half extents.
 fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Option<Outcome> {
     let cube = solid(&cube(1.0, n));
     let plate = Body::cuboid([x, 1e-33, z]).unwrap();
@@ -302,8 +307,8 @@ fn a_thin_piece_is_examined_beside_edges_on_it() {
     assert_eq!(beside, None);
 }
 
-/// Tests that thick pieces, and pieces without a known outline, are not tested beside edges. A piece without known
-/// sides is not examined either.
+/// Tests that no points beside edges are tested for thick pieces, or for pieces without a known outline. A piece
+/// without known sides is not examined either.
 #[test]
 fn only_thin_pieces_are_examined_beside_edges() {
     let cube = solid(&cube(1.0, 1));

@@ -78,7 +78,7 @@ fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
     assert!(!triangles(&flat, &beside));
 }
 
-/// Tests against the separating axis theorem, for random triangles and needles, with any claim.
+/// Tests that the decision for random triangles and needles agrees with the separating axis theorem.
 #[test]
 fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     let mut rng = rng(1);
@@ -123,7 +123,7 @@ fn boxes(b_to_a: Frame) -> bool {
     assert_decided(&pair, &claim)
 }
 
-/// Returns weights of corners 0, 1, 3, 7 of a unit box that represent a point with x ≥ y ≥ z.
+/// Returns four corners of the cube of half extent 1, and weights with which they represent a point.
 fn tetrahedron(p: DVec3) -> [(u32, f64); 4] {
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| p[j].total_cmp(&p[i]));
@@ -184,7 +184,7 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
     assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
 }
 
-/// Tests that false claims do not change the decision.
+/// Tests that a claim with a random axis and random corners does not change the decision about two boxes.
 #[test]
 fn false_claims_do_not_change_the_decision() {
     let mut rng = rng(3);
@@ -211,7 +211,8 @@ fn false_claims_do_not_change_the_decision() {
     assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
 }
 
-/// Tests that each corner of the first tetrahedron is about as far off as possible, for long or flat clouds of points.
+/// Tests that each corner of the first tetrahedron is about as far from the corners before it as possible, for long or
+/// flat point sets.
 #[test]
 fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
     let mut rng = rng(4);
@@ -291,7 +292,7 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
     assert!(inner.corners.is_empty());
 }
 
-/// Tests balls whose distance of centres is exactly the sum of the radii.
+/// Tests that two balls do not intersect if the distance of their centres is exactly the sum of their radii.
 #[test]
 fn balls_that_touch_exactly_do_not_intersect() {
     let ball = Body::sphere(0.5).unwrap();
@@ -340,7 +341,7 @@ fn overlaps_by_separating_axes(pair: &PiecePair<'_>) -> bool {
     .all(|axis| depth(axis) > ROUNDING)
 }
 
-/// The points of a piece, its edges, each once, and the normals of its facets.
+/// The points, the distinct edges and the facet normals of a piece.
 struct PieceFeatures {
     points: Vec<Double3>,
     edges: Vec<Double3>,

@@ -1,4 +1,4 @@
-//! Improves the axis of a checked claim, from the features that contain the nearest points.
+//! Improves the axis of a checked claim by the edges and face normals at the nearest points.
 
 use super::{CheckedClaim, support_gap};
 use crate::body::piece::Combination;
@@ -7,7 +7,7 @@ use crate::distance::oracle::PiecePair;
 use crate::math::vector::{across, unit};
 use glam::{DMat3, DVec3};
 
-/// Checks a claim again, along the best axis that its features suggest.
+/// Raises the lower bound of a checked claim, by axes that the features at its nearest points suggest.
 ///
 /// The vector between nearest points is only as exact as their coordinates. Along it, two pieces that are near for
 /// their size lose some of their distance. The normal of a face, or of two edges, is exact to its last bits.
@@ -33,8 +33,8 @@ pub(crate) fn improve_axis(
     best
 }
 
-/// Returns the candidate axes. They are the vector between the nearest points, the vector perpendicular to it and a
-/// single edge, the normals of faces, and the normal of two edges.
+/// Returns the candidate axes, of any length; a missing axis is zero. They are the vector between the nearest points,
+/// the vector perpendicular to it and a single edge, the normals of faces, and the normal of two edges.
 fn axes(pair: &PiecePair<'_>, checked: &CheckedClaim) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
     let axis_in_b = pair.b_to_a.inverse_vector(checked.axis);
@@ -58,7 +58,7 @@ struct Feature {
 }
 
 impl Feature {
-    /// Returns the feature at a combination, in the piece's frame.
+    /// Returns the feature whose corners a combination names, in the piece's frame.
     fn at_combination(piece: &Piece<'_>, combination: &Combination, axis: DVec3) -> Self {
         let points = piece.points;
         let way = |from: u32, to: u32| points[to as usize] - points[from as usize];

@@ -167,7 +167,8 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
     assert_eq!(checked.core_distance, 3.0);
 }
 
-/// Checks that a tilted claim can be improved to the distance, and returns whether it was poor.
+/// Checks that `improve_axis` raises the lower bound of a tilted claim to the distance, and returns whether the bound
+/// was poor before.
 fn check_axis_improvement(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
     let checked = check(pair, tilted, ROUNDING);
     let CheckedClaim {
@@ -183,7 +184,8 @@ fn check_axis_improvement(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -
     checked.lower < distance - 10.0 * ROUNDING
 }
 
-/// Tests large triangles close to each other: the vector between their points is rounded, and its tilt costs distance.
+/// Tests that features give better axes than the rounded vector between nearest points, for large triangles close to
+/// each other.
 #[test]
 fn features_have_better_axes_than_near_points() {
     let mut rng = rng(3);
@@ -213,8 +215,9 @@ fn features_have_better_axes_than_near_points() {
     assert!(poor > 2_000, "{poor}");
 }
 
-/// Tests a corner over the face of a box. The claim names its nearest point by two corners across the face, which are
-/// no edge, or as one of the face's corners, which is a corner of other faces too.
+/// Tests that a facet of a box gives the best axis towards a corner above it. The claim names the nearest point of the
+/// box by two corners across the face, which are no edge, or as one of the face's corners, which is a corner of other
+/// faces too.
 #[test]
 fn facets_have_better_axes_than_corners_across_them() {
     let mut rng = rng(4);
@@ -254,7 +257,7 @@ fn facets_have_better_axes_than_corners_across_them() {
     assert!(poor > 900, "{poor}");
 }
 
-/// Tests that a piece of many points has the same gap as by a scan of all its points.
+/// Tests that the search for extremal points of large pieces gives the same gap as a scan of all points.
 #[test]
 fn searches_for_extremal_points_change_no_gap() {
     let mut rng = rng(5);
@@ -287,7 +290,7 @@ fn searches_for_extremal_points_change_no_gap() {
     assert!(apart > 20, "{apart}");
 }
 
-/// Tests that the better of a claim's axis and the vector between its points counts.
+/// Tests that a claim has a good lower bound even if either its axis or its points are wrong.
 #[test]
 fn the_better_one_of_axis_and_way_counts() {
     let mut rng = rng(6);
@@ -329,7 +332,7 @@ fn the_better_one_of_axis_and_way_counts() {
     assert!(apart > 500, "{apart}");
 }
 
-/// Tests coinciding nearest points, which the claimed axis moves to the surfaces.
+/// Tests that the witnesses of coinciding nearest points lie on the rounded surfaces, along the claimed axis.
 #[test]
 fn witnesses_of_coinciding_points_are_along_the_axis() {
     let points = [DVec3::ZERO];

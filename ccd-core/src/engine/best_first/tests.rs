@@ -1,4 +1,4 @@
-//! Tests whole queries against samples and the naive schedule, with tiny budgets, and with a million pairs at once.
+//! Compares answers with samples and with the naive schedule, also with tiny budgets and with a million waiting pairs.
 
 use super::*;
 use crate::answer::Unresolved;
@@ -135,7 +135,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
     assert!(later > 12, "{later}");
 }
 
-/// Checks that the pieces of a contact are as far apart as claimed.
+/// Checks that the bounds and witnesses of a contact agree with the distance of its pieces.
 fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
     let placed = |side: &BodyWithPath<'_>, piece: u32| {
         let frame = side.path.frame(s);
@@ -345,8 +345,8 @@ fn body_of_level_plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -
     Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap()
 }
 
-/// Tests two stacks whose plates alternate: all ten million pairs have to be proven apart at the start, and wait for
-/// their clocks.
+/// Tests that a search finds the first contact of two stacks with alternating plates, or reports that its budget is
+/// used up. All ten million pairs have to be proven apart at the start, and wait for their clocks.
 #[test]
 fn a_million_groups_of_pairs_wait_at_once() {
     const PLATE_COUNT: usize = 3_200;
@@ -390,8 +390,8 @@ fn a_million_groups_of_pairs_wait_at_once() {
     assert!(safe_until <= time);
 }
 
-/// Tests a triangle of size 200 that turns about a line below a thousand small ones. Planes that turn with it keep
-/// pairs of nodes apart for a while, without splits.
+/// Tests that a triangle of size 200 turns past a thousand small ones in fewer than 512 visits. Planes that turn with
+/// it keep pairs of nodes apart for a while, without splits.
 #[test]
 fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
     let small = |k: u32| {

@@ -1,4 +1,4 @@
-//! Tests that lists give back memory beyond the bound.
+//! Tests that an emptied list gives back its memory beyond `MAX_KEPT_BYTES`.
 
 use super::*;
 

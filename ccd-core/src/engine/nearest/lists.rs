@@ -9,7 +9,7 @@ use crate::engine::queue::Queue;
 pub(crate) struct SearchBuffers {
     /// Pairs of nodes, ordered by lower bounds of their distances.
     pub(crate) waiting_pairs: Queue<Siblings>,
-    /// All pairs of pieces that no axis separates, and which therefore have no distance.
+    /// All measured pairs of pieces that are not proven apart; their lower bounds are not positive.
     pub(crate) touching_pairs: Vec<[u32; 2]>,
     /// Scratch memory for the test whether one body is inside the other.
     pub(crate) pieces: Vec<u32>,
@@ -22,7 +22,7 @@ impl SearchBuffers {
         empty(&mut self.pieces);
     }
 
-    /// Returns all pairs of pieces that no axis separates, and the list of pieces as scratch memory.
+    /// Returns all measured pairs of pieces that are not proven apart, and the list of pieces as scratch memory.
     pub(crate) fn touching_pairs_and_scratch(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
         (&self.touching_pairs, &mut self.pieces)
     }

@@ -40,7 +40,8 @@ pub(crate) fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(
     wider_gap_axis(wider_gap_axis(own, others), between)
 }
 
-/// Returns the axis between the centres at their time of nearest approach, if their relative displacement is `travel`.
+/// Returns the axis between the centres at their time of nearest approach, for a straight relative displacement
+/// `travel`.
 #[inline(always)]
 pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     children: &C,

@@ -12,21 +12,21 @@ use crate::math::simd::splat;
 use crate::tuning::{ADDED_THICKNESS, MIN_SWEEP, REVISIT_DISTANCE};
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
-/// The bounds of eight pairs, and hints for the next step of each.
+/// The free times of eight pairs of nodes, and the choices for the next step of each pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EightPairBounds {
-    /// The time for which each pair is certainly farther apart than the required gap.
+    /// The time for which each pair certainly stays farther apart than the required gap.
     pub(crate) free_times: FreeTimes,
-    /// The pairs that are far apart for their size, as bits. A second visit after their time is worth more than a
-    /// split.
+    /// The pairs to visit again instead of splitting them, as bits. They are far apart for their size.
     pub(crate) revisit_mask: u8,
-    /// The pairs whose child should be split rather than the other node, as bits: it is thicker along the axis.
+    /// The pairs whose child is to be split rather than the other node, as bits. Such a child is thicker along the
+    /// axis.
     pub(crate) split_child_mask: u8,
     /// True if the other node is a single piece, and cannot be split.
     pub(crate) other_is_piece: bool,
 }
 
-/// Bounds the pairs in `lanes`, and decides what to do with each next.
+/// Computes the free times of the pairs in `lanes`, and chooses the next step for each pair.
 ///
 /// Fixed planes are perpendicular to two axes: the one with the widest gap now, and the one between the centres at
 /// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
@@ -71,7 +71,7 @@ fn mask_bits<L: Simd>(mask: mask32x8<L>) -> u8 {
     mask.to_bitmask() as u8
 }
 
-/// A small node that passes a much larger node of a turning body.
+/// The values of eight pairs, in each of which a small node passes a much larger node of a turning body.
 struct PassingNode<L: Simd> {
     /// The time for which a plane that turns with the large node's body keeps the pair apart.
     turning_plane_time: f32x8<L>,
@@ -81,12 +81,13 @@ struct PassingNode<L: Simd> {
     /// The radius of the large node.
     large_radius: f32x8<L>,
     small_radius: f32x8<L>,
-    /// Set if the large node is a single piece. Then only the size of the small node decides whether it is far.
+    /// Set if the large node is a single piece. Then only the size of the small node decides whether the pair is far
+    /// apart.
     other_is_piece: mask32x8<L>,
 }
 
 impl<L: Simd> PassingNode<L> {
-    /// Creates the value; `None` if no body turns whose nodes are much larger.
+    /// Computes the values; `None` unless a body turns whose nodes are much larger than the other body's.
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
         pairs: &EightPairs<'_, L, C, P>,
@@ -128,10 +129,10 @@ impl<L: Simd> PassingNode<L> {
     }
 }
 
-/// The free times of eight pairs, as bits of f32. The lowest bits of each hold the pair's lane, and the time is rounded
-/// down to make room, so that the least value also names its lane. Bits of non-negative numbers have the order of the
-/// numbers. Comparing them as integers also distinguishes numbers next to zero if the processor is set to flush those
-/// to zero.
+/// The free times of eight pairs, the times for which they stay apart, as bits of f32. The lowest bits of each hold the
+/// pair's lane, and the time is rounded down to make room, so that the least value also names its lane. Bits of
+/// non-negative numbers have the order of the numbers. Comparing them as integers also distinguishes numbers next to
+/// zero if the processor is set to flush those to zero.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct FreeTimes([u32; LANES]);
@@ -208,7 +209,7 @@ impl FreeTimes {
     }
 }
 
-/// Clears the bits of the lane, and returns the time.
+/// Returns the free time in a packed value, without the bits of its lane.
 #[inline]
 fn time(bits: u32) -> f32 {
     f32::from_bits(bits & !LANE_BITS)

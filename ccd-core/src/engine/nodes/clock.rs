@@ -1,4 +1,4 @@
-//! Computes for how long gaps stay open, in f32.
+//! Computes lower bounds of the times for which gaps stay open, in f32.
 
 use crate::math::simd::splat;
 use crate::rounding::{FREE_TIME_FACTOR_F32, LEAST_SECOND_DERIVATIVE_F32, UNIT_ROUNDOFF_F32};

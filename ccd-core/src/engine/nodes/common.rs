@@ -11,7 +11,7 @@ use crate::tuning::{CLOSED_GAP, MUCH_LARGER_RATIO};
 use glam::Vec3;
 use std::cell::OnceCell;
 
-/// A query with derived numbers for pairs of nodes, rounded to f32.
+/// A problem, with the values in f32 that the bounds of all its pairs of nodes use.
 #[derive(Debug)]
 pub(crate) struct NodeContext<'p> {
     pub(crate) problem: &'p Problem<'p>,
@@ -23,8 +23,8 @@ pub(crate) struct NodeContext<'p> {
     angular_velocities: [Option<(Vec3, f32)>; 2],
     /// The gap that every clock proves, rounded up.
     pub(crate) gap: f32,
-    /// `Problem::node_gap`, rounded up. Until its clock, a pair of nodes keeps this gap or the sum of `gap` and the
-    /// rounding, whichever is larger.
+    /// The gap `Problem::node_gap` that pairs of nodes keep if rounding allows, rounded up. Until its clock, a pair of
+    /// nodes keeps this gap or the sum of `gap` and the rounding, whichever is larger.
     pub(crate) node_gap: f32,
     /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,

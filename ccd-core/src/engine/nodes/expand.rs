@@ -17,7 +17,7 @@ use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
 
-/// The bounds of a split node's children against the other node.
+/// The result of a split: the bounds of the node's children against the other node, and the first child.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
     pub(crate) bounds: EightPairBounds,
@@ -36,7 +36,7 @@ pub(crate) struct Split {
 }
 
 impl Split {
-    /// Creates the split of a node with all children.
+    /// Creates the split of a node in which all its children are bounded.
     pub(crate) fn all(body: WhichBody, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
@@ -47,7 +47,7 @@ impl Split {
     }
 }
 
-/// Bounds the children of a node against the other node at clock `s`.
+/// Computes for how long each child of a node stays apart from the other node, from clock `s` on.
 ///
 /// # Panics
 /// When the node is a single piece.
@@ -76,8 +76,8 @@ enum ClosingRate {
     Unit,
 }
 
-/// Bounds the children, with the best vector instructions. This function alone contains the kernels, compiled once for
-/// each set of instructions.
+/// Computes the free times of a split node's children, with the best vector instructions. This function alone contains
+/// the kernels, compiled once for each set of instructions.
 #[inline(never)]
 fn bound_children(
     common: &NodeContext<'_>,
@@ -157,7 +157,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
         }
     }
 
-    /// Bounds the children in a group against the other body's node.
+    /// Computes the free times of the children in a group against the other body's node.
     #[inline(always)]
     fn bound<C: Children>(&self, group: &C, members: &GroupHeader) -> EightPairBounds {
         let RelativeState {
@@ -276,7 +276,7 @@ impl<L: Simd> GroupMotion<'_, L> {
         }
     }
 
-    /// Returns the motion in f32, for a node with this centre and radius.
+    /// Returns the relative motion in f32, with allowances for rounding against a node of this centre and radius.
     #[inline(always)]
     fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_rotation(), self.other_rotation());

@@ -8,13 +8,13 @@ use glam::Vec3;
 /// The eight children of a group as geometric shapes.
 pub(crate) trait Children {
     fn centre<L: Simd>(&self, level: L) -> Vec3x8<L>;
-    /// Returns for each child a unit vector that is likely to separate it from others, or zero.
+    /// Returns for each child a unit vector that is likely to be a separating axis, or zero.
     fn normal<L: Simd>(&self, level: L) -> Vec3x8<L>;
     /// Returns upper bounds of the distances of each child's points from its centre.
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
     /// Returns `max n·(x − centre)` over each child's points `x`.
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Like `Children::extent_along`, for an axis that is each child's normal or its opposite.
+    /// Like `Children::extent_along`, for axes that are the children's normals or their negatives.
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.extent_along(n)
@@ -29,13 +29,13 @@ pub(crate) trait Children {
 /// The node with which all children of a group are paired.
 pub(crate) trait OtherNode {
     fn centre(&self) -> Vec3;
-    /// Returns a unit vector that is likely to separate the node from others, or zero.
+    /// Returns a unit vector that is likely to be a separating axis, or zero.
     fn normal(&self) -> Vec3;
     /// Returns an upper bound of the distances of the node's points from its centre.
     fn radius(&self) -> f32;
     /// Returns `max n·(centre − y)` over the node's points `y`: the node's extent along −n.
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Like `OtherNode::extent_along`, for an axis that is the node's normal or its opposite.
+    /// Like `OtherNode::extent_along`, for axes that are the node's normal or its negative.
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.extent_along(n)

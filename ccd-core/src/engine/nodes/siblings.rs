@@ -21,11 +21,11 @@ pub(crate) struct Siblings {
     other_is_piece: bool,
     /// The pairs for which a second visit is better than a split, as bits.
     revisit: u8,
-    /// How many times the pair that waits alone was advanced; 0 for the pairs of a split.
+    /// The number of times that the pair was advanced since it was removed from the pairs of its split; 0 before that.
     times_advanced: u8,
 }
 
-/// What to do with a pair whose clock has run out.
+/// The next step for a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum NextStep {
     /// Two pieces, of A and of B, whose distance the oracle computes next.
@@ -35,8 +35,8 @@ pub(crate) enum NextStep {
 }
 
 impl NextStep {
-    /// Creates the pair of both roots. If both can be split, the smaller one is, as a large node is best kept whole as
-    /// long as possible.
+    /// Returns the first step of a search, for the pair of both roots. If both can be split, the smaller one is, as a
+    /// large node is best kept whole as long as possible.
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
@@ -108,8 +108,8 @@ impl Siblings {
         }
     }
 
-    /// Marks pairs that are proven apart to the end as finished, if `keeps_apart` returns `true`. If it returns
-    /// `false`, the pair will be split and not visited again: most of its children stay apart.
+    /// Marks the pairs for which `keeps_apart` returns `true` as finished, since they stay apart to the end. If it
+    /// returns `false`, the pair will be split and not visited again: most of its children stay apart.
     pub(crate) fn finish(&mut self, mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>) {
         let horizon = (1.0 - self.start_clock) as f32;
         for lane in 0..LANES {

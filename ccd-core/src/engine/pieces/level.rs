@@ -1,4 +1,5 @@
-//! Handles pieces that touch beside the plane of the contact at the start: an inner edge of flat ground is no obstacle.
+//! Handles pieces that touch while the plane of the contact at the start keeps them apart. An inner edge of flat ground
+//! is therefore no obstacle.
 
 use super::snapshot::{SeparatingPlane, Snapshot};
 use crate::answer::Contact;
@@ -10,7 +11,7 @@ use crate::touching_plane::TouchingPlane;
 use crate::tuning::MIN_RESTING_SLACK;
 use glam::DVec3;
 
-/// How a [`TouchingPlane`] keeps two pieces apart.
+/// The state of a [`TouchingPlane`] that keeps two pieces apart: the body with which it moves, and the least gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlaneContact {
     /// The body with which the plane moves.

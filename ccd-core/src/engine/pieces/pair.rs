@@ -27,22 +27,23 @@ pub(crate) struct Pair<C> {
     cache: C,
 }
 
-/// The gap that a pair's clock proves, and when the pair is in contact. Distances are measured beyond the margin.
+/// What counts as contact for a pair, and the gap that its clock proves until then. Distances are measured beyond the
+/// margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
-    /// The pair is in contact within the query's tolerance. The clock proves half of it.
+    /// The pair counts as in contact once it is within the query's tolerance. The clock proves half of the tolerance.
     Apart,
     /// Like `Apart`, for a pair that was in contact at the start and has separated since.
     Separated,
     /// The pair was in contact at the start, up to rounding. It is in contact again once its gap cannot be proven to be
     /// above `floor`.
     Resting { floor: f64 },
-    /// The pair touches beside the plane of the contact at the start. It is in contact once it approaches along the
-    /// normal of that plane.
+    /// The pair touches, but the plane of the contact at the start keeps its pieces apart. The pair is in contact once
+    /// it approaches along the normal of that plane.
     PlaneContact(PlaneContact),
 }
 
-/// What an advance of a pair found out.
+/// The result of one advance of a pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum PairStep {
     /// The pair is certified apart until this clock, which is later than before. A clock beyond 1 means forever.
@@ -54,7 +55,7 @@ pub(crate) enum PairStep {
     Overlap(Contact),
     /// The pair is not in contact, but its clock cannot advance.
     Stalled,
-    /// The oracle has no result.
+    /// The oracle gave up on the pair.
     GaveUp,
 }
 

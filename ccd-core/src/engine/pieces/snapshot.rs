@@ -30,7 +30,7 @@ pub(crate) struct Snapshot<'p> {
     pub(crate) frames: [Frame; 2],
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
-    /// The number of evaluations of points' heights.
+    /// The number of heights of points that this snapshot has evaluated.
     evaluations: Cell<u64>,
 }
 
@@ -113,7 +113,8 @@ impl<'p> Snapshot<'p> {
         self.longest_free_time(checked, kept, &direct, free)
     }
 
-    /// Returns the longest free time of any plane; `free` is that of the fixed plane perpendicular to the claim's axis.
+    /// Returns the longest free time of the planes that are tried; `free` is the time of the fixed plane perpendicular
+    /// to the claim's axis.
     fn longest_free_time(
         &self,
         checked: &CheckedClaim,
@@ -172,8 +173,8 @@ impl<'p> Snapshot<'p> {
         (!(free >= self.time_left())).then_some(free)
     }
 
-    /// Returns how deeply two pieces of many points overlap along the axis between their middles, in units of the
-    /// smaller one's radius. The depth is negative if they are apart along it; `None` if a piece has few points.
+    /// Returns the overlap of two pieces of many points along the axis between their middles, as a share of the smaller
+    /// bounding radius. It is negative if the pieces are apart along the axis; `None` if a piece has few points.
     #[cfg(feature = "hull-tree")]
     pub(crate) fn depth_between_middles(&self) -> Option<f64> {
         let pair = &self.pieces;
@@ -307,7 +308,7 @@ impl<'p> Snapshot<'p> {
         ]
     }
 
-    /// Returns the number of evaluations of points' heights so far.
+    /// Returns the number of heights of points that this snapshot has evaluated.
     pub(crate) fn evaluations(&self) -> u64 {
         self.evaluations.get()
     }
@@ -320,8 +321,8 @@ impl<'p> Snapshot<'p> {
         1.0 - self.clock
     }
 
-    /// Returns a time for which the gap along a fixed unit vector certainly stays large enough; `None` if it always
-    /// does. `slack` is the present excess over the required gap.
+    /// Returns a time for which the gap along a fixed unit vector certainly stays above the required gap; `None` if it
+    /// always does. `slack` is the present excess over the required gap.
     ///
     /// Every point's height along the axis is known exactly
     /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
@@ -373,8 +374,9 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns whether the pieces certainly stay apart up to the end, because rotation lowers their points by less than
-    /// the slack that the straight motion leaves. Without this test, the steps towards the time of closest approach become ever shorter.
+    /// Returns whether the pieces certainly stay apart to the end, because rotation lowers their points by less than
+    /// the slack that the straight motion leaves. Without this test, the steps towards the time of closest approach
+    /// become ever shorter.
     fn rotation_keeps_slack(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.time_left();
         let displacement = least_linear_displacement(
@@ -411,7 +413,7 @@ fn least_linear_displacement(rate: f64, linear_acceleration: f64, horizon: f64) 
     }
 }
 
-/// Returns the longer of two free times; `None` is unbounded.
+/// Returns the longer of two free times; `None` stands for an unbounded time.
 fn longer_time(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
 }

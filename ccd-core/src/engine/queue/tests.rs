@@ -6,7 +6,7 @@ use crate::math::order::greater;
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;
 
-/// Removes all items, in order.
+/// Removes all items from a queue, and returns them in the order of removal.
 fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
     let mut out = Vec::new();
     while let Some((_, item)) = queue.next() {

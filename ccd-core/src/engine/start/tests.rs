@@ -1,4 +1,5 @@
-//! Tests bodies that begin within the margin, against all pairs of triangles, with every budget and schedule.
+//! Compares answers for bodies that begin within the margin with all pairs of triangles, for every schedule and many
+//! budgets.
 
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
@@ -35,7 +36,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut ExhaustiveOracle)
 }
 
-/// Creates two tori with the same cuts, one at the origin, the other at `x`.
+/// Calls `then` with the problem of two equal tori at rest, one at `x`, the other at the origin.
 fn with_two_tori<R>(
     cuts: TorusSegments,
     x: f64,
@@ -48,7 +49,7 @@ fn with_two_tori<R>(
     then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
-/// The number of cuts of a torus around its axis, and around its tube.
+/// The numbers of segments of a torus around its axis and around its tube.
 #[derive(Clone, Copy)]
 struct TorusSegments {
     around_axis: usize,
@@ -223,7 +224,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     }
 }
 
-/// Tests that contradictory claims or give-ups do not make bodies touch.
+/// Tests that the distance bounds of touching bodies hold even if the oracle makes false claims or gives up.
 #[test]
 fn false_claims_and_give_ups_never_make_wrong_bounds() {
     let mut rng = rng(34);

@@ -12,7 +12,7 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-/// Tests the visited points against a scan of all points, and that few others are visited.
+/// Tests that the visited points are those that a scan of all points finds in front of the plane, or next to it.
 #[test]
 fn nothing_in_front_is_passed_over() {
     let mut next = noise();
@@ -33,7 +33,7 @@ fn nothing_in_front_is_passed_over() {
     }
 }
 
-/// Tests a plane that touches one end of a long row: few points of the row are visited.
+/// Tests that only the last point of a long row is visited for a plane through that point.
 #[test]
 fn most_points_are_passed_over_together() {
     let points: Vec<DVec3> = (0..100_000)

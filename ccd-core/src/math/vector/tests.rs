@@ -6,7 +6,7 @@ use crate::tests::double::Double3;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use glam::DVec3;
 
-/// Draws a number of any magnitude, down to the least.
+/// Draws a number of either sign and of any magnitude below 2¹⁰⁰⁰, denormal numbers and zero included.
 fn random_number_of_any_magnitude(rng: &mut Pcg64) -> f64 {
     let exponent = rng.random_range(-1074..1000);
     let sign = if rng.random_range(0..2) == 0 {

@@ -5,7 +5,7 @@ use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// Tests that the rounding of the bound is within the allowance for rates.
+/// Tests that the rounding error of [`sound_bound`] is within the allowance for rates.
 #[test]
 fn worst_sound_bound() {
     let found = Worst::of("RATE_F64, the sound bound", 40_000).search(|tape| {

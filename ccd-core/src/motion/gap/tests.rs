@@ -4,7 +4,7 @@ use crate::tests::double::Double;
 use crate::tests::scene::{RngExt, magnitude, rng};
 use crate::tests::worst::{Worst, share};
 
-/// Compares free times, without their allowance, with roots of quadratic equations.
+/// Compares free times, without their allowance for rounding, with the exact roots of quadratic equations.
 #[test]
 fn worst_free_time() {
     let found = Worst::of("RATE_F64, a free time", 40_000).search(|tape| {
@@ -31,7 +31,8 @@ fn worst_free_time() {
     found.is_within(8.0);
 }
 
-/// Compares free times of gaps that close ever slower. If the gap closes at all, the squares may all but cancel.
+/// Tests that the free times of gaps that close ever slower are never late, and nearly exact. If the gap closes at all,
+/// the squares may all but cancel.
 #[test]
 fn a_free_time_of_parting_is_never_late_and_near() {
     let mut rng = rng(1);

@@ -1,4 +1,4 @@
-//! Tests that a path is the motion minus the origin, in units of the duration.
+//! Tests that a path has the poses of its motion relative to the origin, at times in units of the duration.
 
 use super::Path;
 use crate::math::order::greater;

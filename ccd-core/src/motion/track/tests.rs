@@ -1,4 +1,4 @@
-//! Compares tracks with their defining formula, and three bounds with samples.
+//! Compares tracks with their defining formula, and bounds of heights and velocities with samples.
 
 mod sin_cos;
 
@@ -214,8 +214,9 @@ fn the_sound_bound_holds_over_intervals() {
     assert!(beaten > 100, "{beaten}");
 }
 
-/// Tests an arm of length 2 that hangs down and turns about its end towards a wall above. The published bound counts
-/// only the sideways motion of its tip, and lets the arm turn through the wall.
+/// Tests that the published bound lets an arm turn through a wall, and that the sound bound does not. The arm of length
+/// 2 hangs down and turns about its end towards the wall above. The published bound counts only the sideways motion of
+/// its tip.
 #[test]
 fn the_published_bound_lets_the_mace_through_the_wall() {
     let (length, width, wall) = (2.0, 0.02, 1.0);
@@ -280,8 +281,8 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
     );
 }
 
-/// Compares the least height of a turning point with the exact one. Earlier rounding is an error of heights, and is
-/// allowed for there.
+/// Compares the bound of a turning point's least height with the exact least height. Earlier rounding is an error of
+/// heights, and is allowed for there.
 #[test]
 fn worst_least_until() {
     let found = Worst::of("RATE_F64, least heights of points", 40_000).search(|tape| {
@@ -320,8 +321,8 @@ fn worst_least_until() {
     found.is_within(30.0);
 }
 
-/// Compares the bound of a track's second derivative, as stored, with the exact one. Earlier rounding is an error of
-/// heights: it moves no height by more than twice as much, whatever the rotation.
+/// Compares the bound of the second derivative of a track, as stored, with the exact largest second derivative. Earlier
+/// rounding is an error of heights: it moves no height by more than twice as much, whatever the rotation.
 #[test]
 fn worst_bend() {
     let found = Worst::of("RATE_F64, bends of points", 40_000).search(|tape| {

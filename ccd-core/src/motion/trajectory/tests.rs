@@ -6,8 +6,8 @@ use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng};
 use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
 
-/// Returns the largest deviation of points at a distance from the centre, divided by its bound, at some times of a
-/// stretch.
+/// Returns the largest sampled deviation in a stretch of points at the distance `reach` from the centre, divided by its
+/// bound.
 fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch(from, to).unwrap();
     let bound = stretch.deviation.at(reach);

@@ -1,4 +1,5 @@
-//! Computes the distance of two bodies at one clock by a descent from the last front `[FAST06 Alg. 3]`.
+//! Computes the distance of two bodies at one clock by a descent from the last front. This is Algorithm 3 of the paper
+//! `[FAST06]`.
 
 use super::front::{Front, Item, Node};
 use super::hull_pair::{FeatureOwners, HullTreePair};
@@ -18,7 +19,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
-/// A search for the nearest pairs, from the front of the last descent.
+/// A search for the nearest pairs of nodes at one clock, which starts from the front of the last descent.
 pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) hulls: HullTreePair<'p>,
@@ -40,7 +41,7 @@ struct DescentState {
     open: BinaryHeap<OpenPair>,
 }
 
-/// A pair of the front with its distance.
+/// A pair of the front that may have to be split, with a lower bound of its distance.
 struct OpenPair {
     lower: f64,
     at: u32,
@@ -82,7 +83,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         ControlFlow::Continue(next)
     }
 
-    /// Computes the distance of a pair in the front.
+    /// Measures a pair in the front, and updates its clock and the results of the descent.
     fn measure(
         &mut self,
         snapshot: &Snapshot<'p>,
@@ -187,8 +188,8 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         ControlFlow::Continue(())
     }
 
-    /// Joins pairs of the front that have become far away, if that costs nothing. The pair that covers both must be as
-    /// far apart as the bodies, and apart until the next clock.
+    /// Replaces far pairs of the front by the pair that covers them, if that makes neither the distance nor the step
+    /// smaller. The pair that covers both must be as far apart as the bodies, and apart until the next clock.
     fn join(
         &mut self,
         snapshot: &Snapshot<'p>,
@@ -220,7 +221,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
 }
 
 impl<C> Node<C> {
-    /// Marks a pair to be split, whatever its distance.
+    /// Resets an unmeasured pair so that it is split whatever its distance, and returns its entry for the heap.
     fn open_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
         (self.lower, self.feature_owners, self.clock) =
             (f64::NEG_INFINITY, FeatureOwners::BothBridges, s);
@@ -240,7 +241,8 @@ impl DescentState {
     }
 }
 
-/// The order of the heap: the nearest pair is the greatest; among equals, the one that came first.
+/// The order of the heap: the pair with the least lower bound is the greatest; among equal bounds, the one with the
+/// least index.
 impl Ord for OpenPair {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.lower.total_cmp(&self.lower);

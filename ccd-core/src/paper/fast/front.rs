@@ -12,13 +12,13 @@ use crate::math::order::lesser;
 pub(super) struct Front<C> {
     /// All pairs of the tree. The root is the first, and pairs of children are adjacent.
     nodes: Vec<Node<C>>,
-    /// Unused slots of `nodes`, by the first of two.
+    /// The unused slots of `nodes`: the index of the first of every two adjacent slots.
     vacant_slots: Vec<u32>,
     leaves: usize,
     peak: usize,
 }
 
-/// A pair of nodes of two hull trees.
+/// A pair of nodes of two hull trees, with the results of its last visit.
 #[derive(Clone, Debug)]
 pub(super) struct Node<C> {
     pub(super) pair: [u32; 2],
@@ -100,7 +100,7 @@ impl<C: Clone + Default> Front<C> {
         above
     }
 
-    /// Splits a leaf into two pairs that cover it, and returns the first of them; `None` for a pair of pieces.
+    /// Splits a leaf into two pairs that cover it, and returns the index of the first; `None` for a pair of pieces.
     pub(super) fn split(&mut self, hulls: HullTreePair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
         let Below::Pairs(pairs) = hulls.children_of_pair(node.pair, node.feature_owners) else {

@@ -16,7 +16,7 @@ pub(super) struct HullTreePair<'a> {
     pub(super) b: Hulls<'a>,
 }
 
-/// Which of the nearest features of two nodes belong to bridges: facets outside of all pieces.
+/// Which of the nearest features of two nodes belong to bridges, the facets of a hull that are on no piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FeatureOwners {
     /// Both features belong to pieces.
@@ -30,7 +30,7 @@ pub(super) enum FeatureOwners {
 /// The children of a pair of nodes, which replace it.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Below {
-    /// There are none: both nodes are leaves, with these pieces.
+    /// The pair has no children: both nodes are leaves, with these pieces.
     Pieces([u32; 2]),
     /// Two pairs that together cover this one.
     Pairs([[u32; 2]; 2]),
@@ -62,8 +62,9 @@ impl<'a> HullTreePair<'a> {
         }
     }
 
-    /// Returns the pairs that replace a pair. One node is replaced by its children: if only one body has a bridge, that
-    /// body's node, else the larger node, or the one with children if the other has none.
+    /// Returns the two pairs that replace a pair when it is split, or its pieces if both nodes are leaves. One node is
+    /// replaced by its children: if only one body has a bridge, that body's node, else the larger node, or the one with
+    /// children if the other has none.
     pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: FeatureOwners) -> Below {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
@@ -88,11 +89,11 @@ impl<'a> HullTreePair<'a> {
     }
 }
 
-/// The hull tree of a body.
+/// The hull tree of a body, or the single piece of a body without a tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Hulls<'a> {
     Tree(&'a HullTree),
-    /// The only node of a body with one piece, which is its own tree.
+    /// A body with one piece, which is the only node of its tree.
     SinglePiece(&'a Body),
 }
 

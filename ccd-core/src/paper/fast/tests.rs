@@ -1,4 +1,4 @@
-//! Compares chains of balls, whose hulls are capsules, with the best-first and the naive search.
+//! Compares answers of [`Fast`] about chains of balls, whose hulls are capsules, with those of the other schedules.
 
 use super::{BestFirst, Fast};
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
@@ -22,7 +22,8 @@ use crate::tests::scene::{
 };
 use glam::DVec3;
 
-/// Creates balls on a line, in a hull tree split in halves. One tree in three has balls of several sizes.
+/// Creates a body of balls on a line, with a hull tree that splits them in halves. One tree in three has balls of
+/// several sizes.
 fn chain(rng: &mut Pcg64, count: usize) -> Body {
     let step = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-4..=4))));
     let step = if step == DVec3::ZERO { DVec3::X } else { step };

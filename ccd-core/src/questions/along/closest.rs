@@ -19,8 +19,8 @@ use found::{LeastDistanceSoFar, StretchResult};
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Bounds the least distance of the bodies along their trajectories, or decides whether they keep a required
-    /// clearance.
+    /// Computes bounds of the least distance of the bodies along their trajectories, or decides whether the bodies keep
+    /// a required clearance.
     pub(crate) fn closest_approach_along(
         &mut self,
         query: &Query<'_>,
@@ -33,7 +33,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         Ok(answer.widened_by_excess(query.excess()))
     }
 
-    /// Bounds the least distance of the bodies as given; the caller corrects it for their excess over the shapes.
+    /// Computes bounds of the least distance of the bodies, without a correction for their excess over the shapes.
     fn approach_of_bodies_along(
         &mut self,
         query: &Query<'_>,
@@ -47,7 +47,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         search_stretches(&mut closest, query, oracle)
     }
 
-    /// Decides whether the bodies keep a distance, or their shapes come nearer.
+    /// Decides whether the bodies stay at least `distance` apart, or their shapes come nearer than `distance`.
     fn decide_clearance_along(
         &mut self,
         query: &Query<'_>,
@@ -76,7 +76,7 @@ struct ClosestApproachSearch<'s, 'q, 'a, O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
-    /// Tries to prove a lower bound of the whole query's least distance, if it is time for that.
+    /// Tries to prove a lower bound of the least distance over the whole query, if the next such attempt is due.
     fn prepare(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -195,7 +195,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
 }
 
 impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
-    /// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
+    /// Returns `nearest`, or the answer that the bodies overlap if they overlap at the start.
     fn nearest_or_overlap(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -218,8 +218,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         })
     }
 
-    /// Cuts a stretch at the time at which its motions are nearest; returns whether it could be cut. Returns false if
-    /// it cannot be cut.
+    /// Cuts a stretch near the time at which its motions are nearest. Returns whether the stretch could be cut.
     fn cut_where_nearest(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -253,7 +252,8 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         Ok(stretches.cut_out_around(motions.span, time, length))
     }
 
-    /// Measures the bodies at a time. Returns `None` if they overlap, or if a limit is reached.
+    /// Measures the distance of the bodies at one time, and records it if it is the least so far. Returns `None` if the
+    /// bodies overlap, or if a limit is reached.
     fn distance_at_time(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -280,11 +280,12 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     }
 }
 
-/// The distance of the bodies at a time, as far as it limits the length of stretches near that time.
+/// A measurement of the bodies at one time, from which the length of stretches near that time is chosen.
 struct DistanceAtTime {
-    /// The deviation below which a stretch cannot contain a distance less than the least one found.
+    /// The deviation limit for stretches near that time: the excess of the measured distance over the least distance
+    /// found, but at least the tolerance. Stretches are made so short that their deviations are a share of it.
     deviation_limit: f64,
-    /// The rate at which the distance increases at that time.
+    /// The rate at which the distance increases at the time of the measurement.
     rate: f64,
 }
 
@@ -293,7 +294,7 @@ impl DistanceAtTime {
         motions.length_for_deviation(DEVIATION_SHARE * self.deviation_limit)
     }
 
-    /// Returns whether the distance increases from an end of the stretch inward.
+    /// Returns whether the distance increases from the given end of the stretch towards its middle.
     fn increases_into(&self, motions: &StretchMotions, end: f64) -> bool {
         if end > motions.span.from {
             self.rate <= 0.0

@@ -17,13 +17,15 @@ pub(super) struct ProvenGap {
     pub(super) undecided: f64,
 }
 
-/// What the search of a stretch found out.
+/// The result of the search for a contact in one stretch.
 #[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
 pub(super) enum StretchResult {
-    /// The bodies are apart in the stretch, or the stretch has to wait until the pose at the start is examined; or a
-    /// limit was reached, which is the answer.
+    /// The search of the stretch is over: either the next stretch follows, or a limit was reached and the query ends
+    /// with this answer. The next stretch follows if the bodies are apart in this one, or if this one has to wait until
+    /// the pose at the start is examined.
     Done(ControlFlow<Answer>),
-    /// The motions are in contact at the given time of the stretch.
+    /// The motions are in contact at this time from the start of the stretch; the contact is `None` if one body is
+    /// inside the other.
     Near(f64, Option<Contact>),
 }
 
@@ -37,12 +39,12 @@ impl ProvenGap {
         }
     }
 
-    /// Records the gap that the motions of a stretch keep.
+    /// Records the gap that the motions of a stretch are proven to keep, minus the deviations.
     pub(super) fn record_gap(&mut self, motions: &StretchMotions, proven_gap: f64) {
         self.gap = lesser(self.gap, motions.lower_bound_for_bodies(proven_gap));
     }
 
-    /// Records the answer for the motions of a stretch.
+    /// Records what a search of a stretch's motions proved, and returns whether the motions are in contact.
     pub(super) fn record(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -81,7 +83,7 @@ impl ProvenGap {
         }
     }
 
-    /// Returns the answer if all stretches are done.
+    /// Returns the answer when all stretches are done: free, or undecided if one body may be inside the other.
     pub(super) fn finish(&self, stretches: &Stretches<'_, '_>) -> Answer {
         if self.undecided.is_finite() {
             return self.unresolved(stretches, self.undecided, Limit::Undecided);
@@ -90,8 +92,8 @@ impl ProvenGap {
         self.answer(stretches, Outcome::Free { proven_gap })
     }
 
-    /// Returns the answer when a limit is reached. The bodies are apart until `safe_until`, except in the stretches
-    /// that wait and those that are undecided.
+    /// Returns the unresolved answer for a search that reached a limit. The bodies are apart until `safe_until`, except
+    /// in the stretches that wait and those that are undecided.
     pub(super) fn unresolved(
         &self,
         stretches: &Stretches<'_, '_>,

@@ -1,4 +1,4 @@
-//! The loop of all searches along trajectories.
+//! The loop that all searches along trajectories share.
 
 use super::motions::{Span, StretchMotions};
 use super::stretches::Stretches;
@@ -9,14 +9,14 @@ use crate::problem::Problem;
 use crate::query::Query;
 use std::ops::ControlFlow;
 
-/// A question about bodies on trajectories: it decides from each stretch whether the search goes on.
+/// A question about bodies on trajectories, which is answered by searching one stretch of time after the other.
 pub(super) trait Question<O: DistanceOracle> {
     /// Returns whether the search handles accelerations within a stretch. Otherwise they count as deviations.
     fn takes_accelerations(&self) -> bool {
         true
     }
 
-    /// Does work on the whole query before each stretch is searched.
+    /// Does work that concerns the whole query; called before each stretch is searched.
     fn prepare(
         &mut self,
         _stretches: &mut Stretches<'_, '_>,
@@ -25,7 +25,7 @@ pub(super) trait Question<O: DistanceOracle> {
         Ok(())
     }
 
-    /// Cuts a stretch that is probably too long for a search. Returns whether it was cut.
+    /// Cuts a stretch without a search, if it is probably too long. Returns whether it was cut.
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -33,7 +33,7 @@ pub(super) trait Question<O: DistanceOracle> {
         oracle: &mut O,
     ) -> Result<bool, InputError>;
 
-    /// Searches a stretch, and records what is proven, cuts the stretch, or returns the answer.
+    /// Searches a stretch, and then records what is proven, or cuts the stretch, or returns the answer to the question.
     fn examine(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -42,10 +42,10 @@ pub(super) trait Question<O: DistanceOracle> {
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError>;
 
-    /// Returns the answer if a limit is reached before a stretch is searched.
+    /// Returns the unresolved answer for a limit that is reached before the stretch `span` is searched.
     fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer;
 
-    /// Returns the answer if all stretches are done.
+    /// Returns the answer to the question when all stretches are done.
     fn on_end(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -53,8 +53,8 @@ pub(super) trait Question<O: DistanceOracle> {
     ) -> Result<Answer, InputError>;
 }
 
-/// Answers a question about two trajectories: takes one waiting stretch after the other, and cuts or examines it, until
-/// none is left.
+/// Answers a question about two trajectories by cutting or examining one waiting stretch after the other, until none is
+/// left.
 pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
     question: &mut Q,
     query: &Query<'_>,

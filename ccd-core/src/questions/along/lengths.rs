@@ -1,5 +1,5 @@
-//! Chooses the length of the next stretch. It has to be long enough for progress, and so short that the deviations are
-//! less than the bodies' distance.
+//! Chooses the length of the next stretch of time to search along trajectories. It has to be long enough for progress,
+//! and so short that the deviations are less than the bodies' distance.
 
 use super::motions::StretchMotions;
 use super::stretches::Stretches;
@@ -12,8 +12,8 @@ use crate::query::Query;
 use crate::settings::QuerySettings;
 use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_SHARE};
 
-/// Cuts a stretch that is probably too long before it is searched. The bodies are measured where it meets a proven
-/// stretch. Returns whether it was cut.
+/// Cuts a stretch before its search, if it is probably too long. The bodies are measured at the time where it adjoins a
+/// proven stretch. Returns whether it was cut.
 pub(super) fn cut_at_once<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
     motions: &StretchMotions,
@@ -39,7 +39,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     )
 }
 
-/// Returns the length of the next stretch to search after a contact of the motions at a time.
+/// Chooses the length of the next stretch to search, after the motions of a stretch were found in contact.
 pub(super) fn length<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
     motions: &StretchMotions,
@@ -63,9 +63,9 @@ pub(super) fn length<O: DistanceOracle>(
     })
 }
 
-/// Returns the length of stretch to search, from the bodies' distance at a contact and the rate at which they approach.
-/// In such a stretch the deviation is a part of the distance, and the bodies reach the time at which they meet or are
-/// nearest.
+/// Computes the length of the next stretch to search, from the bodies' distance at a contact and their rate of
+/// approach. In such a stretch the deviation is a part of the distance, and the bodies reach the time at which they
+/// meet or are nearest.
 ///
 /// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
 /// and pass each other closely, they are nearest after about `2 d/r`.

@@ -1,4 +1,4 @@
-//! The approximate motions of both bodies in a stretch of time, as a query about motions.
+//! The approximate motions of both bodies in a stretch of time, and the problem that a search of the stretch solves.
 
 use crate::answer::{Contact, Separation};
 use crate::error::InputError;
@@ -24,7 +24,7 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// Returns the stretch of length 0 at the start of this one.
+    /// Returns the stretch of length 0 at the start of this stretch.
     pub(super) fn start(self) -> Self {
         Span {
             to: self.from,
@@ -69,7 +69,7 @@ impl StretchMotions {
         })
     }
 
-    /// Removes the accelerations, and adds the displacements that they cause to the deviations.
+    /// Removes the accelerations, and increases the deviations by the displacements that the accelerations cause.
     pub(super) fn without_accelerations(mut self) -> Self {
         let time = self.span.length();
         for stretch in &mut self.stretches {
@@ -80,7 +80,8 @@ impl StretchMotions {
         self
     }
 
-    /// Returns whether the deviations and the displacements by acceleration are in the range of a query's lengths.
+    /// Returns whether the deviations and the displacements by acceleration are at most the largest coordinate minus
+    /// the margin.
     pub(super) fn is_in_range(&self, query: &Query<'_>) -> bool {
         let time = self.span.length();
         let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
@@ -95,8 +96,8 @@ impl StretchMotions {
         self.span.length() * (stray / self.stray).powf(1.0 / self.deviation_exponent())
     }
 
-    /// Estimates how long a stretch must be for its deviation to be `DEVIATION_SHARE` of the change of a distance that
-    /// changes at `rate`.
+    /// Estimates the length of the stretch whose deviation is `DEVIATION_SHARE` times its change of distance, if the
+    /// distance changes at `rate`.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole
@@ -104,7 +105,7 @@ impl StretchMotions {
                 .powf(1.0 / (self.deviation_exponent() - 1.0))
     }
 
-    /// Returns the exponent with which deviations grow with time.
+    /// Returns the exponent `p` such that deviations grow like the `p`-th power of a stretch's length.
     fn deviation_exponent(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
         if self.stretches.iter().any(accelerates) {
@@ -114,7 +115,7 @@ impl StretchMotions {
         }
     }
 
-    /// Returns whether a part of this length is much shorter than the stretch.
+    /// Returns whether a part of the given length is so much shorter than the stretch that a cut is worthwhile.
     pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
         length < MAX_CUT_SHARE * self.span.length()
     }
@@ -131,8 +132,9 @@ impl StretchMotions {
         normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
     }
 
-    /// Creates the problem of the motions. Whatever the deviations are, the bodies keep the gap that a query about one
-    /// motion proves: half the tolerance beyond the margin.
+    /// Creates the problem that a search of the stretch solves: the approximate motions, with a larger margin and a
+    /// smaller tolerance. Whatever the deviations are, the bodies keep the gap that a query about one motion proves:
+    /// half the tolerance beyond the margin.
     pub(super) fn problem<'a>(
         &self,
         query: &Query<'a>,
@@ -156,8 +158,9 @@ impl StretchMotions {
         )
     }
 
-    /// Returns the tolerance for the motions: that for the bodies, minus four deviations. Two are lost on either side
-    /// of its middle: for the gap that the motions keep, and for the contact that they show.
+    /// Returns the tolerance for the motions: the tolerance for the bodies minus four times the deviations, or a least
+    /// tolerance if too little is left. Two deviations are lost on either side of its middle: for the gap that the
+    /// motions keep, and for the contact that they show.
     fn tolerance(&self, whole: f64) -> f64 {
         // Written so that without deviations the result is the whole tolerance, to the last bit.
         let left = whole - 4.0 * self.stray;
@@ -199,7 +202,7 @@ impl StretchMotions {
     }
 }
 
-/// Returns a sum rounded up; exact if a term is zero.
+/// Returns the sum of two numbers, rounded up; it is exact if either number is zero.
 fn rounded_up_sum(a: f64, b: f64) -> f64 {
     if b > 0.0 && a != 0.0 {
         (a + b).next_up()

@@ -15,7 +15,7 @@ use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// The stretches of time that wait to be searched, the next one last, with the work done so far.
+/// A stack of the stretches of time that wait to be searched, with the work done so far.
 pub(super) struct Stretches<'j, 'a> {
     query: &'j Query<'a>,
     waiting: Vec<Span>,
@@ -29,7 +29,7 @@ pub(super) struct Stretches<'j, 'a> {
 }
 
 impl<'j, 'a> Stretches<'j, 'a> {
-    /// Starts with the whole duration as the only stretch.
+    /// Creates the stack with the whole duration of the query as the only stretch.
     pub(super) fn new(query: &'j Query<'a>) -> Self {
         Stretches {
             query,
@@ -54,7 +54,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.waiting.pop()
     }
 
-    /// Returns the waiting stretches, the next one last.
+    /// Returns the waiting stretches, in reverse order of their searches.
     pub(super) fn waiting(&self) -> &[Span] {
         &self.waiting
     }
@@ -65,7 +65,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         starts.fold(f64::INFINITY, lesser)
     }
 
-    /// Returns the settings with what is left of the budget and of the time to the deadline.
+    /// Returns the query's settings with the remaining budget and the remaining time to the deadline, or the limit that
+    /// is reached.
     pub(super) fn remaining_settings(&self) -> Result<QuerySettings<'a>, Limit> {
         let terms = &self.query.terms;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
@@ -87,21 +88,21 @@ impl<'j, 'a> Stretches<'j, 'a> {
         })
     }
 
-    /// Adds the work of the search of a stretch.
+    /// Adds the work of one stretch's search to the total, and one iteration for the stretch.
     pub(super) fn add(&mut self, stats: &Stats) {
         // Each stretch counts as one visit, even if its search made none.
         self.stats.iterations += 1;
         self.stats.add(stats);
     }
 
-    /// Adds work on the whole query, which no part's budget pays for.
+    /// Adds work on the whole query to the total, without counting it towards the budget of any part.
     pub(super) fn add_uncharged_work(&mut self, stats: &Stats) {
         self.stats.add(stats);
         self.budgets.work_at_part_start += stats.work();
     }
 
-    /// Returns the motions in a stretch, with the settings; or the limit that was reached. The stretch is cut until the
-    /// deviations are in the range of a query's lengths.
+    /// Returns the approximate motions in a stretch and the remaining settings, or the limit that is reached. The
+    /// stretch is cut until the deviations are in the range of a query's lengths.
     pub(super) fn motions(
         &mut self,
         mut span: Span,
@@ -127,8 +128,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         }
     }
 
-    /// Returns whether a contact of a stretch's motions counts as one of the bodies: the tolerance is met, or cutting
-    /// does not improve it.
+    /// Returns whether a contact of a stretch's motions counts as a contact of the bodies: the deviations are a small
+    /// share of the tolerance, or a cut would not reduce them.
     pub(super) fn accepts_contact(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         Ok(
             motions.stray <= DEVIATION_SHARE * self.query.terms.tolerance
@@ -149,9 +150,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
             && (motions.stray == 0.0 || self.is_limited_by_rounding(motions)?))
     }
 
-    /// Schedules an examination of the start, and then the stretch again. An overlap of the stretch's motions at time 0
-    /// need not be one of the bodies. Returns false if the start was examined already, and for stretches that begin
-    /// later.
+    /// Schedules a search of the pose at time 0, and after it the stretch again. An overlap of the stretch's motions at
+    /// time 0 need not be one of the bodies. Returns false if the start was examined already, and for stretches that
+    /// begin later.
     pub(super) fn schedule_start_examination(
         &mut self,
         motions: &StretchMotions,
@@ -164,13 +165,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
         Ok(true)
     }
 
-    /// Records that the bodies are proven apart in a stretch.
+    /// Records a stretch as the last one in which the bodies are proven apart, with its deviation.
     pub(super) fn record_proven_stretch(&mut self, motions: &StretchMotions) {
         self.proven = Some((motions.span, motions.stray));
     }
 
-    /// Returns the common time of a stretch and the last proven one, if the stretch's deviations are much larger: then
-    /// the stretch is probably too long.
+    /// Returns the time at which a stretch adjoins the last proven stretch, if its deviations are much larger than
+    /// those of that stretch. The stretch is then probably too long.
     pub(super) fn common_end_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
         let Span { from, to, .. } = motions.span;
@@ -179,12 +180,12 @@ impl<'j, 'a> Stretches<'j, 'a> {
         (motions.stray > CUT_DEVIATION_RATIO * stray).then_some(time)
     }
 
-    /// Counts the work that follows towards the budget of the part that contains a stretch.
+    /// Makes all later work count towards the budget of the part that contains a stretch.
     pub(super) fn charge_to(&mut self, span: Span) {
         self.budgets.charge_to(span.part_index, self.stats.work());
     }
 
-    /// Returns the poses of both bodies at a time, with the settings; or the limit that was reached.
+    /// Returns the poses of both bodies at a time and the remaining settings, or the limit that is reached.
     pub(super) fn poses_at(
         &self,
         time: f64,
@@ -238,8 +239,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.waiting.push(span);
     }
 
-    /// Cuts a stretch in two, at a corner or after about `length`, and makes the earlier part the next one. Returns
-    /// whether it could be cut.
+    /// Cuts a stretch in two, at a corner of a trajectory or else after about `length`; the earlier part is searched
+    /// next. Returns whether the stretch could be cut.
     pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
         let Some([early, late]) = self.cut_parts(span, length) else {
             return false;
@@ -248,8 +249,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    /// Cuts a part of about this length around a time out of a stretch, and makes it the next one. At a corner it is
-    /// the part that contains the time. Returns whether the stretch could be cut.
+    /// Cuts out of a stretch a part of about `length` around a time; this part is searched next. At a corner it is the
+    /// part that contains the time. Returns whether the stretch could be cut.
     pub(super) fn cut_out_around(&mut self, span: Span, time: f64, length: f64) -> bool {
         let whole = span.length();
         let Some([early, late]) = self.cut_parts(span, 0.5 * whole) else {
@@ -321,9 +322,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
 /// The work spent on each part of a query. Each part between two corners has its own budget.
 struct Budgets {
     work_by_part: Vec<u64>,
-    /// The index of the part that pays at present.
+    /// The index of the part to whose budget work counts at present.
     part: usize,
-    /// The total work when this part began to pay.
+    /// The total work of all parts at the time when work began to count towards the present part.
     work_at_part_start: u64,
 }
 
@@ -343,13 +344,14 @@ impl Budgets {
         self.work_by_part[self.part] + (work - self.work_at_part_start)
     }
 
-    /// Counts the work that follows towards the budget of another part of the duration.
+    /// Makes all later work count towards the budget of the part of index `part`; `work` is the total of all parts.
     fn charge_to(&mut self, part: usize, work: u64) {
         self.work_by_part[self.part] = self.spent_on_part(work);
         (self.part, self.work_at_part_start) = (part, work);
     }
 
-    /// Adds a part with a budget of its own, and returns its index; or returns `part` if there are too many.
+    /// Adds a part with a budget of its own and returns its index, or returns `part` if there are too many parts
+    /// already.
     fn new_part(&mut self, part: usize) -> usize {
         if self.work_by_part.len() >= MAX_BUDGET_PARTS {
             return part;

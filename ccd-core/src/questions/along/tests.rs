@@ -117,7 +117,8 @@ fn first_contacts_hold_at_sampled_times() {
     );
 }
 
-/// Tests that schedules without support for accelerations find the same contacts, never late and equally early.
+/// Tests that the naive schedule, which does not support accelerations, finds the same contacts as the best-first
+/// schedule, and none late.
 #[test]
 fn every_schedule_finds_first_contacts_along_trajectories() {
     let mut rng = rng(31);
@@ -232,10 +233,11 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     assert!(apart > 60 && touching > 60, "{apart} {touching}");
 }
 
-/// A motion of constant velocities behind a user's implementation of a trajectory.
+/// A motion with constant velocities that implements [`SmoothTrajectory`], as a user's trajectory does.
 struct UserTrajectory(Motion);
 
-/// A motion that hides behind a trajectory, so that the query is answered stretch by stretch.
+/// A motion with constant velocities that is queried as a [`Trajectory`], so that the query is answered stretch by
+/// stretch.
 struct HiddenMotion(Motion);
 
 impl Trajectory for HiddenMotion {

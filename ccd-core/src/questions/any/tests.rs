@@ -1,4 +1,5 @@
-//! Compares answers for any contact with the first contact and with samples, for every budget and for false claims.
+//! Compares answers about any contact with first contacts and sampled distances, for every budget and for an oracle of
+//! false claims.
 
 use super::*;
 use crate::answer::Unresolved;
@@ -176,7 +177,7 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
     assert!(unresolved > 50 && others > 50, "{unresolved} {others}");
 }
 
-/// An oracle that gives up after some calls.
+/// An oracle that gives up after a given number of calls.
 struct LimitedOracle {
     calls_left: usize,
 }
@@ -191,7 +192,7 @@ impl DistanceOracle for LimitedOracle {
     }
 }
 
-/// Tests that no time is certified for a body that starts inside a solid, by searches that end early.
+/// Tests that a search that reaches a limit certifies no time if one body starts inside a solid body.
 #[test]
 fn a_body_inside_a_solid_is_never_certified_apart() {
     let outer = Body::new(&pieces(&cube(1.0, 1)), Volume::Solid).unwrap();

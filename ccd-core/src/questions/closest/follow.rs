@@ -1,4 +1,4 @@
-//! Follows two pieces over time to a minimum of their distance.
+//! Follows two pieces over time to a local minimum of their distance.
 
 use super::BestPair;
 use crate::distance::oracle::DistanceOracle;
@@ -47,8 +47,8 @@ struct DistanceAndRate {
 }
 
 impl<O: DistanceOracle> Descent<'_, O> {
-    /// Measures the pieces at a clock. Returns `None` if the oracle gives up, or if the pieces are so near that the
-    /// search is done.
+    /// Measures the pieces' distance and its rate at a clock, and records the distance if it is the least so far.
+    /// Returns `None` if the oracle gives up, or if the least distance is within the tolerance already.
     fn measure(&mut self, clock: f64) -> Option<DistanceAndRate> {
         if self.best.contact.separation.upper <= self.problem.tolerance {
             return None;
@@ -74,8 +74,9 @@ impl<O: DistanceOracle> Descent<'_, O> {
         })
     }
 
-    /// Steps downhill from a clock until the distance grows again. Returns two clocks with a local minimum of the
-    /// distance between them; the distance decreases from the first one on.
+    /// Steps from a clock in the direction of time in which the distance decreases, until the distance grows again.
+    /// Returns two clocks with a local minimum of the distance between them; the distance decreases from the first one
+    /// on.
     fn bracket(&mut self, from: f64) -> Option<[DistanceAndRate; 2]> {
         let mut here = self.measure(from)?;
         let forward = here.rate < 0.0;
@@ -112,7 +113,8 @@ impl<O: DistanceOracle> Descent<'_, O> {
         None
     }
 
-    /// Narrows the interval around a local minimum of the distance, which decreases from the clock of `falling` on.
+    /// Narrows the interval between two clocks, which contains a local minimum of the distance. The distance decreases
+    /// from `falling` towards `other`.
     fn narrow(&mut self, mut falling: DistanceAndRate, mut other: DistanceAndRate) {
         for look in 0..MAX_FOLLOW_MEASUREMENTS {
             let width = other.clock - falling.clock;

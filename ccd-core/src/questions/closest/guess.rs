@@ -1,4 +1,4 @@
-//! Estimates the least distance first, from measurements at a few times.
+//! Estimates the least distance before the search for it, from measurements at a few times.
 
 use super::follow::follow_to_minimum;
 use super::{BestPair, unresolved_outcome};
@@ -12,8 +12,8 @@ use crate::shortcuts::bounding_volumes::{least_distance, nearest_clock};
 use crate::tuning::{FOLLOW_ACCURACY, MAX_INITIAL_MEASUREMENTS};
 use std::ops::ControlFlow;
 
-/// Measures the bodies at the time when their bounding balls are nearest, and follows the nearest pieces from there.
-/// The search repeats this at the time found, as long as it finds nearer pieces.
+/// Measures the bodies at the time at which their bounding balls are nearest, and follows the nearest pieces to a local
+/// minimum of their distance. It repeats this at the time of the minimum, as long as the distance decreases.
 ///
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
 pub(crate) fn initial_estimate<O: DistanceOracle>(
@@ -47,7 +47,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
     }
 }
 
-/// Returns the nearest pieces at a clock, if they are nearer than `beyond`.
+/// Returns the nearest pieces of the bodies at a clock; `None` if all pieces are at least `beyond` apart.
 pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
     problem: &Problem<'_>,
     clock: f64,
@@ -76,7 +76,8 @@ pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
     }
 }
 
-/// Returns the outcome when the bodies overlap at the start, or a limit is reached.
+/// Returns the outcome for a measurement that was stopped, because the bodies overlap at the start or a limit is
+/// reached.
 fn outcome_of_stop(problem: &Problem<'_>, best: Option<BestPair>, stop: SearchEnd) -> Outcome {
     match stop {
         SearchEnd::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),

@@ -1,4 +1,4 @@
-//! Proves lower bounds of the distance step by step, for a search that may reach a limit before its answer.
+//! Proves increasing lower bounds of the least distance, for a search that may reach a limit before its answer.
 //!
 //! A search for the least distance proves it pair by pair, and has no bound for the whole bodies until its end. Half
 //! of the distance is proven much sooner. A long search therefore stops now and then, to prove such a part: a *rung*
@@ -7,16 +7,18 @@
 use crate::math::order::greater;
 use crate::problem::Problem;
 
-/// A sequence of increasing shares of the least measured distance, each of which is proven as a lower bound.
+/// A sequence of attempts, each of which tries to prove a share of the least measured distance as a lower bound. Each
+/// attempt is a *rung*, and the share increases after each success.
 #[derive(Debug)]
 pub(crate) struct LowerBoundLadder {
-    /// The amount of work at which the next rung is tried.
+    /// The amount of work of the search after which it next tries to prove a lower bound.
     next: u64,
-    /// The amount of work at which the last rung is tried. The rest of the budget is reserved for it.
+    /// The amount of work of the search after which it tries to prove a lower bound for the last time. The rest of the
+    /// budget is reserved for this attempt.
     last: u64,
-    /// The share of the measured distance that is proven next.
+    /// The share of the least measured distance that the next attempt tries to prove.
     part: f64,
-    /// The best lower bound of the distance at all times.
+    /// The greatest lower bound proven so far of the distance at all times.
     pub(crate) lower: f64,
 }
 
@@ -31,7 +33,7 @@ pub(crate) struct MarginQuery {
 }
 
 impl MarginQuery {
-    /// Returns the problem of whether there is any contact within the rung's margin.
+    /// Returns the problem with the margin, tolerance and budget of this attempt.
     pub(crate) fn problem<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
         let mut asking = problem.with_margin(self.margin, self.tolerance);
         asking.budget = self.budget;
@@ -39,17 +41,17 @@ impl MarginQuery {
     }
 }
 
-/// The amount of work after which the first rung is tried. Most searches end sooner.
+/// The amount of work after which a search first tries to prove a lower bound. Most searches end sooner.
 const FIRST_RUNG_WORK: u64 = 1 << 17;
 
-/// The amount of work after which the first rung is tried, if there is a deadline or a stop flag.
+/// The amount of work after which a search with a deadline or a stop flag first tries to prove a lower bound.
 const FIRST_TIMED_RUNG_WORK: u64 = 1 << 14;
 
-/// The largest number of rungs that are tried after a search reached a limit.
+/// The largest number of attempts to prove a lower bound at the end of a search that could not prove all pairs.
 pub(crate) const MAX_FINAL_RUNGS: usize = 8;
 
 impl LowerBoundLadder {
-    /// Creates the ladder with a known lower bound, for a search with a given budget.
+    /// Creates the sequence with a known lower bound, for a search with a given budget.
     pub(crate) fn new(lower: f64, budget: u64) -> Self {
         let last = budget - budget / 4;
         LowerBoundLadder {
@@ -61,7 +63,7 @@ impl LowerBoundLadder {
         }
     }
 
-    /// Makes the first rung earlier if a deadline or another thread may end the search.
+    /// Makes the first attempt earlier if a deadline or another thread may end the search.
     pub(crate) fn with_early_start(mut self, is_timed: bool) -> Self {
         if is_timed {
             self.next = self.next.min(FIRST_TIMED_RUNG_WORK);
@@ -69,7 +71,8 @@ impl LowerBoundLadder {
         self
     }
 
-    /// Returns the next rung if it is time for it. The rung may take half as much work as was done before.
+    /// Returns the next attempt if the search has done enough work since the last attempt. It may take half as much
+    /// work as was done before.
     #[inline]
     pub(crate) fn next_rung_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
         if work < self.next {
@@ -83,8 +86,8 @@ impl LowerBoundLadder {
         self.next_rung(upper, work / 2)
     }
 
-    /// Returns the next rung for a measured distance `upper`; `None` if the distance is unknown, or the rung would
-    /// improve nothing.
+    /// Returns the next attempt for a least measured distance of `upper`; `None` if no distance is measured, no budget
+    /// is left, or success would not increase the lower bound.
     pub(crate) fn next_rung(&self, upper: f64, budget: u64) -> Option<MarginQuery> {
         let level = self.part * upper;
         // The tolerance leaves room for proofs.
@@ -96,7 +99,8 @@ impl LowerBoundLadder {
         })
     }
 
-    /// Records the lower bound that a rung proved, or `None` if it proved none.
+    /// Records the lower bound that an attempt proved, or `None` if it proved none, and chooses the share for the next
+    /// attempt.
     pub(crate) fn climb(&mut self, proven: Option<f64>) {
         match proven {
             Some(proven) => {

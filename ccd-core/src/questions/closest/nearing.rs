@@ -1,4 +1,4 @@
-//! Searches for the least distance of two bodies.
+//! Searches for the least distance of two bodies over a duration, pair by pair.
 
 use super::follow::follow_to_minimum;
 use super::ladder::{LowerBoundLadder, MAX_FINAL_RUNGS, MarginQuery};
@@ -16,15 +16,16 @@ use crate::questions::depth_first::Stack;
 use crate::shortcuts::closer_look::TighterBounds;
 use std::ops::ControlFlow;
 
-/// A search for the least distance, in which each pair is proven to keep the least distance found so far.
+/// A search for the least distance, which proves that each pair stays at least as far apart as the least distance found
+/// so far.
 pub(crate) struct LeastDistanceSearch {
     pub(crate) best: Option<BestPair>,
-    /// The distance above which pairs are ignored.
+    /// The distance from which on pairs are ignored.
     pub(crate) beyond: f64,
     pub(crate) proven: ProvenFacts,
-    /// The reason why some pair could not be proven to the end, if there is one.
+    /// The reason why some pair could not be proven apart to the end; `None` if there is no such pair.
     pub(crate) first_failure: Option<Limit>,
-    /// The lower bound that is proven for all pairs.
+    /// The lower bound of the distance that is proven for all pairs, with the state of further attempts.
     pub(crate) ladder: LowerBoundLadder,
 }
 
@@ -61,7 +62,8 @@ impl LeastDistanceSearch {
         ))
     }
 
-    /// Tries one rung of the ladder in a separate search, which proves it, or finds nearer pieces.
+    /// Tries to prove a lower bound in a separate search, and records the bound or the nearer pieces that the search
+    /// finds.
     ///
     /// Breaks with the answer for bodies that overlap.
     pub(crate) fn climb<O: DistanceOracle>(
@@ -107,8 +109,8 @@ impl LeastDistanceSearch {
         ControlFlow::Continue(())
     }
 
-    /// Returns the final outcome. If some pair could not be proven to the end, the best provable lower bound is proven
-    /// first.
+    /// Returns the outcome of the search. If some pair could not be proven apart to the end, it first tries to prove
+    /// further lower bounds.
     pub(crate) fn final_outcome<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,

@@ -20,8 +20,9 @@ pub(crate) struct RequiredClearance {
 }
 
 impl RequiredClearance {
-    /// Decides whether the bodies keep the distance, by queries that get what is left of the deadline. The first query asks whether they come near it. If they do, the
-    /// second asks whether they come nearer by the excess. In between, neither answer is certain for the shapes.
+    /// Decides whether the bodies keep the required distance, by calls of `any_contact` with the remaining time to the
+    /// deadline. The first query asks whether the bodies come near the distance. If they do, the second asks whether
+    /// they come nearer by the excess. In between, neither answer is certain for the shapes.
     ///
     /// # Errors
     /// The errors of the query for any contact.
@@ -67,7 +68,7 @@ impl RequiredClearance {
         self.excess.certain_nearness_threshold(self.distance)
     }
 
-    /// Converts the outcome of a query with the distance as its margin to a decision.
+    /// Converts the outcome of a query whose margin is the required distance to the outcome of the decision.
     fn decision_for(&self, found: Outcome) -> Outcome {
         match found {
             Outcome::Free { proven_gap } => Outcome::Free {
@@ -87,11 +88,11 @@ impl RequiredClearance {
     }
 }
 
-/// A decision in progress, with the work spent so far.
+/// The state of a decision about a required clearance, with the work spent so far.
 struct ClearanceDecision<F> {
     clearance: RequiredClearance,
     any_contact: F,
-    /// The time at which the decision started, and its deadline.
+    /// The time at which the decision started, and the longest time that it may take; `None` if there is no deadline.
     ends_at: Option<(Instant, Duration)>,
     stats: Stats,
     /// The tolerance of each query: half the tolerance of the answer.
@@ -112,13 +113,13 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         Ok(answer)
     }
 
-    /// Returns the work that is left of the budget.
+    /// Returns the remaining work of the budget.
     fn remaining_work(&self) -> u64 {
         self.clearance.budget.saturating_sub(self.stats.work())
     }
 
-    /// Asks the second query: whether the bodies come nearer than the distance by more than the excess. `contact` at
-    /// `time` is the result of the first query, which found that they come near the distance.
+    /// Runs the second query, which asks whether the bodies come nearer than the distance by more than the excess.
+    /// `contact` at `time` is the result of the first query, which found that they come near the distance.
     fn decide_nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
         let (distance, query_tolerance) =
             (self.clearance.violation_distance(), self.query_tolerance);
@@ -144,7 +145,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         })
     }
 
-    /// Proves the best lower bound that the rest of the budget allows.
+    /// Proves a lower bound of the distance with the rest of the budget, in several attempts; 0 if none succeeds.
     fn prove_lower_bound(&mut self, reason: Limit) -> Result<f64, E> {
         let mut ladder = LowerBoundLadder::new(0.0, self.clearance.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {

@@ -1,4 +1,4 @@
-//! Compares bounds of the least distance with samples, for every budget and for false claims.
+//! Compares bounds of the least distance with sampled distances, for every budget and for an oracle of false claims.
 
 mod conforming;
 mod excess;
@@ -21,7 +21,7 @@ fn approach(problem: &Problem<'_>) -> Answer {
     DepthFirst::default().closest_approach_of(problem, &mut ExhaustiveOracle)
 }
 
-/// Returns the least distance at equal time steps.
+/// Returns the least of the distances sampled at equal time steps.
 fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
     let at = |k| distance(problem, f64::from(k) / f64::from(steps));
     (0..=steps).map(at).fold(f64::INFINITY, lesser)
@@ -80,7 +80,8 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     );
 }
 
-/// Tests the bounds as margins: there is a first contact with the upper bound, and none with the lower one.
+/// Tests that a query has a contact if its margin is the upper bound of the least distance, and none if its margin is a
+/// little below the lower bound.
 #[test]
 fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
     let mut rng = rng(2);

@@ -1,4 +1,4 @@
-//! Tests that a search in any steps gives the answer of the best-first schedule.
+//! Tests that a search in steps of any length gives the answer of the best-first schedule.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -94,8 +94,8 @@ fn a_search_goes_no_further_than_it_is_asked() {
     assert!(less > 0 && 2 * less < all, "{less} of {all}");
 }
 
-/// Tests times whose clocks are rounded, down to the least positive numbers: the reached time is not before the
-/// requested one.
+/// Tests that the time that a step reaches is not before the requested time, for durations down to the least positive
+/// number.
 #[test]
 fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     let mut rng = rng(3);
@@ -124,7 +124,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     assert!(reached > 500, "{reached}");
 }
 
-/// Tests a body inside another: no pair of pieces meets, and no time passes before containment is tested.
+/// Tests that a step of any length reports a ball inside a solid cube as overlapping, although no pair of pieces meets.
 #[test]
 fn a_body_inside_the_other_is_no_body_apart() {
     let room = solid_cube(4.0);

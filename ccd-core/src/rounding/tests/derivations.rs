@@ -1,10 +1,10 @@
-//! Compares the error bounds with the sums in their documentation.
+//! Compares the constants that bound errors with the sums of errors in their documentation.
 
 use crate::rounding::*;
 use crate::tuning::*;
 use glam::DVec3;
 
-/// Checks that a bound is at least the documented sum, and at most four times as much.
+/// Checks that the bound `taken` is at least the documented sum `derived`, and at most four times the sum.
 fn assert_covers_sum(name: &str, taken: f64, derived: f64) {
     let ratio = taken / derived;
     assert!(

@@ -55,7 +55,8 @@ impl Scene {
         Problem::accelerated(bodies, pulls, self.duration, &Settings::DEFAULT.terms()).ok()
     }
 
-    /// Adds accelerations that move the bodies about as far as their velocities do.
+    /// Adds random accelerations, which move the bodies between a hundredth and a hundred times as far as their
+    /// velocities.
     fn accelerating(self, tape: &mut RandomCase) -> Self {
         let pull = |motion: Motion| {
             let speed = motion.velocity().length() * magnitude(tape, -2.0, 2.0);
@@ -67,7 +68,7 @@ impl Scene {
         }
     }
 
-    /// Returns the exact position of a body's point after a share of the duration.
+    /// Returns the exact position of a body's point after the share `s` of the duration.
     fn place(&self, body: usize, s: f64, point: DVec3) -> Double3 {
         let time = Double::from(self.duration) * Double::from(s);
         let fall = Double3::from(self.accelerations[body]).scale(time * time * Double::from(0.5));
@@ -75,13 +76,14 @@ impl Scene {
     }
 }
 
-/// Draws a scene, and returns its errors as shares of the bound.
+/// Draws a scene, and returns the errors of its positions, gaps and distances as shares of their bound.
 fn shares_of_scene(tape: &mut RandomCase) -> Option<Shares> {
     let scene = Scene::new(tape);
     shares_of(tape, &scene)
 }
 
-/// Draws a scene without rotation, and returns its errors as shares of the bound.
+/// Draws a scene without rotation, and returns the errors of its positions, gaps and distances as shares of their
+/// bound.
 fn shares_without_rotation(tape: &mut RandomCase) -> Option<Shares> {
     let scene = Scene::new(tape).without_rotation();
     shares_of(tape, &scene)
@@ -141,7 +143,7 @@ fn worst_distances_without_turns() {
     found.is_within(100.0);
 }
 
-/// Measures positions between poses at both ends, from which velocities are derived.
+/// Searches for the worst rounding of positions on motions whose velocities are derived from given poses at both ends.
 #[test]
 fn worst_places_between_poses() {
     let found = Worst::of("distance_rounding, between poses", 8_000).search(|tape| {
@@ -190,7 +192,7 @@ fn worst_places_of_accelerating_bodies() {
     found.is_within(100.0);
 }
 
-/// Compares the relative pose of a body, as the other body's nodes see it, with the exact one.
+/// Searches for the worst rounding of the relative pose of two bodies that bounds of nodes use.
 #[test]
 fn worst_views() {
     let found = Worst::of("distance_rounding, views", 8_000).search(|tape| {

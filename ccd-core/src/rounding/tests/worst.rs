@@ -12,10 +12,10 @@ use crate::tests::rational::{Exact3, error_of};
 use crate::tests::worst::{RandomCase, Worst, share};
 use glam::{DMat3, DVec3};
 
-/// The binary exponents of accepted coordinates, and of far smaller ones: 1e-100 to 1e12.
+/// The range of binary exponents of random coordinates, from 1e-100 up to the accepted maximum of 1e12.
 const COORDINATE_EXPONENTS: std::ops::RangeInclusive<i32> = -332..=39;
 
-/// Draws points, which may be near each other compared to their distance from the origin.
+/// Draws points; they may be much nearer to each other than to the origin.
 fn corners<const N: usize>(tape: &mut RandomCase) -> [DVec3; N] {
     let scale = tape.size(COORDINATE_EXPONENTS);
     let first = DVec3::from(tape.vector(-8..=0));
@@ -27,7 +27,7 @@ fn corners<const N: usize>(tape: &mut RandomCase) -> [DVec3; N] {
     })
 }
 
-/// Draws a direction and normalises it, up to rounding; `None` instead of zero.
+/// Draws a unit vector, up to rounding; `None` if the drawn vector is zero.
 fn axis(tape: &mut RandomCase) -> Option<DVec3> {
     unit(tape.vector(-60..=0).into())
 }
@@ -47,7 +47,7 @@ fn height_f64() {
     found.is_within(3.0);
 }
 
-/// Tests the sign of a corner's position along a ray.
+/// Tests the error bound of a corner's position along a ray, by which the sign of the position is decided.
 #[test]
 fn sign_f64_of_a_product() {
     let found = Worst::of("DETERMINANT_F64, a product", 40_000).search(|tape| {
@@ -60,7 +60,7 @@ fn sign_f64_of_a_product() {
     found.is_within(12.0);
 }
 
-/// Tests the sign that says on which side of an edge a ray passes.
+/// Tests the error bound of the determinant whose sign decides on which side of an edge a ray passes.
 #[test]
 fn sign_f64_of_a_ray_and_an_edge() {
     let found = Worst::of("DETERMINANT_F64, a ray and an edge", 40_000).search(|tape| {
@@ -74,7 +74,7 @@ fn sign_f64_of_a_ray_and_an_edge() {
     found.is_within(9.0);
 }
 
-/// Tests the sign that says on which side of a triangle a ray starts.
+/// Tests the error bound of the determinant whose sign decides on which side of a triangle a ray starts.
 #[test]
 fn sign_f64_of_three_corners() {
     let found = Worst::of("DETERMINANT_F64, three corners", 30_000).search(|tape| {
@@ -89,7 +89,7 @@ fn sign_f64_of_three_corners() {
     found.is_within(9.0);
 }
 
-/// Tests heights above planes, as the point tree and hulls use them.
+/// Tests the error bound of a point's height above a plane, as the point tree and hulls compute it.
 #[test]
 fn height_rounding_of_points() {
     let found = Worst::of("height_rounding, a point", 30_000).search(|tape| {
@@ -109,7 +109,7 @@ fn height_rounding_of_points() {
     found.is_within(30.0);
 }
 
-/// Tests that the height of a box is less than that of a point in it by at most the bound.
+/// Tests that the computed height of a box falls below the exact height of a point in it by at most the error bound.
 #[test]
 fn height_rounding_of_boxes() {
     let found = Worst::of("height_rounding, a box", 30_000).search(|tape| {
@@ -141,7 +141,7 @@ fn height_rounding_of_boxes() {
     found.is_within(40.0);
 }
 
-/// Tests the deviation of three columns from unit length and right angles.
+/// Tests that computed principal axes deviate from unit length and right angles by at most the error bound.
 #[test]
 fn frame_f64() {
     let found = Worst::of("FRAME_F64", 20_000).search(|tape| {
@@ -160,7 +160,8 @@ fn orthonormality_error(frame: &DMat3) -> f64 {
     off.fold(0.0, greater)
 }
 
-/// Tests the bound of `4u` for lengths with squares within the range and beyond it.
+/// Tests the error bound `4u` of lengths and unit vectors, for vectors whose squared lengths are within [`SQUARES`] or
+/// below.
 #[test]
 fn units_and_lengths() {
     for (name, exponents, looseness) in [
@@ -187,8 +188,8 @@ fn units_and_lengths() {
     }
 }
 
-/// Tests coordinates whose squares all vanish: only the last digit of the least numbers is wrong then. A bound without
-/// a constant would vanish too.
+/// Tests the error bound of distances for coordinates so small that all their squares underflow to 0. A bound without a
+/// constant would vanish too.
 #[test]
 fn least_rounding() {
     let found = Worst::of("LEAST_ROUNDING", 10_000).search(|tape| {
@@ -212,7 +213,7 @@ fn least_rounding() {
     found.is_within(f64::INFINITY);
 }
 
-/// Tests numbers of turns, which are quotients of angles computed in a few steps.
+/// Tests the error bound of numbers of turns, which are quotients of angles.
 #[test]
 fn turns_f64() {
     // This is 2π to 107 bits: sine and cosine of the rounded angle correct it.

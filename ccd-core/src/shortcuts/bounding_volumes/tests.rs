@@ -1,5 +1,5 @@
-//! Tests that bodies proven apart by balls or boxes keep the gap at sampled times, and that two spheres are proven
-//! apart exactly if they keep it.
+//! Tests that bodies proven apart by balls or boxes keep the proven gap at sampled times, and that two spheres are
+//! proven apart exactly if they are.
 
 use super::{balls_keep_apart, boxes_keep_apart};
 use crate::body::Body;

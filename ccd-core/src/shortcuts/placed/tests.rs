@@ -13,7 +13,8 @@ use crate::tests::scene::{direction, random_box_corners};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// Compares the extent of a placed box, without the allowance, with that of the box's points.
+/// Searches for the point of a body that lies farthest outside its placed box, as a share of the allowance for
+/// rounding.
 #[test]
 fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);

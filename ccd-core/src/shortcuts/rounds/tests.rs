@@ -1,4 +1,4 @@
-//! Compares answers for bodies that turn many times with exact distances at all their passes.
+//! Compares answers for bodies that turn many times with their exact distances each time they pass each other.
 
 use super::*;
 use crate::answer::Answer;
@@ -22,7 +22,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut ExhaustiveOracle)
 }
 
-/// Creates the motion of a ball of radius 1 that turns about a centre at a distance of 5, from an angle at time 0 on.
+/// Creates the motion of a ball of radius 1 on a circle of radius 5, which starts at a given angle.
 fn orbiting_ball_motion(centre: DVec3, velocity: DVec3, spin: f64, angle: f64) -> Motion {
     let at = centre + 5.0 * DVec3::new(angle.cos(), angle.sin(), 0.0);
     let start = Pose::new(at, DQuat::from_rotation_z(angle)).unwrap();
@@ -35,7 +35,7 @@ fn gap([a, b]: [&Motion; 2], time: f64) -> f64 {
     a.distance(b) - 2.0
 }
 
-/// Checks that a contact of two balls is the first one, and returns its time.
+/// Checks that the reported contact of two balls is their first contact, and returns its time.
 fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
     let ball = Body::sphere(1.0).unwrap();
     let [a, b] = motions.map(|motion| (&ball, *motion));
@@ -68,7 +68,7 @@ fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f6
     until
 }
 
-/// Tests a wheel that drifts by a millionth in a turn, and touches in turn 500.
+/// Tests that a ball which drifts by a millionth in every turn is found to touch another ball late, in turn 500.
 #[test]
 fn a_slow_drift_ends_in_a_late_turn() {
     let config = Settings {
@@ -83,7 +83,8 @@ fn a_slow_drift_ends_in_a_late_turn() {
     }
 }
 
-/// Tests rotation rates of nearly one to two: the balls miss each other for many turns, by ever less.
+/// Tests that two balls with rotation rates of nearly one to two are found to touch late, after they miss each other by
+/// less in every turn.
 #[test]
 fn rates_that_are_nearly_a_fraction_jam_late() {
     let config = Settings::DEFAULT;
@@ -101,7 +102,7 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
     }
 }
 
-/// Draws two soups of triangles near each other, of which one or both turn many times.
+/// Draws two random sets of triangles near each other, one or both of which turn many times.
 fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let count = rng.random_range(1..4);
     let bodies = [0; 2].map(|_| body(&soup(rng, SoupKind::WellShaped, count, 0.7)));
@@ -184,7 +185,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
     );
 }
 
-/// Tests that a search without periods finds the same contacts.
+/// Tests that the naive schedule, which searches the whole duration at once, finds the same contacts.
 #[test]
 fn the_naive_schedule_agrees() {
     let mut rng = rng(4);
@@ -221,7 +222,7 @@ fn the_naive_schedule_agrees() {
     assert!(hits > 20 && misses > 20, "{hits} {misses}");
 }
 
-/// Tests a step that ends within a round, and one that ends beyond it.
+/// Tests that a search in steps gives the answer of a whole search, for steps that end within a round or beyond it.
 #[test]
 fn steps_lead_to_the_same_answer() {
     let mut rng = rng(5);
@@ -250,7 +251,7 @@ fn steps_lead_to_the_same_answer() {
     assert!(steps > 1_000, "{steps}");
 }
 
-/// Tests that a thousand equal turns cost as much as one.
+/// Tests that the search over a thousand equal turns takes at most about twice the work of a search over four turns.
 #[test]
 fn a_thousand_turns_cost_what_one_does() {
     let mut rng = rng(6);
@@ -278,7 +279,7 @@ fn a_thousand_turns_cost_what_one_does() {
     assert!(free > 15, "{free}");
 }
 
-/// Tests that the first of a thousand periods gives the least distance of all.
+/// Tests that bounds of the least distance over a thousand turns hold at sampled times.
 #[test]
 fn closest_approaches_of_many_turns_hold_at_sampled_times() {
     let mut rng = rng(7);

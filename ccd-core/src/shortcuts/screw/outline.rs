@@ -1,5 +1,5 @@
-//! The projection of a triangle along a screw: its corners by their distances `r` from the axis and their heights `ζ`
-//! along the screw.
+//! The projection of a triangle along a screw motion: its corners as points (`r`, `ζ`), with the distance `r` from the
+//! axis and the height `ζ` along the screw.
 //!
 //! The distance `r` from the axis is a convex function. On a triangle, any `a r + b ζ` with a linear `ζ` is greatest
 //! at a corner. Everywhere `r` is at least `o·x`, with `x` from the axis and any unit vector `o` across it. The `o`
@@ -11,21 +11,23 @@ use crate::math::vector::{length, unit};
 use crate::rounding::profile_rounding;
 use glam::{DVec2, DVec3};
 
-/// The projection of a triangle to the plane of `r` and `ζ`.
+/// The projection of a triangle along a screw motion to the plane of `r` and `ζ`.
 #[derive(Debug)]
 pub(crate) struct Outline {
-    /// The corners, with their distances from the axis as `r`.
+    /// The projected corners (`r`, `ζ`), with the distance from the axis as `r`.
     outer: [DVec2; 3],
-    /// The corners, with lower bounds of these distances that are linear over the triangle.
+    /// The projected corners with a lower bound of the distance from the axis as `r`; the bound is a linear function
+    /// over the triangle.
     inner: [DVec2; 3],
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
     zeta_nonlinearity: f64,
-    /// The factors by which the rounding of `r` and of `ζ` is multiplied.
+    /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
+    /// to them.
     rounding_factors: [f64; 2],
     tilt: f64,
 }
 
-/// The linear approximation of `r` and `ζ` near a node, with bounds of the remainder.
+/// The linear approximation of `ζ` near a node, with bounds of its deviation from `ζ`.
 pub(crate) struct LinearApproximation {
     /// A point on the axis, and the direction of the axis.
     pub(crate) axis: [DVec3; 2],
@@ -39,7 +41,7 @@ pub(crate) struct LinearApproximation {
 }
 
 impl Outline {
-    /// Projects a triangle; `None` for other nodes.
+    /// Projects a triangle along the screw; `None` if the node is not a single triangle.
     pub(crate) fn new(node: &PlacedNode, linear: &LinearApproximation) -> Option<Self> {
         let corners = node.corners()?;
         let [origin, along] = linear.axis;
@@ -83,8 +85,7 @@ impl Outline {
         [low - slack, high + slack]
     }
 
-    /// Returns the surfaces along the triangle's edges, as unit vectors of coefficients of `r` and `ζ`; those of `ζ`
-    /// are not negative.
+    /// Returns the surfaces `a r + b ζ = const` along the triangle's edges, as unit vectors (`a`, `b`) with `b ≥ 0`.
     pub(crate) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
         let [a, b, c] = self.outer;
         let edges = [b - a, c - b, a - c];

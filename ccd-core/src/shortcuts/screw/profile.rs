@@ -1,5 +1,5 @@
-//! Bounds of a node in cylindrical coordinates about the axis of a screw, which do not change while it moves along the
-//! screw.
+//! Bounds of a node in coordinates that do not change while the node moves along a screw: the distance from the axis
+//! and the height along the screw.
 //!
 //! Along a path past points at least `ρ` from the axis, `f = a r + b ζ` changes by at most `√(a² + b² (1 + p²/ρ²))`
 //! per length. Consider a convex set beyond a plane that faces the axis, at `ρ` from it. There `f` differs from its
@@ -16,26 +16,26 @@ use crate::tuning::MIN_PROFILE_RADIUS;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The number of families of helical surfaces `a r + b ζ = const` along which nodes are compared; their slopes (a, b)
-/// are spread evenly over half a turn. Eleven degrees between neighbouring surfaces cost at most a tenth of a node's
+/// The number of families of helical surfaces `a r + b ζ = const` that are tried to separate nodes; the directions (a,
+/// b) are spread evenly over half a turn. Eleven degrees between neighbouring surfaces cost at most a tenth of a node's
 /// width, for the flanks of a thread at any slope.
 const SURFACE_COUNT: usize = 16;
 
-/// The axis of a screw, in its position at the start.
+/// The axis of a screw motion in its position at the start, with the surfaces that are tried to separate nodes.
 #[derive(Debug)]
 pub(crate) struct ScrewAxis {
     origin: DVec3,
     unit: DVec3,
-    /// The advance along the axis per radian.
+    /// The advance along the axis per radian of rotation.
     advance: f64,
-    /// The coefficients of `r` and `ζ` of each surface.
+    /// The coefficients (a, b) of each family of surfaces `a r + b ζ = const`.
     surfaces: [DVec2; SURFACE_COUNT],
-    /// The directions of azimuth 0 and of azimuth π/2.
+    /// The unit vectors of azimuth 0 and of azimuth π/2, perpendicular to the axis.
     azimuths: [DVec3; 2],
 }
 
-/// Bounds of a node in the coordinates of a screw: the intervals of `f` for each surface, and the rates at which `f`
-/// changes near the node.
+/// Bounds of a node in the coordinates of a screw: for each family of surfaces `f = const`, the interval of `f` over
+/// the node, and how fast `f` changes nearby.
 #[derive(Debug)]
 pub(crate) struct Profile {
     low: [f64; SURFACE_COUNT],
@@ -43,11 +43,13 @@ pub(crate) struct Profile {
     /// The azimuth of the node's centre.
     azimuth: f64,
     width: f64,
-    /// A length for which any path of at most this length from the node stays at least as far from the axis.
+    /// Half of a lower bound of the node's distance from the axis: a path from the node of at most this length stays at
+    /// least this length away from the axis.
     safe_length: f64,
-    /// The greatest change of any `f` per unit of length, on paths of at most `safe_length`.
+    /// The greatest change of any `f` per unit of length, on paths from the node of at most `safe_length`.
     steepest_change: f64,
-    /// The projection of a single triangle, which gives intervals for any surface.
+    /// The projection of a node that is a single triangle, which gives intervals for any surface; `None` for other
+    /// nodes.
     outline: Option<Outline>,
 }
 
@@ -69,7 +71,7 @@ impl ScrewAxis {
 }
 
 impl Profile {
-    /// Computes the profile of a node; `None` if it surrounds the axis, or nearly does.
+    /// Computes the profile of a node; `None` if the node surrounds the axis, or nearly does.
     pub(crate) fn new(node: &PlacedNode, axis: &ScrewAxis) -> Option<Self> {
         Profile::near_azimuth(node, axis, None)
     }
@@ -96,7 +98,8 @@ impl Profile {
         Some(all)
     }
 
-    /// Computes the profile of a node, with an azimuth within half a turn of `near`.
+    /// Computes the profile of a node, with the azimuth within half a turn of `near` if that is given; `None` if the
+    /// node surrounds the axis, or nearly does.
     fn near_azimuth(node: &PlacedNode, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
@@ -160,8 +163,8 @@ impl Profile {
         Some(profile)
     }
 
-    /// Returns the interval of shifts of the other node's `ζ` for which no surface separates the nodes by more than the
-    /// needed gap. The interval is empty if some surface separates them for any shift.
+    /// Returns an interval of shifts of the other node's `ζ`: for shifts outside of it, a surface separates the nodes
+    /// by more than the needed gap. The interval is empty if some surface separates them for any shift.
     fn unseparated_shifts(&self, other: &Profile, axis: &ScrewAxis, needed_gap: f64) -> [f64; 2] {
         let common = axis.surfaces.iter().enumerate();
         let common = common.map(|(k, &n)| {
@@ -194,8 +197,8 @@ impl Profile {
         met
     }
 
-    /// Returns the range of whole turns by which the nodes' azimuths may differ while the turning node passes the still
-    /// one: the least and the greatest number.
+    /// Returns the least and the greatest number of whole turns after which the turning node may pass the azimuth of
+    /// the still node.
     fn turn_range(&self, still: &Profile, way: &ScrewPath) -> [f64; 2] {
         let ahead = still.azimuth - self.azimuth;
         let width = self.width
@@ -211,23 +214,25 @@ fn intersection([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [greater(a, c), lesser(b, d)]
 }
 
-/// Returns the least and the greatest whole number in an interval, which is widened first to allow for rounding.
+/// Returns the least and the greatest whole number in an interval, after widening the interval to allow for rounding.
 fn whole_numbers_in([least, most]: [f64; 2]) -> [f64; 2] {
     let width = TURN_COUNT_WIDENING * (1.0 + greater(least.abs(), most.abs()));
     [(least - width).ceil(), (most + width).floor()]
 }
 
-/// The part of the screw motion to examine, and the distance to keep on it.
+/// A part of a screw motion, and the distance that nodes have to keep during it.
 #[derive(Debug)]
 pub(crate) struct ScrewPath {
     /// The advance along the axis per turn.
     pub(crate) pitch: f64,
-    /// The angles of the turning body at the start and the end of the part, from the start of the query on.
+    /// The rotation angles of the turning body at the start and the end of the part, measured from the start of the
+    /// query.
     pub(crate) angles: [f64; 2],
     pub(crate) needed_gap: f64,
 }
 
-/// Returns whether a turning node and a still node certainly keep more than the needed distance.
+/// Returns whether a turning node and a still node certainly stay farther apart than the needed distance along the path
+/// `way`.
 ///
 /// Each further turn lowers the still node's `ζ`, as seen from the turning node, by one pitch. The shifts for which
 /// no surface separates the nodes form a single interval. The number of turns therefore does not matter, only whether

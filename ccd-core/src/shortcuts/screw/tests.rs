@@ -14,7 +14,7 @@ use crate::tests::scene::{
 };
 use glam::{DQuat, DVec3};
 
-/// Draws a few triangles that are all near one point.
+/// Draws a few random triangles that are all near one point.
 fn random_triangle_patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     let count = rng.random_range(1..6);
     let mut corner = || at + point_in_ball(rng, size);
@@ -27,7 +27,7 @@ struct ScrewPassage {
     bodies: [Body; 2],
     screw_motion: Motion,
     still: Motion,
-    /// The time at which the bodies are near each other.
+    /// The clock at which the bodies are near each other.
     passage_time: f64,
 }
 
@@ -70,7 +70,8 @@ impl MapCorners for Vec<Triangle> {
     }
 }
 
-/// Returns the pairs of the roots and of all triangles, for bodies whose only node is the root.
+/// Returns all pairs of ids of a root or triangle of A and a root or triangle of B, for bodies whose only node is the
+/// root.
 fn all_node_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
     let ids = |side: &BodyWithPath<'_>| 0..=side.body.pieces().len() as NodeId;
     let of_a = ids(&problem.a);
@@ -150,7 +151,8 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
     );
 }
 
-/// Tests a screw motion that meets the other body only in its second turn.
+/// Tests that a screw motion which meets the other body in its second turn is proven apart for one turn, but not for
+/// two.
 #[test]
 fn later_turns_count() {
     let triangle = |at: DVec3| [at, at + 0.02 * DVec3::Z, at + 0.02 * DVec3::X];
@@ -179,8 +181,8 @@ fn later_turns_count() {
     }
 }
 
-/// Tests turns without an advance, which are all alike, and with one. A node as tall as many pitches is apart from a
-/// node outside of all of them, and meets others.
+/// Tests that nodes are proven apart over any number of turns at once, with and without an advance along the axis. A
+/// node as tall as many pitches is apart from a node outside of all of them, and meets others.
 #[test]
 fn any_number_of_turns_is_one_look() {
     let triangle = |r: f64, tall: f64| {
@@ -251,7 +253,7 @@ fn what_is_no_screw_has_no_profiles() {
     assert!(!falls([DVec3::ZERO, 9.8 * DVec3::Z]));
 }
 
-/// Tests that rounding far along an oblique axis does not tilt tall nodes.
+/// Tests that tall nodes far along an oblique axis are not proven apart from bodies at their tips, despite rounding.
 #[test]
 fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
     const COUNT: usize = 8;

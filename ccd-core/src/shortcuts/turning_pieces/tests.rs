@@ -1,4 +1,5 @@
-//! Compares planes that turn with a body with samples, and their rounding with double-double arithmetic.
+//! Compares free times by planes that turn with a body with distances at sampled times, and the rounding with
+//! double-double arithmetic.
 
 mod worst;
 
@@ -21,12 +22,12 @@ use crate::tests::scene::{
 
 const SAMPLES: u32 = 48;
 
-/// Counters of the sampled cases.
+/// Counts of the kinds of cases that the test has met.
 #[derive(Debug, Default)]
 struct CaseCounts {
     bounded_times: usize,
     unbounded_times: usize,
-    /// The number of free times at whose end most of the slack was used up.
+    /// The number of free times that are nearly as long as possible: at their end most of the slack is used up.
     exhausted_slacks: usize,
     /// The number of samples in which both bodies turn.
     both_turning: usize,
@@ -184,8 +185,8 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     assert!(height > 1e-3 && rate > 1e-3, "{height} {rate}");
 }
 
-/// Returns the exact height of a point of the second body along an axis that turns with the first body, from that
-/// body's centre, and the rate of that height.
+/// Returns the exact height of a point of the second body along an axis that turns with the first body, and the rate of
+/// this height. The height is measured from the first body's centre.
 fn exact(
     motions: [&Motion; 2],
     normal: DVec3,
@@ -206,8 +207,8 @@ fn exact(
     (normal.dot(way), rate)
 }
 
-/// Tests a plate of size 200 that turns about an axis along one of its edges, past a ball near that axis. Its rim is
-/// fast, but stays far away.
+/// Tests that a plane which turns with a large plate separates it from a small ball for at least nine tenths of the
+/// exact time. The plate turns about an axis in its plane, near the ball; its rim is fast, but stays far away.
 #[test]
 fn a_large_plate_turns_past_a_small_ball_at_once() {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
@@ -252,7 +253,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
     }
 }
 
-/// Tests that no slack, and invalid numbers, give no free time.
+/// Tests that the free time is 0 if the slack is not positive, or if the slack or the normal is NaN.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

@@ -1,7 +1,7 @@
 use super::*;
 use proptest::prelude::*;
 
-/// Generates vectors of small whole numbers, whose determinants plain arithmetic computes exactly.
+/// Generates vectors of whole numbers so small that floating-point arithmetic computes their determinants exactly.
 fn whole() -> impl Strategy<Value = DVec3> {
     [-9..=9, -9..=9, -9..=9].prop_map(|x: [i32; 3]| DVec3::from_array(x.map(f64::from)))
 }

@@ -3,7 +3,8 @@ use crate::rational::{Exact3, error_of, exact};
 use crate::worst::{Worst, share};
 use ccd_core::glam::dvec3;
 
-/// Returns the triangles of a long square rod of unit cells. Its volume is small compared to the products in its sum.
+/// Returns the surface triangles of a long square rod of unit cubes. Its volume is small compared to the products in
+/// its sum.
 fn rod(cells: u32) -> Vec<[DVec3; 3]> {
     let corner = |x: u32, k: usize| {
         let (y, z) = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)][k % 4];
@@ -49,8 +50,8 @@ fn the_sign_of_a_long_solids_volume_is_certain() {
     assert!(sign(&mut slanted.clone()).is_some());
 }
 
-/// Compares the sum of a few volumes that may cancel with exact fractions. The quadratic term of the bound is
-/// dominated up to ten million volumes, and is not tested here.
+/// Compares a sum of a few volumes, which may cancel, with its exact value as a fraction. The quadratic term of the
+/// bound is dominated up to ten million volumes, and is not tested here.
 #[test]
 fn worst_volume() {
     let found = Worst::of("volume_rounding", 6_000).search(|tape| {

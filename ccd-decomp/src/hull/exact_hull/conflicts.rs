@@ -1,9 +1,11 @@
-//! Randomized incremental hulls of many points. A conflict graph records which facets a point sees `[CS89]`.
+//! Randomized incremental convex hulls of many points, with a conflict graph that records which facets a point is in
+//! front of `[CS89]`. Such a point *sees* the facet.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the hull's triangles for points that span a volume, starting from the tetrahedron `simplex`.
+/// Computes the hull's triangles for points that are not coplanar, starting from the tetrahedron `simplex` of four of
+/// the points.
 ///
 /// Points are inserted in rounds of about half of the remaining points, chosen pseudorandomly. The expected work is O(n
 /// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
@@ -14,7 +16,7 @@ pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     left.map(|facet| facet.corners).collect()
 }
 
-/// Hashes an index to a number without any pattern (the finalizer of MurmurHash3).
+/// Hashes an index to a pseudorandom number, by the finalizer of MurmurHash3.
 fn hash_index(v: u32) -> u32 {
     let mut h = v.wrapping_add(0x9e37_79b9);
     h = (h ^ h >> 16).wrapping_mul(0x85eb_ca6b);
@@ -33,10 +35,10 @@ struct Facet {
     plane: Plane,
     /// The indices of the adjacent facets. The first is across the edge from the first corner to the second.
     adjacent_facets: [u32; 3],
-    /// The points that see the facet and are not inserted yet.
+    /// The points that see the facet and are not inserted into the hull yet.
     conflict_points: Vec<u32>,
     is_on_hull: bool,
-    /// The last point that was tested against the facet, and whether it sees it.
+    /// The last point that was tested against the facet, and whether this point sees the facet.
     last_test: (u32, bool),
 }
 
@@ -45,15 +47,16 @@ struct HullBuilder<'a> {
     /// Empty point lists for reuse.
     spare_lists: Vec<Vec<u32>>,
     facets: Vec<Facet>,
-    /// By point, one facet that it sees. It is a removed facet or [`NONE`] if the point is inside the hull.
+    /// For each point, one facet that the point sees. It is a removed facet or [`NONE`] if the point is inside the
+    /// hull.
     visible_facet: Vec<u32>,
-    /// By point, the last facet that the point was tested against.
+    /// For each point, the last facet that the point was tested against.
     last_tested_facet: Vec<u32>,
-    /// By point, the new facet whose horizon edge starts there.
+    /// For each point, the new facet at the horizon edge that starts at the point.
     facet_at_horizon_start: Vec<u32>,
 }
 
-/// A horizon edge, which bounds the visible part of the hull: its ends, the hidden facet, and the visible facet.
+/// An edge between a facet that the inserted point sees and a facet that it does not see.
 struct HorizonEdge {
     ends: [u32; 2],
     beyond: u32,
@@ -88,7 +91,7 @@ impl<'a> HullBuilder<'a> {
         hull
     }
 
-    /// Adds a facet, and records which candidate points see it.
+    /// Adds a facet to the hull, and records which of the candidate points see it.
     fn push(&mut self, corners: [u32; 3], adjacent: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
         let plane = self.points.plane(corners);
@@ -154,8 +157,8 @@ impl<'a> HullBuilder<'a> {
         }
     }
 
-    /// Removes all facets that point `v` sees: starts at `first`, and crosses edges to neighbours that it sees, too.
-    /// Returns them with their horizon edges.
+    /// Removes all facets that the point `v` sees, and returns them with the edges around the removed region. The
+    /// search starts at the facet `first`, and crosses edges to adjacent facets that the point sees too.
     fn remove_visible_facets(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<HorizonEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_on_hull = false;

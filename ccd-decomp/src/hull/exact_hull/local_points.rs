@@ -1,4 +1,4 @@
-//! Exact side tests with a floating-point filter.
+//! Exact tests of the side of a plane on which a point lies, with a fast floating-point filter.
 
 use crate::exact::predicates::side_of;
 use ccd_core::glam::DVec3;
@@ -19,7 +19,7 @@ pub(super) struct LocalPoints<'a> {
 pub(super) struct Plane {
     normal: DVec3,
     height: f64,
-    /// A bound on the rounding error of a height above the plane.
+    /// A bound on the rounding error of the computed height of any of the points above the plane.
     rounding: f64,
 }
 
@@ -46,7 +46,7 @@ impl<'a> LocalPoints<'a> {
         }
     }
 
-    /// Returns whether a point is in front of the plane through some corners, exactly.
+    /// Returns whether a point is in front of the plane through three corners; the result is exact.
     #[inline]
     pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
         let height = plane.normal.dot(self.relative[v as usize]) - plane.height;

@@ -3,7 +3,7 @@ use crate::exact::predicates::side;
 use ccd_core::glam::dvec3;
 use proptest::prelude::*;
 
-/// Generates points on a coarse grid, where many lie in one plane or on one line.
+/// Generates points on a coarse grid, so that many points lie in one plane or on one line.
 fn coarse_grid_points() -> impl Strategy<Value = Vec<DVec3>> {
     let point = [0..4i32, 0..4i32, 0..4i32].prop_map(|x| DVec3::from_array(x.map(f64::from)));
     prop::collection::vec(point, 1..24)

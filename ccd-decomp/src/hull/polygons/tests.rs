@@ -17,8 +17,8 @@ fn the_squares_of_a_box_are_polygons() {
 }
 
 proptest! {
-    /// Tests that every triangle is in one polygon, that no two adjacent polygons are coplanar, and that polygons
-    /// have no straight corners.
+    /// Tests that every triangle is in exactly one polygon, that no two adjacent polygons are coplanar, and that
+    /// polygons have no corner of 180°.
     #[test]
     fn polygons_are_as_large_as_can_be(cells in prop::collection::vec([0..3i32, 0..3i32, 0..3i32], 4..20)) {
         let points: Vec<DVec3> = cells.iter().map(|c| DVec3::from_array(c.map(f64::from))).collect();

@@ -28,7 +28,7 @@ fn maps_follow_each_other() {
     assert!(both.reverses_orientation() && !turned.reverses_orientation());
 }
 
-/// Tests the sign of a determinant whose products cancel, underflow or overflow.
+/// Tests that the orientation of a map is exact, even if the products of its determinant cancel, underflow or overflow.
 #[test]
 fn the_sign_of_a_mirror_is_exact() {
     let mirrors = |columns: [DVec3; 3]| {
@@ -57,7 +57,7 @@ fn ratio(x: f64) -> RBig {
 }
 
 proptest! {
-    /// Tests the documented rounding bound of an image against exact arithmetic.
+    /// Tests that the image of a point is off by at most the documented bound, against exact arithmetic.
     #[test]
     fn images_are_off_by_the_documented_rounding(
         rows in prop::array::uniform3(prop::array::uniform3(-1e3..1e3_f64)),

@@ -28,7 +28,7 @@ fn a_mesh_is_moved_and_scaled() {
     assert_eq!(same.vertices(), cube().vertices());
 }
 
-/// Tests that a mirrored solid is still oriented outward.
+/// Tests that a mirrored solid is still a solid with outward orientation.
 #[test]
 fn a_mirror_turns_the_faces_round() {
     for map in [scaling_map(-1.0, 1.0, 1.0), scaling_map(-1.0, -2.0, -0.5)] {
@@ -43,8 +43,8 @@ fn a_mirror_turns_the_faces_round() {
     );
 }
 
-/// Tests that a flattened cube keeps a face on each side. The other faces collapse to edges of these, and are
-/// dropped.
+/// Tests that a cube flattened to a plane keeps triangles on both sides of the plane. The other faces collapse to edges
+/// of these, and are dropped.
 #[test]
 fn a_flattened_mesh_is_repaired() {
     let flat = cube().transformed(scaling_map(1.0, 1.0, 0.0)).unwrap();
@@ -99,8 +99,8 @@ fn numbers_go_on_in_merged_meshes() {
     assert!(matches!(error.fault, MeshFault::NoVertices), "{error}");
 }
 
-/// Tests that two merged halves of a cube are one solid without their common squares, and two touching solids with
-/// them.
+/// Tests that the merged halves of a cube form one solid without the squares between them, and two touching solids with
+/// these squares.
 #[test]
 fn merged_solids_are_solid() {
     let moved = cube()

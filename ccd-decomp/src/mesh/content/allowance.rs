@@ -1,22 +1,23 @@
-//! The budget for the expansion of a file: it limits how much a few bytes can produce by repeated references.
+//! The budget for the expansion of a file, which limits how many elements a small file can produce by repeated
+//! references.
 
 use crate::mesh::error::MeshFault;
 use crate::tolerance::{EXPANSION_BASE, EXPANSION_PER_BYTE, MAX_EXPANSION, VERTEX_COST};
 
-/// The remaining budget of elements that a file may expand to. A corner costs 1, a vertex more.
+/// The budget of vertices and face corners that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExpansionBudget {
     remaining: u64,
     limit: u64,
 }
 
-/// Returns the cost of an expansion to some vertices and face corners.
+/// Returns the cost of an expansion to the given numbers of vertices and face corners.
 pub(crate) fn expansion_cost(vertices: u64, corners: u64) -> u64 {
     vertices.saturating_mul(VERTEX_COST).saturating_add(corners)
 }
 
 impl ExpansionBudget {
-    /// Returns the budget of a file with a size in bytes.
+    /// Returns the budget of a file of `bytes` bytes: an allowance for each byte, and a limited one for repetition.
     pub(crate) fn for_file(bytes: u64) -> Self {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.

@@ -1,4 +1,4 @@
-//! Assemblies: scenes in which shapes are placed as parts.
+//! Assemblies: lists of shapes, with the parts of a scene that place them.
 
 use super::allowance::{ExpansionBudget, expansion_cost};
 use crate::mesh::affine::AffineMap;
@@ -6,19 +6,19 @@ use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use std::ops::Range;
 
-/// A list of shapes, and the parts of a scene that place them.
+/// A scene, as a list of shapes and the parts that place them. One shape may be placed by several parts.
 ///
 /// # Guarantee
 /// Every part names a shape with a face.
 #[derive(Debug)]
 pub(crate) struct Assembly {
-    /// Triangles; the corners of each shape index its own vertices.
+    /// The shapes, as lists of triangles; the corners of a shape are indices into its own vertices.
     shapes: Vec<Polygons>,
     pub(crate) parts: Vec<Part>,
     allowance: ExpansionBudget,
 }
 
-/// A part of the scene: a shape, by its number, with the transform that places it.
+/// A part of a scene: the index of a shape, with the affine map that places it.
 #[derive(Debug)]
 pub(crate) struct Part {
     pub(crate) name: Option<String>,
@@ -41,7 +41,7 @@ impl Assembly {
         }
     }
 
-    /// Returns the triangles of some parts, one part after the other.
+    /// Returns the placed triangles of some parts as one list, part by part.
     pub(super) fn expand(&self, parts: Range<usize>) -> Result<Polygons, MeshFault> {
         self.check_expansion_cost(parts.clone())?;
         let mut all = Polygons::default();
@@ -51,7 +51,7 @@ impl Assembly {
         Ok(all)
     }
 
-    /// Checks that the expansion of some parts does not exceed the allowance.
+    /// Checks that the number of vertices and corners of some parts does not exceed the file's budget.
     pub(super) fn check_expansion_cost(&self, parts: Range<usize>) -> Result<(), MeshFault> {
         let mut allowance = self.allowance;
         self.parts[parts].iter().try_for_each(|part| {
@@ -62,8 +62,8 @@ impl Assembly {
     }
 }
 
-/// Appends the image of a shape under an affine map. A mirroring map reverses the triangles, so that a solid stays
-/// one.
+/// Appends the image of a shape under an affine map to a list of faces. A mirroring map reverses the triangles, so that
+/// a solid stays one.
 fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap) {
     let first = all.vertices.len() as i64;
     let image = |&point| map.apply(point);

@@ -1,4 +1,4 @@
-//! Named groups of a file's faces, each a part of the mesh.
+//! The groups of a file's faces; each group is a part of the mesh, and may have a name.
 
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
@@ -9,7 +9,7 @@ use std::ops::Range;
 #[derive(Debug, Default)]
 pub(crate) struct Groups {
     pub(crate) names: Vec<Option<String>>,
-    /// By face, the number of its group; empty if all faces are in the first group.
+    /// For each face, the number of its group; empty if all faces are in the first group.
     pub(crate) group_of_face: Vec<u32>,
 }
 
@@ -22,8 +22,8 @@ impl Groups {
         }
     }
 
-    /// Copies the faces of some groups, each into a list of its own with the vertices that it uses, in the order of
-    /// `list`.
+    /// Copies each of some groups into a list of its own, with the faces of the group and the vertices that they use.
+    /// Faces and vertices keep their order.
     pub(super) fn copy_groups(
         &self,
         list: &Polygons,
@@ -43,7 +43,8 @@ impl Groups {
     }
 }
 
-/// Copies some faces of a list, and renumbers their vertices. `numbers` is a buffer: by vertex, its number in the copy.
+/// Copies some faces of a list and the vertices that they use into a new list. `numbers` is a buffer for the new number
+/// of each vertex.
 fn copy_faces(list: &Polygons, faces: &[usize], numbers: &mut [i64]) -> Polygons {
     let mut part = Polygons::default();
     for &face in faces {

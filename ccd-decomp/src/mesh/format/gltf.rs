@@ -26,7 +26,7 @@ use nodes::Scene;
 use schema::Root;
 use std::collections::BTreeMap;
 
-/// Reads a glTF as an assembly of parts.
+/// Parses a glTF, text or binary, into an assembly of parts.
 pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
@@ -54,7 +54,7 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     })
 }
 
-/// Returns the references to buffers that are separate files.
+/// Returns the references of a glTF to buffers that are separate files, each file once.
 pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     if bytes.is_empty() {
         return Ok(Vec::new());
@@ -77,7 +77,7 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         .collect())
 }
 
-/// Returns the element of a JSON array with a given index; `kind` names the array in faults.
+/// Returns the element of a JSON array at the index `number`, or a fault that names the elements by `kind`.
 fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
     list.get(number).ok_or_else(|| {
         let count = list.len();

@@ -68,7 +68,8 @@ struct Reader {
     polygons: Polygons,
     objects: NamedGroups,
     groups: NamedGroups,
-    /// The first face corner with a number before the first vertex: the face, and the number in the file.
+    /// The first face corner whose vertex number is 0 or counts back beyond the first vertex: its face, and that
+    /// number.
     missing: Option<(usize, i64)>,
 }
 
@@ -127,7 +128,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Checks that all face corners name vertices, and returns the content.
+    /// Checks that all face corners name existing vertices, and returns the content.
     fn into_content(mut self) -> Result<Content, MeshFault> {
         let polygons = &self.polygons;
         let vertices = polygons.vertices.len();
@@ -175,7 +176,8 @@ fn vertex_number(corner: &str) -> Option<i64> {
     (rest_is_valid && numbers.next().is_none()).then_some(vertex)
 }
 
-/// The groups of faces that one keyword, `o` or `g`, names. They are numbered by their first face.
+/// The groups of faces that one keyword defines: the objects (`o`) or the groups (`g`). They are numbered by their
+/// first face.
 #[derive(Default)]
 struct NamedGroups {
     groups: Groups,
@@ -205,7 +207,7 @@ impl NamedGroups {
         of_face.push(number);
     }
 
-    /// Returns whether any face has a name.
+    /// Returns whether any face is in a group with a name.
     fn has_names(&self) -> bool {
         self.groups.names.iter().any(Option::is_some)
     }
@@ -223,15 +225,15 @@ fn name_after_keyword(statement: &str) -> &str {
     name[..comment.map_or(name.len(), |(at, _)| at)].trim()
 }
 
-/// The keywords of statements that do not affect the shape: normals, texture coordinates, materials, curve and
-/// display settings.
+/// The keywords of statements that are skipped without a remark, because they do not affect the shape: normals, texture
+/// coordinates, materials, curve and display settings.
 const HARMLESS_KEYWORDS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj \
                         ctech stech cstype deg bmat step parm trim hole scrv curv2 sp end con res";
 
-/// Skips a statement, with a remark unless it is harmless.
+/// Skips a statement, and adds a remark unless its keyword is harmless.
 ///
 /// # Errors
-/// The statement defines faces.
+/// The statement may define faces.
 fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
     match keyword {
         "surf" | "bsp" | "bzp" | "cdp" => {

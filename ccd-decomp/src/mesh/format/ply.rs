@@ -245,14 +245,14 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
     MeshFault::syntax(line, problem)
 }
 
-/// An element of a PLY: a vertex, a face, or one that is skipped. One type stands for all, because the library
-/// compiles its readers anew for each type.
+/// An element of a PLY: a vertex, a face, a triangle strip, or an element that is skipped. One type stands for all,
+/// because the library compiles its readers anew for each type.
 struct Element {
     point: DVec3,
     corners: Vec<i64>,
 }
 
-/// The names of the face property that lists the vertex indices of the corners.
+/// The two usual names of the property that lists the vertex indices of a face or strip.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 impl PropertyAccess for Element {

@@ -76,7 +76,7 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     Ok(facets.polygons)
 }
 
-/// The keywords of the statements of a facet, one statement on each line.
+/// The keywords of the seven lines that describe a facet in a text STL, in order.
 const FACET_KEYWORDS: [&[&str]; 7] = [
     &["facet", "normal"],
     &["outer", "loop"],
@@ -87,7 +87,7 @@ const FACET_KEYWORDS: [&[&str]; 7] = [
     &["endfacet"],
 ];
 
-/// Reads a text of one or more solids. The text is in lower case.
+/// Reads the facets of a text STL, which may hold several solids. The text is in lower case.
 fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     let mut facets = Facets::default();
     // The number of statements of the current facet that were read.
@@ -140,7 +140,7 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     })
 }
 
-/// The polygons of a file under construction. Corners at exactly the same point become one vertex.
+/// The facets read so far, as triangles over welded vertices. Corners at exactly the same point become one vertex.
 #[derive(Default)]
 struct Facets {
     polygons: Polygons,

@@ -11,7 +11,7 @@ const TETRAHEDRON_OBJ: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 /// An OBJ with optional content: carriage returns, normals, relative indices, objects, materials, a continued line,
-/// colours, a weight, and a byte that is no UTF-8.
+/// colours, a weight, and a byte that is not valid UTF-8.
 const RICH_OBJ: &[u8] = b"# caf\xe9\r\nmtllib none.mtl\r\no first\r\nv 0 0 0 1\r\nv 1 0 0 0.5 0.5 0.5\r\n\
     v 0 1 0 # up\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl red\r\nf 1/1/1 -1/-1/-1 2/1/1\r\ng second\r\nl 1 2\r\n\
     v 0 0 2 2\r\nf 1//1 2//1 \\\r\n  4//1\r\nusemtl blue\r\nf 2/1 3/1 4/1\r\ns off\r\nf +3 1 -1\r\n";
@@ -34,7 +34,7 @@ const TETRAHEDRON_OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0
 const POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
-/// Returns a binary STL whose header begins like a text.
+/// Returns a binary STL of a tetrahedron whose header begins with `solid`, like a text STL.
 fn binary_stl() -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes[..10].copy_from_slice(b"solid bin\n");
@@ -76,7 +76,7 @@ fn binary_ply(endian: &str) -> Vec<u8> {
     bytes
 }
 
-/// Returns the tetrahedron of the other formats as a glTF.
+/// Returns a glTF of the same tetrahedron as the files of the other formats.
 #[cfg(feature = "gltf")]
 fn tetrahedron_gltf() -> crate::test_files::Gltf {
     let mut gltf = crate::test_files::Gltf::new();
@@ -185,7 +185,7 @@ fn a_pointer_of_git_lfs_is_recognised() {
     }
 }
 
-/// Tests that reading a format that is not built names the Cargo feature to enable.
+/// Tests that the error for a format that is not compiled in names the Cargo feature to enable.
 #[test]
 fn a_format_that_is_not_built_is_named() {
     let is_built = cfg!(feature = "gltf");

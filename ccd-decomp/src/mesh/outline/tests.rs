@@ -11,7 +11,8 @@ fn turn(p: DVec3, q: DVec3, r: DVec3) -> f64 {
     orient2d(a, b, c)
 }
 
-/// Returns whether two edges of an outline that are not neighbours meet. Tests all pairs exactly.
+/// Returns whether an outline intersects itself: two non-adjacent edges meet, or two adjacent edges overlap. Tests all
+/// pairs exactly.
 fn is_self_intersecting(points: &[DVec3]) -> bool {
     let n = points.len();
     let at = |k: usize| points[k % n];
@@ -116,8 +117,8 @@ fn outlines_without_an_inside_are_not_filled() {
     assert_eq!(triangulate_outline(&fine), None);
 }
 
-/// Tests the time for outlines of many corners on or near a line, or in convex position, for which a sweep takes
-/// minutes.
+/// Tests that outlines of 60,000 corners on or near a line, or in convex position, are triangulated. A sweep takes
+/// minutes for them.
 #[test]
 fn outlines_of_many_corners_take_no_longer_than_others() {
     let count = 60_000;

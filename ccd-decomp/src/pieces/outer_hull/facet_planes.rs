@@ -1,4 +1,4 @@
-//! The facet planes of a hull.
+//! The facet planes of a hull, against which boxes are tested.
 
 use super::target::Target;
 use crate::tolerance::MIN_CORNER_SINE;
@@ -6,9 +6,9 @@ use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// The planes of a hull's facets.
+/// The planes of a hull's facets, and the rounding of distances to them.
 pub(super) struct FacetPlanes {
-    /// The planes of well-shaped facets, which are accurate to within the slack of distances.
+    /// The planes of the well-shaped facets, whose distances are accurate to within `slack`.
     pub(super) planes: Vec<Plane>,
     slack: f64,
 }
@@ -39,7 +39,8 @@ impl FacetPlanes {
         }
     }
 
-    /// Tests a box against the planes numbered `among`. Returns `None` if the box does not meet the hull.
+    /// Returns the position of a box relative to the planes with the numbers `among`; `None` if the box does not meet
+    /// the hull.
     pub(super) fn overlap(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<BoxOverlap> {
         let mut meeting = BoxOverlap {
             has_centre: !self.planes.is_empty(),
@@ -76,8 +77,8 @@ impl Plane {
         Plane::through(at(0), u, v)
     }
 
-    /// Computes the plane through a triangle's corner and along two of its sides, whose product points outward; `None` if
-    /// the triangle is not well shaped.
+    /// Computes the plane of a triangle from a corner and two sides, with `u × v` outward; `None` if the triangle is
+    /// not well shaped.
     pub(super) fn through(corner: DVec3, u: DVec3, v: DVec3) -> Option<Self> {
         let normal = u.cross(v);
         let good = normal.length() > MIN_CORNER_SINE * u.length() * v.length();

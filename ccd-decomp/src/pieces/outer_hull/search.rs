@@ -35,18 +35,18 @@ pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
     greater(open, search.largest_distance)
 }
 
-/// The number of boxes that are split in parallel.
+/// The maximum number of boxes that are split at the same time, in parallel.
 const BOXES_PER_BATCH: usize = 16;
 
 struct Search<'a> {
     target: &'a Target<'a>,
     hull: FacetPlanes,
-    /// The number of steps of work spent.
+    /// The number of steps of the work budget that the search has spent.
     steps_spent: u64,
-    /// The largest distance from the solid to a point of the hull that was found.
+    /// The largest distance found so far from the solid to a point of the hull.
     largest_distance: f64,
-    /// The boxes that wait, by bound and by the order in which they were examined. Bounds are positive: their bits are
-    /// in the order of their values.
+    /// The boxes that may still be split, sorted by bound, then by the order in which they were examined. Bounds are
+    /// positive: their bits are in the order of their values.
     waiting: BTreeMap<(u64, u64), BoundedBox>,
     examined_count: u64,
 }
@@ -60,12 +60,13 @@ struct BoundedBox {
     planes: Vec<u32>,
 }
 
-/// What is known of a box after its examination: whether it may be dropped, and otherwise its bound.
+/// The result of bounding a box: a distance at its centre, and the box itself if it must be searched further.
 #[derive(Default)]
 struct BoxExamination {
-    /// The distance from the solid to the box's centre, if the centre is in the hull.
+    /// The distance from the solid to the box's centre; 0 if the centre is in the solid or outside the hull.
     distance: f64,
-    /// The examined box; `None` if no point of the hull in it exceeds the largest known distance.
+    /// The box with its bound; `None` if no point of the hull in the box is farther from the solid than
+    /// `largest_distance`.
     cell: Option<BoundedBox>,
     steps_spent: u64,
 }
@@ -81,8 +82,8 @@ impl Search<'_> {
         self.record(examined);
     }
 
-    /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
-    /// found, the work is spent, or too many boxes wait.
+    /// Splits each of the boxes with the largest bounds into octants, and bounds these. Returns false if the bounds are
+    /// near the largest distance found, the work is spent, or too many boxes wait.
     fn split_worst_boxes(&mut self, floor: f64) -> bool {
         let target = greater(
             EXCESS_RATIO * self.largest_distance,
@@ -119,7 +120,7 @@ impl Search<'_> {
             .extend(examined.cell.map(|cell| (key(&cell), cell)));
     }
 
-    /// Computes the bound of the box `bounds`, which lies within the examined box `within`.
+    /// Bounds the distance from the solid to the hull in the box `bounds`, a part of the examined box `within`.
     fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
         let planes = &within.planes;
         let (target, hull, work) = (self.target, &self.hull, &Work::unbounded());

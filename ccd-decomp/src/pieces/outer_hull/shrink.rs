@@ -7,8 +7,9 @@ use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Returns an upper bound of the distance from a solid to any point of its hull; `None` if a face is badly shaped, or there
-/// are too many. The whole surface of the solid is visible from `centre`.
+/// Returns an upper bound on the distance from a solid to any point of its hull; `None` if a shrunk copy of the hull
+/// gives no bound. The whole surface of the solid must be visible from `centre`. There is no bound if a face is badly
+/// shaped, the centre is not certainly behind a face, or there are too many faces and points.
 ///
 /// The points behind the planes of all faces are in the solid: a ray from the centre leaves the solid through a face, in
 /// front of whose plane it stays. Let the centre be `m` below a plane, and the hull's highest point `h` above the plane. A

@@ -1,4 +1,4 @@
-//! The solid or surface that the hull encloses, with distance queries.
+//! The solid or surface that the hull encloses, with queries for the location and distance of a point.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{line_side_along, side};
@@ -26,7 +26,7 @@ pub(super) struct Target<'a> {
     slack: f64,
 }
 
-/// The location of a point relative to the solid or surface.
+/// Whether a point is in the solid, with a bound on its distance to the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Location {
     /// The point is in the solid, at least `depth` below the surface.
@@ -59,7 +59,7 @@ impl<'a> Target<'a> {
         if self.inside_out { -1.0 } else { 1.0 }
     }
 
-    /// Returns the triangles whose bounding boxes meet a box; `None` if there are more than `most`.
+    /// Returns the triangles whose bounding boxes meet a given box; `None` if there are more than `most`.
     pub(super) fn triangles_in_box(
         &self,
         [lo, hi]: [DVec3; 2],
@@ -81,7 +81,7 @@ impl<'a> Target<'a> {
         self.bounds
     }
 
-    /// Returns half the diagonal of the mesh's bounding box.
+    /// Returns half the diagonal of the mesh's bounding box, to which tolerances are relative.
     pub(super) fn half_diagonal(&self) -> f64 {
         half_diagonal(self.bounds)
     }
@@ -91,7 +91,7 @@ impl<'a> Target<'a> {
         self.slack
     }
 
-    /// Computes the location of a point relative to the target.
+    /// Returns whether a point is in the solid, with a bound on its distance to the surface.
     pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
         let (found, reached) = self.distance_bounds(point, work);
         if self.winds_about(point, work) {
@@ -105,9 +105,9 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Returns bounds of the distance from a point to the surface. The first is a lower bound up to the slack. The
-    /// second is the distance to a point that is certainly on a triangle: the library's projection with clamped
-    /// weights, which may be wrong for needles.
+    /// Returns a lower and an upper bound of the distance from a point to the surface. The lower bound holds up to the
+    /// slack. The upper bound is the distance to a point that is certainly on a triangle: the library's projection with
+    /// clamped weights, which may be wrong for needles.
     fn distance_bounds(&self, point: DVec3, work: &Work) -> (f64, f64) {
         let query = to_parry(point);
         let project = |corners: [DVec3; 3]| {
@@ -173,8 +173,8 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     })
 }
 
-/// Returns how the ray from a point along z crosses a triangle. It is 1 from back to front, −1 from front to back, 0
-/// if it misses.
+/// Returns the direction in which the ray from a point along z crosses a triangle. It is 1 from back to front, −1 from
+/// front to back, 0 if it misses.
 ///
 /// Degenerate cases are decided by symbolic perturbation of the point along x, and less along y, consistently for all
 /// triangles at an edge.

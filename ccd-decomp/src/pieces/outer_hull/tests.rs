@@ -144,7 +144,7 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Returns whether a point is behind all facets of a polytope, by exact predicates.
+/// Returns whether a point is on or behind the planes of all facets of a polytope, by exact predicates.
 fn is_inside(polytope: &Polytope, point: DVec3) -> bool {
     let at = |v: u32| polytope.points[v as usize];
     let is_behind = |facet: &Facet| {
@@ -237,7 +237,7 @@ fn dented() -> TriangleMesh {
     mesh(&points, sphere.faces())
 }
 
-/// Tests the case that outer hulls are for: rounding makes facets of several triangles reflex.
+/// Tests that a sphere rounded to single precision, which has reflex edges, gets a hull with a small positive excess.
 #[test]
 fn a_convex_solid_in_single_precision_exceeds_itself_little() {
     let mesh = rounded(&sphere());
@@ -254,8 +254,8 @@ fn moved(mesh: &TriangleMesh, offset: f64) -> TriangleMesh {
     self::mesh(&points.collect::<Vec<_>>(), mesh.faces())
 }
 
-/// Tests the reported excess of a single hull. It fills the hole of a torus, whose farthest points are at the two
-/// mouths, or a cavity, whose farthest point is its centre.
+/// Tests that the excess bound of a hull is within 2 % of the known excess. The hull fills the hole of a torus, whose
+/// farthest points are at the two mouths, or a cavity, whose farthest point is its centre.
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
 #[case::cavity(box_mesh(&[cube_bounds(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
@@ -308,7 +308,8 @@ fn a_coordinate_too_near_to_0_is_refused() {
     assert_eq!(error, Some(HullError { point: 3 }));
 }
 
-/// Tests the locations of lattice points, which are in line with edges and corners of the meshes.
+/// Tests that lattice points, whose rays meet edges and corners of the meshes, are located inside or outside at the
+/// right distance.
 #[rstest]
 #[case::prism(l_shape())]
 #[case::torus(torus(8, 4, 0.5))]

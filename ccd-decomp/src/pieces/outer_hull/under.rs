@@ -1,4 +1,4 @@
-//! Bounds the excess of a hull above a nearly flat surface.
+//! Bounds how far a hull extends beyond a nearly flat part of a solid's surface.
 
 use super::facet_planes::Plane;
 use super::target::Target;
@@ -8,7 +8,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
-/// Bounds the distance from the solid to the hull within a box, using the surface near the box; `None` if that fails.
+/// Returns an upper bound on the distance from the solid to the hull within a box, from the heights of the surface near
+/// the box; `None` if there is no such bound.
 ///
 /// Heights are measured along the mean normal of the surface in a box three times as large. The points of the large box
 /// below that surface are a convex set without surface, which is in the solid if one point is. The bound is how far a
@@ -43,8 +44,8 @@ pub(super) fn excess_above_surface(
     stays.then_some(sinks + target.slack())
 }
 
-/// Returns an upper bound of the height of the hull within a box. The hull is behind each plane: the upward direction
-/// is split into a multiple of the plane's normal and a rest.
+/// Returns an upper bound of the height of the hull within a box, along `up` from the box's centre. The hull is behind
+/// each plane: the upward direction is split into a multiple of the plane's normal and a rest.
 fn height_bound(
     planes: impl Iterator<Item = Plane>,
     up: DVec3,
@@ -60,7 +61,7 @@ fn height_bound(
     planes.map(by_plane).fold(by_box, lesser)
 }
 
-/// Clips a triangle to a box.
+/// Clips a triangle to a box, and stores the resulting polygon in `part`.
 fn clip_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
     let mut rest = Vec::new();
     part.clear();

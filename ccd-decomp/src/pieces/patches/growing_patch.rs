@@ -54,7 +54,8 @@ impl GrowingPatch {
         PolygonList::from_iter([front, back])
     }
 
-    /// Adds a polygon if the result is a valid patch. The result is meaningful only if work is left.
+    /// Adds a polygon to the patch if the patch stays valid, and returns whether the polygon joined. The result is
+    /// meaningful only if work is left.
     pub(super) fn join(
         &mut self,
         manifold: &Manifold<'_>,
@@ -116,7 +117,8 @@ impl GrowingPatch {
         JoinResult::Joined
     }
 
-    /// Compares the highest corner of the hull above a plane to the plane: in front, on or behind.
+    /// Returns the side of a plane on which the hull's highest corner lies: `Greater` in front, `Equal` on the plane,
+    /// `Less` behind.
     fn side_of_highest_corner(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
         let corners = self.hull.corners().iter();
         let mut highest = Ordering::Less;
@@ -142,8 +144,8 @@ impl GrowingPatch {
         }
     }
 
-    /// Returns the hull with the points `new` added, and the bounding box of the change; `None` if the hull is
-    /// unchanged.
+    /// Returns the hull extended by the points `new`, with the bounding box of what changed. The box is `None` if the
+    /// hull is unchanged.
     fn hull_with(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;

@@ -7,7 +7,7 @@ use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// A convex hull with volume, prepared for tests whether triangles of the same mesh enter it.
+/// A convex hull with volume, with the tables for testing whether triangles of the same mesh enter its interior.
 pub(super) struct Obstacle<'a> {
     points: &'a [DVec3],
     hull: &'a ExactHull,
@@ -47,7 +47,7 @@ impl<'a> Obstacle<'a> {
             || (0..3).any(|k| self.is_separated_at_corner(triangle, k))
     }
 
-    /// Returns whether the triangle is in front of a facet at one of its corners.
+    /// Returns whether the triangle is on or in front of a facet of the hull that has the vertex `corner`.
     fn is_in_front_at_corner(&self, corner: u32, triangle: [u32; 3]) -> bool {
         let meeting = self.corner_facets.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());

@@ -30,7 +30,8 @@ pub(super) fn seed_order(
     seeds
 }
 
-/// Returns, for each polygon, the number of steps to a polygon with a reflex edge; `u32::MAX` if there is none.
+/// Returns for each polygon the number of steps over adjacent polygons to the nearest polygon with a reflex edge;
+/// `u32::MAX` without reflex edges.
 fn steps_to_reflex_edge(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();
@@ -57,7 +58,7 @@ fn steps_to_reflex_edge(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<
 }
 
 impl PatchOrder {
-    /// Removes the polygon that a growing patch tries next from those that wait.
+    /// Removes and returns the waiting polygon that a growing patch tries next.
     pub(super) fn pop(self, waiting: &mut VecDeque<u32>) -> Option<u32> {
         match self {
             PatchOrder::Cresting | PatchOrder::BreadthFirst => waiting.pop_front(),

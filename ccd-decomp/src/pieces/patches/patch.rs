@@ -1,4 +1,4 @@
-//! Finished patches: polytopes whose facets name the faces of the mesh.
+//! Finished patches, whose hulls have facets with the numbers of the mesh's faces.
 
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
@@ -40,14 +40,14 @@ impl Patch {
         Patch { faces, polytope }
     }
 
-    /// Returns the number of facets that are not entirely covered by faces of the mesh.
+    /// Returns the number of the hull's facets that are not entirely covered by faces of the mesh.
     pub fn virtual_facets(&self) -> usize {
         let facets = self.polytope.facets.iter();
         facets.filter(|f| f.origin == FacetOrigin::Virtual).count()
     }
 }
 
-/// Returns a facet of a patch's hull with the numbers of the mesh faces that lie in it.
+/// Returns a facet of a patch's hull, with the numbers of the patch's mesh faces that lie in the facet.
 fn covered_facet(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> CoveredFacet {
     let at = |v: u32| manifold.point(v);
     let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();

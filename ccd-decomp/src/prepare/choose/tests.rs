@@ -29,8 +29,8 @@ fn convex_solids_are_hulls() {
     );
 }
 
-/// Tests that a solid with large planar parts becomes patches if these have many triangles, and stays triangles if
-/// they have few.
+/// Tests that patches are chosen for a solid whose planar parts have many triangles, and triangles if the planar parts
+/// have few.
 #[test]
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
@@ -62,7 +62,7 @@ fn the_largest_plane_is_found_whole() {
     assert_eq!(plane.polygons, 1);
 }
 
-/// Returns the largest planar part, by a walk over adjacent coplanar polygons.
+/// Returns the size of the largest planar part, by a walk over adjacent coplanar polygons.
 fn largest_region_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
     let flats = RegionMerger::merge_all_regions(manifold).into_polygons();
     let mut seen = vec![false; flats.len()];
@@ -132,7 +132,7 @@ fn slow_decompositions_stay_triangles() {
     }
 }
 
-/// Tests that merging ends for meshes whose edges pair up, but that bound no solid.
+/// Tests that triangles are chosen for folded meshes, whose edges all have two faces although they bound no solid.
 #[test]
 fn folded_meshes_stay_triangles() {
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];

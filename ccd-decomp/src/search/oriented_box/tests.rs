@@ -1,4 +1,4 @@
-//! Compares box tests with exact fractions, in the worst cases that a search finds.
+//! Tests oriented boxes against exact fractions. A random search looks for the largest rounding error.
 
 use super::OrientedBox;
 use crate::rational::{Exact3, exact};
@@ -21,7 +21,7 @@ fn setting(tape: &mut RandomCase) -> (OrientedBox, DVec3) {
     (OrientedBox::around_elements(&[element]), point())
 }
 
-/// Searches for the largest error of the test that separates a point from a box along an axis of the box.
+/// Tests that the offset of a point along an axis of a box has a rounding error of at most `box_rounding`.
 #[test]
 fn worst_beside() {
     let found = Worst::of("box_rounding, beside a box", 10_000).search(|tape| {

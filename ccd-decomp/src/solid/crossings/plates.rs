@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 pub(super) struct Plates<'a, 'm> {
     manifold: &'a Manifold<'m>,
     plates: Vec<Plate>,
-    /// By face, its plate, or [`NONE`].
+    /// For each face, the number of its plate; [`NONE`] for a face outside all plates.
     plate_of_face: Vec<u32>,
     /// The axis-aligned boxes of the plates.
     bounds: BoundsTree,
@@ -96,8 +96,8 @@ impl<'a, 'm> Plates<'a, 'm> {
         })
     }
 
-    /// Calls `holds` for the faces that may intersect a face, until it returns false or the work is spent. Each pair
-    /// is reported for at least one of its faces: faces of lower number may be omitted.
+    /// Calls `holds` for the faces that may intersect the given face, until `holds` returns false or the work is spent.
+    /// Each pair is reported for at least one of its faces: faces of lower number may be omitted.
     pub(super) fn all_meeting(
         &self,
         face: u32,
@@ -179,7 +179,7 @@ impl<'a, 'm> Plates<'a, 'm> {
     }
 }
 
-/// Returns whether many of these faces have a common vertex.
+/// Returns whether at least [`MIN_FAN_TRIANGLES`] of the given faces share a vertex.
 fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
     if faces.len() < MIN_FAN_TRIANGLES as usize {
         return false;

@@ -58,7 +58,7 @@ fn a_shared_corner_is_no_intersection() {
     ));
 }
 
-/// Tests that a thin fin folded flat onto itself is reported as an intersection.
+/// Tests that a closed surface folded flat into one plane is reported as self-intersecting.
 #[test]
 fn a_fold_is_found() {
     let vertices = vec![
@@ -100,7 +100,8 @@ fn stairs_do_not_meet_themselves() {
     assert!(solid_surface(&stairs).is_ok());
 }
 
-/// Tests that the work grows with the number of triangles, not with the square of those about one vertex.
+/// Tests that checking a prism with fans as caps takes work linear in the number of triangles, not quadratic in the
+/// size of a fan.
 #[test]
 fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     for corners in [50, 500, 5_000] {
@@ -116,7 +117,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     }
 }
 
-/// Returns the steps of work per face that checking a mesh takes.
+/// Returns the number of steps per face that checking a mesh takes.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap();
     assert_eq!(crate::solid::star_shaped::star_centre(&manifold), None);
@@ -130,7 +131,8 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     work.steps_spent() / mesh.faces().len() as u64
 }
 
-/// Tests the work for a solid of slivers that is not star-shaped. Each sliver is near a few others.
+/// Tests that checking a solid of slivers that is not star-shaped takes fewer than 400 steps per face. Each sliver is
+/// near a few others.
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
@@ -160,7 +162,7 @@ fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     mesh(turned.collect(), flat.faces())
 }
 
-/// Tests that the reported intersections are those of a test of every pair of faces.
+/// Tests that the reported intersections are those that a test of every pair of faces finds, up to `MAX_CROSSINGS`.
 #[test]
 fn crossings_are_those_of_all_pairs() {
     let radii = |n| prop::collection::vec((1..=3_i32, 0.9..1.1_f64), n);

@@ -57,7 +57,7 @@ fn polygons_are_convex_and_leave_nothing_out() {
     assert!((16..=24).contains(&flats.len()), "{}", flats.len());
 }
 
-/// Tests that a grid merges to rows first, then to rectangles, in any order of the faces.
+/// Tests that a plate with a hole merges to 16 rectangles, whatever the order of its faces.
 #[test]
 fn a_grid_with_a_hole_is_a_few_rectangles() {
     let cells = block([9, 9, 1]).into_iter().filter(|c| *c != [4, 5, 0]);

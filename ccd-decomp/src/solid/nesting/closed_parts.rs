@@ -7,7 +7,7 @@ use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Returns the number of the closed part of each face.
+/// Returns for each face the number of the closed part that the face belongs to.
 ///
 /// Parts are connected over edges of two faces. At an edge of more faces, open parts are connected across the material
 /// between them, so that solids that share a face stay separate.
@@ -31,8 +31,8 @@ pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32
     parts.numbers()
 }
 
-/// Returns the half-edges on one edge of the parts that are open there. An open part has more half-edges in one
-/// direction than in the other.
+/// Returns those half-edges of an edge that belong to parts that are open at the edge. An open part has more half-edges
+/// in one direction than in the other.
 fn open_half_edges(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
     let mut of_parts: Vec<(u32, EdgeUse)> =
         edge.iter().map(|&u| (parts.root(u.face()), u)).collect();
@@ -91,8 +91,8 @@ struct AngularOrder<'m> {
 }
 
 impl<'m> AngularOrder<'m> {
-    /// Creates the angular order of the faces around an edge, counted from the first of them. Returns `None` if a face
-    /// is degenerate or a coordinate is too near to 0 for exact predicates.
+    /// Creates the angular order of the faces around an edge, with the first given face at angle 0. Returns `None` if a
+    /// face is degenerate or a coordinate is too near to 0 for exact predicates.
     fn new(mesh: &'m TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Option<Self> {
         let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
@@ -123,8 +123,8 @@ impl<'m> AngularOrder<'m> {
         self.ends.map(|v| self.mesh.vertices()[v as usize])
     }
 
-    /// Classifies the angle about the edge from the first face to a point: 0 for none, 1 below half a turn, 2 for half
-    /// a turn, 3 above. The classes are 0 for no angle, 1 below half a turn, 2 for half a turn, 3 above.
+    /// Classifies the angle about the edge from the first face to a point: 0 for no angle, 1 below half a turn, 2 for
+    /// half a turn, 3 above.
     fn angle_class(&self, point: DVec3) -> u32 {
         let [v, w] = self.points();
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;

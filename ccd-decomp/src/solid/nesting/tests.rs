@@ -1,4 +1,4 @@
-//! Compares the nesting of randomly oriented shells with winding numbers of one shell at a time.
+//! Tests which shells of nested, crossing and touching cubes are found to be wrongly oriented or unclear.
 
 use super::centre_and_sides;
 use crate::rational::Exact3;
@@ -10,7 +10,7 @@ use ccd_core::Volume;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::lesser;
 
-/// Returns cubes as one mesh, by their centre, half side length, and whether they are inside out.
+/// Returns cubes as one mesh, each given by its centre, half its side length, and whether it is inside out.
 fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
     let (mut points, mut faces) = (Vec::new(), Vec::new());
     for &(middle, half, inward) in cubes {
@@ -110,7 +110,8 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     );
 }
 
-/// Tests cubes that share an edge, one of them inside out: every edge has equally many faces in both directions.
+/// Tests that of two cubes that share an edge, the cube that is inside out is the only wrong shell. Every edge has
+/// equally many faces in both directions.
 #[test]
 fn shells_that_share_an_edge_are_distinguished() {
     for (one, other) in [(true, false), (false, true), (false, false)] {
@@ -122,7 +123,7 @@ fn shells_that_share_an_edge_are_distinguished() {
     }
 }
 
-/// Tests random cubes of a lattice that share faces, edges and corners. Each is closed, and all are solids.
+/// Tests that cubes of a lattice that share faces, edges and corners count as separate solids of the right orientation.
 #[test]
 fn shells_that_share_faces_are_distinguished() {
     let mut shared = 0;
@@ -147,8 +148,8 @@ fn shells_that_share_faces_are_distinguished() {
     assert!(shared > 40, "{shared}");
 }
 
-/// Searches for the largest error of the points on both sides of a face. Faces are needles of an aspect of up to a
-/// million, and far from the origin.
+/// Tests that the two points beside a face's centre are on opposite sides of the face in exact arithmetic. Faces are
+/// needles of an aspect of up to a million, and far from the origin.
 #[test]
 fn worst_middle() {
     let found = Worst::of("FACE_ROUNDING", 10_000).search(|tape| {

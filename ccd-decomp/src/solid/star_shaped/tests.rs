@@ -38,7 +38,8 @@ fn others_are_not() {
     assert!(!is_seen(&mesh(corners, &[[0, 1, 2], [0, 2, 1]])));
 }
 
-/// Tests a cone that winds twice around its axis: every face is outward, and every edge convex.
+/// Tests that a double cone that winds twice around its axis is not star-shaped, although every face is outward and
+/// every edge convex.
 #[test]
 fn a_surface_that_winds_twice_is_not_star_shaped() {
     let turns = 10;

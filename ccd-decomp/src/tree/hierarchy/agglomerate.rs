@@ -5,7 +5,8 @@ use super::nodes::{AabbF32, Below, Node};
 use crate::tolerance::{ADJACENT_ONLY_PASSES, NEIGHBOUR_SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
-/// Builds a tree over leaves. The root comes first, then pairs of siblings, parents before children.
+/// Builds a binary tree over leaf nodes by agglomeration. The root comes first, then pairs of siblings, parents before
+/// children.
 ///
 /// # Complexity
 /// O(n log n) if a constant share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as for boxes
@@ -48,7 +49,8 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
     tree
 }
 
-/// Finds the best neighbour of every node in a row: the one with the smallest joint box, the last of equals.
+/// Finds the best neighbour of every node in a row: the neighbour with the smallest joint box, or the last of several
+/// such neighbours.
 fn best_neighbours(row: &[Node], reach: usize) -> Vec<usize> {
     let mut best = Vec::with_capacity(row.len());
     // The costs of pairing a node with later ones.

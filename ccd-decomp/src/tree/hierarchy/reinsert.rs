@@ -8,7 +8,7 @@ use rayon::prelude::*;
 /// The number of subtrees in a parallel task. Smaller tasks cost more than they gain.
 const SUBTREES_PER_TASK: usize = 32;
 
-/// Improves a tree in several rounds. Each round has fewer nodes, nearer to the root.
+/// Improves a tree by several rounds of reinsertion. Each round has fewer nodes, nearer to the root.
 pub(super) fn reinsert_subtrees(nodes: &mut [Node]) {
     if nodes.len() < 2 {
         return;
@@ -23,7 +23,7 @@ pub(super) fn reinsert_subtrees(nodes: &mut [Node]) {
 struct Tree<'a> {
     nodes: &'a mut [Node],
     parents: Vec<u32>,
-    /// By node, whether it was changed in this round.
+    /// For each node, whether it was changed in this round.
     is_changed: Vec<bool>,
 }
 
@@ -80,8 +80,9 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Finds the best place for a subtree. The search climbs to the root, and searches every subtree beside the path.
-    /// A branch is pruned if its boxes grow by more than the best gain.
+    /// Returns the move of a subtree that reduces the total area of the boxes most; `None` if no move reduces it. The
+    /// search climbs to the root, and searches every subtree beside the path. A branch is pruned if its boxes grow by
+    /// more than the best gain.
     fn best_move(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Reinsertion> {
         let cuboid = self.nodes[from as usize].cuboid;
         let area = cuboid.half_area();

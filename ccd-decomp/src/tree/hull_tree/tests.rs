@@ -1,5 +1,5 @@
-//! Tests hull trees over pieces of every shape: each hull is that of the points below it, and features not marked
-//! `Free` lie on one of its pieces.
+//! Tests that every hull of a hull tree is the hull of the points below it, and that features not marked `Free` lie on
+//! a piece.
 
 use super::*;
 use crate::exact::predicates::side;
@@ -17,7 +17,7 @@ fn point() -> impl Strategy<Value = DVec3> {
     (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
-/// Generates a piece: points, a needle, a plate or a lump.
+/// Generates a piece: the hull of random points on a line, in a plane or in space.
 fn piece() -> impl Strategy<Value = Polytope> {
     let span = prop_oneof![
         Just(DVec3::ONE),
@@ -49,7 +49,7 @@ fn polytope(points: &[DVec3]) -> Polytope {
     }
 }
 
-/// Returns the leaves below the node `at`.
+/// Returns the numbers of the leaf nodes below the node `at`.
 fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
     match tree.hierarchy().nodes()[at] {
         HierarchyNode::Leaf(_) => vec![at],
@@ -147,13 +147,13 @@ proptest! {
     }
 }
 
-/// Returns whether a point is so near to a common edge of two plates that rounding decides which of them contains it.
+/// Returns whether a point is within 1e-6 of two pieces, so that rounding may decide which piece contains it.
 fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
     let near = |&&leaf: &&usize| holds(&tree.hulls().get(leaf), point, 1e-6);
     below.iter().filter(near).count() > 1
 }
 
-/// Returns blocks on a grid of 4 by 2, `gap` apart along x. The sides of a block differ in length.
+/// Returns eight blocks on a grid of 4 by 2, `gap` apart along x. The sides of a block differ in length.
 fn block_grid(gap: f64) -> Vec<Polytope> {
     let size = DVec3::new(1.0, 0.75, 0.5);
     let corner = |k: u32| size * DVec3::new((k & 1).into(), (k >> 1 & 1).into(), (k >> 2).into());

@@ -4,13 +4,14 @@ use crate::worst::{RandomCase, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Draws four corners, flat or not, near the origin or not.
+/// Draws four corners of a tetrahedron, which may be flat, near the origin or far from it.
 fn corners(tape: &mut RandomCase) -> [DVec3; 4] {
     let (middle, small) = (DVec3::from(tape.vector(-8..=0)), tape.size(-30..=4));
     [(); 4].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// Measures the rounding of the heights of the origin and of the opposite corner, times twice the face's area.
+/// Tests that the heights of the origin and of the opposite corner above a face, times twice its area, are accurate to
+/// `VOLUME_ULPS`.
 #[test]
 fn worst_volume() {
     let found = Worst::of("VOLUME_ULPS", 10_000).search(|tape| {
@@ -30,7 +31,7 @@ fn worst_volume() {
     found.is_within(20.0);
 }
 
-/// Measures the rounding of combinations of four corners.
+/// Tests that a weighted sum of four corners is accurate to `TOUCHING_ULPS`.
 #[test]
 fn worst_combination() {
     let found = Worst::of("TOUCHING_ULPS", 10_000).search(|tape| {

@@ -2,7 +2,7 @@ use super::*;
 use std::fs;
 use tempfile::TempDir;
 
-/// A folder with a package `arm_description`, whose URDF is two folders below.
+/// Creates a folder with the package `arm_description`, which has its URDF in the folder `urdf`.
 fn package() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for file in [

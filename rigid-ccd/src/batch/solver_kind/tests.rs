@@ -21,7 +21,7 @@ fn first_contact(kind: SolverKind, query: &Query<'_>) -> Answer {
         .expect("motions are in range")
 }
 
-/// Returns motions of a knot past another one or into it, from brief to long ones.
+/// Returns 24 motions of a knot towards another knot, which it hits or misses, at three speeds.
 fn motions() -> impl Iterator<Item = Motion> {
     (0..24).map(|k| {
         let k = f64::from(k);

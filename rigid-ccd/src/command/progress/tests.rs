@@ -4,7 +4,7 @@ fn progress_line(progress: &Progress) -> String {
     line(&progress.bar, progress.total, &progress.steps)
 }
 
-/// Tests that progress counts answered rows, although a batch of rows is read at once, before any of them is answered.
+/// Tests that progress counts the rows that are answered, not those that a batch has only read.
 #[test]
 fn answered_rows_count_and_read_rows_do_not() {
     let progress = Progress::new(Total::Bytes(110));

@@ -27,7 +27,7 @@ pub(super) struct Batch {
     pub(super) table_error: Option<TableError>,
 }
 
-/// A row of a table of motions, with its row in the table of results.
+/// One row of the input table, with its row in the table of results.
 pub(super) struct AnsweredRow<'b> {
     pub(super) position: RowPosition,
     /// The motions or paths of the row; `None` for a row that cannot be read.
@@ -38,7 +38,8 @@ pub(super) struct AnsweredRow<'b> {
 }
 
 impl<'a> BatchRun<'a> {
-    /// Starts to answer the table in a file, with one solver for each of `threads`.
+    /// Creates the state for the table in a file, with one solver for each of `threads` threads; `None` means each
+    /// core.
     pub(super) fn new(
         bodies: Bodies<'a>,
         timing: TimedQuestion,
@@ -59,7 +60,7 @@ impl<'a> BatchRun<'a> {
         }
     }
 
-    /// Reads some rows, but no more than `most`, and answers them; `None` at the end of the table.
+    /// Reads and answers the next batch of at most `most` rows; `None` at the end of the table.
     pub(super) fn next(&mut self, rows: &mut Rows, most: usize) -> Option<Batch> {
         let (batch, broken) = read_rows(rows, self.batch.items().min(most));
         if batch.is_empty() && broken.is_none() {

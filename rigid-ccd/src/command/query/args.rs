@@ -24,11 +24,11 @@ pub(in crate::command) struct QueryArgs {
     /// Table of motions to read, CSV, or of paths if it has a column `t`; - reads standard input
     #[arg(long, value_name = "CSV")]
     pub(super) motions: PathBuf,
-    /// Question that every row answers; all but the first need --schedule best-first
+    /// Question that every row answers; all except first-contact need --schedule best-first
     #[arg(long, value_enum, default_value_t)]
     pub(super) ask: Question,
-    /// Distance to compare with, of --ask closest-approach or distance: rows are `kept`, `violated` or
-    /// `unverified`, in the scene's unit of length
+    /// Distance that the bodies must keep, for --ask closest-approach or distance: rows are then `kept`, `violated` or
+    /// `unverified`; in the scene's unit of length
     #[arg(long, value_name = "LENGTH", value_parser = not_negative, allow_hyphen_values = true)]
     pub(super) clearance: Option<f64>,
     /// Distance backend: how the distance between two pieces is computed
@@ -49,8 +49,8 @@ pub(in crate::command) struct QueryArgs {
     /// How to treat bodies in contact at the start
     #[arg(long, value_parser = named_value_parser(START_POLICIES), default_value = "report")]
     pub(super) start: StartPolicy,
-    /// Leave a query unresolved after N units of work (pairs of nodes visited, and work of equal
-    /// cost), of a path after N between two poses; a million takes about a second
+    /// Leave a query unresolved after N units of work (pairs of nodes visited, and work of equal cost), and a path
+    /// after N units between two of its poses; a million takes about a second
     #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
           value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) budget: u64,
@@ -61,7 +61,7 @@ pub(in crate::command) struct QueryArgs {
     /// cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
-    /// Vector instructions to compute with; they change the time alone, not the answers
+    /// Vector instructions to compute with; they change the speed, not the answers
     #[arg(long, value_parser = named_value_parser(INSTRUCTIONS), default_value = "best")]
     pub(super) instructions: Instructions,
     /// Search without these shortcuts, to see what they save; times stay certified
@@ -152,8 +152,9 @@ impl QueryArgs {
     }
 }
 
-/// The options that the journal does not record: those that change no byte of the tables, the motions, of which the
-/// journal has the checksum, and `--rows`, which has several forms.
+/// The ids of the options that the journal does not record as they are given. Most of them change no byte of the
+/// tables. The journal has a checksum of the motions instead of their path, and one form of `--rows` instead of
+/// several.
 const UNRECORDED_OPTIONS: [&str; 10] = [
     "motions",
     "threads",
@@ -172,7 +173,7 @@ const UNRECORDED_OPTIONS: [&str; 10] = [
 pub(super) struct RowRange {
     /// The number of the first row of the range.
     pub(super) start: usize,
-    /// The row after the last one; `None` for a range without an end.
+    /// The number of the row after the range; `None` for a range without an end.
     pub(super) end: Option<usize>,
 }
 

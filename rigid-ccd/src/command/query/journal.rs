@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct Checkpoint {
     /// The number of finished rows of the table of motions, including rows skipped before the selected ones.
     pub(super) rows: usize,
-    /// The checksum of the finished rows' input.
+    /// The checksum of the table of motions up to the end of the finished rows.
     pub(super) checksum: u32,
     /// The number of finished rows without a complete answer.
     pub(super) bad: usize,
@@ -37,10 +37,10 @@ pub(super) struct Checkpoint {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct RecordedOptions(pub(super) Vec<(String, String)>);
 
-/// The prefix of an entry that holds the checksum of the file that an option names.
+/// The prefix of an option's name in an entry that holds the checksum of the option's file.
 pub(super) const CONTENT_PREFIX: &str = "content-of:";
 
-/// The journal file: the options of the run, followed by a line for each checkpoint, of which the last one counts.
+/// The journal file: the options of the run, then a line for each checkpoint. A run continues from the last checkpoint.
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
@@ -88,7 +88,7 @@ impl RecordedOptions {
 }
 
 impl Journal {
-    /// Starts the journal of a run, which continues from a checkpoint if there is one; an older journal is replaced.
+    /// Replaces any older journal by a new one with the run's options and, if the run is resumed, its checkpoint.
     pub(super) fn start(
         path: PathBuf,
         recorded: &RecordedOptions,
@@ -118,7 +118,7 @@ impl Journal {
     }
 }
 
-/// Returns the line of a checkpoint, which ends with the checksum of all before it, and adds the line to `sum`.
+/// Formats a checkpoint as a line that ends with a checksum of the whole journal so far, and adds the line to `sum`.
 fn line(checkpoint: &Checkpoint, sum: &mut Hasher) -> io::Result<String> {
     let checkpoint = serde_json::to_string(checkpoint)?;
     sum.update(checkpoint.as_bytes());
@@ -127,7 +127,7 @@ fn line(checkpoint: &Checkpoint, sum: &mut Hasher) -> io::Result<String> {
     Ok(checkpoint + &end)
 }
 
-/// What the journal of an earlier run tells.
+/// The options and the last checkpoint that the journal of an earlier run records.
 pub(super) struct EarlierRun {
     options: String,
     /// The last checkpoint in the journal.
@@ -162,7 +162,7 @@ impl EarlierRun {
         }))
     }
 
-    /// Describes the options that differ from those of the earlier run.
+    /// Describes the options that differ from those of the earlier run; `None` if all are the same.
     pub(super) fn changes(&self, recorded: &RecordedOptions) -> Option<String> {
         recorded.describe_changes(&self.options)
     }

@@ -2,7 +2,7 @@
 
 use ccd_core::Limit;
 
-/// All limits of a query, each with the advice for a user whose query reached it.
+/// The limits that may end a query, each with advice for a user whose query reached the limit.
 pub(super) const LIMITS: [(Limit, &str); 5] = [
     (
         Limit::Budget,

@@ -20,7 +20,7 @@ pub(super) struct Outputs {
     journal: Option<Journal>,
 }
 
-/// The tables of a run after opening them, and the rows that are left to answer.
+/// The opened tables of a run; the variant says which rows are left to answer.
 pub(super) enum OpenedTables {
     /// New tables: all rows are left.
     New(Outputs),
@@ -30,14 +30,14 @@ pub(super) enum OpenedTables {
     Finished(Checkpoint),
 }
 
-/// The reserved files of both tables, before anything is written.
+/// The reserved files of the tables of results and contacts, before anything is written.
 pub(super) struct ClaimedFiles {
     results: Output,
     contacts: Option<Output>,
 }
 
 impl ClaimedFiles {
-    /// Reserves the files of both tables.
+    /// Reserves the files of the table of results and, if `--contacts` is given, of the table of contacts.
     pub(super) fn claim(args: &QueryArgs) -> Result<Self> {
         let contacts = args.contacts.as_deref();
         let places = ClaimedFiles {
@@ -90,7 +90,7 @@ impl OpenedTables {
 }
 
 impl ClaimedFiles {
-    /// Continues the tables of an interrupted run, or starts new ones if there are none.
+    /// Continues the tables of an interrupted run, or creates new tables if there was no such run.
     fn begin_or_resume(
         self,
         args: &QueryArgs,
@@ -126,7 +126,7 @@ impl ClaimedFiles {
         }
     }
 
-    /// Renames the tables of a finished run that still have a temporary name. Returns whether all of them exist.
+    /// Renames the tables of a finished run that still have a temporary name. Returns whether all its tables exist.
     fn rename_finished_tables(self, run: &EarlierRun, recorded: &RecordedOptions) -> Result<bool> {
         let Checkpoint {
             results, contacts, ..
@@ -140,8 +140,8 @@ impl ClaimedFiles {
     }
 }
 
-/// Renames a complete table from its temporary to its final name, unless it already has it. Returns whether the table
-/// is there.
+/// Renames a complete table to its final name, unless the table already has that name. Returns whether a file of that
+/// name exists.
 fn rename_complete_table(table: Output, written: WrittenSize) -> Result<bool> {
     let Output::File(mut claim, _) = table else {
         return Ok(true);

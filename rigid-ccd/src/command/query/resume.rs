@@ -8,7 +8,7 @@ use crate::command::files::{Rows, input_name};
 use crate::command::{Exit, print_error};
 use anyhow::{Context, Result, bail};
 
-/// Prints the row at which a resumed run continues.
+/// Prints at which row a resumed run continues, or that it found no interrupted run.
 pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     if earlier.is_some() {
         warn_of_page(args);
@@ -22,7 +22,8 @@ pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     }
 }
 
-/// Skips the rows that are answered or not selected, and returns the checkpoint at which the run starts.
+/// Skips the rows before the first one to answer, and returns the checkpoint at which the run starts. A resumed run
+/// refuses a table whose skipped rows have changed.
 pub(super) fn skip_rows(
     args: &QueryArgs,
     rows: &mut Rows,
@@ -48,7 +49,7 @@ pub(super) fn skip_rows(
     }
 }
 
-/// Warns that the page of a resumed run shows only the rows answered in this run.
+/// Warns, if `--html` is given, that the page of a resumed run shows only the rows answered in this run.
 fn warn_of_page(args: &QueryArgs) {
     if args.html.is_some() {
         print_error(
@@ -57,7 +58,8 @@ fn warn_of_page(args: &QueryArgs) {
     }
 }
 
-/// Checks that the motions are those of the finished run, whose tables stay unchanged, and returns the exit status.
+/// Reports that a finished run has nothing left to do, and returns its exit status. Refuses motions that are not those
+/// of the finished run.
 pub(super) fn report_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
     warn_of_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());

@@ -11,7 +11,8 @@ use ccd_core::order::greater;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Counts, times and counters of many answers. Its size does not depend on their number.
+/// The counts of rows, the times and the counters of work that a run's summary prints. Its size does not depend on the
+/// number of answers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Summary {
     /// The number of rows of each status, including those of an earlier run.
@@ -25,11 +26,11 @@ pub(super) struct Summary {
     pub(super) oracle_calls: u64,
     /// The number of steps that advanced all pairs together, in all queries.
     pub(super) advancements: u64,
-    /// The number of steps of the distance backend's search, in all queries.
+    /// The number of steps in the distance backend's searches, in all queries.
     pub(super) oracle_steps: u64,
     /// The tolerance given for the queries, in the scene's unit of length.
     tolerance: f64,
-    /// The number of queries that each of the [`LIMITS`] ended.
+    /// For each of the [`LIMITS`], the number of queries that the limit ended.
     limits: [usize; LIMITS.len()],
     /// The number of answers with a larger tolerance than the given one, because of rounding.
     pub(super) raised_tolerance_count: usize,
@@ -47,7 +48,7 @@ impl Summary {
         }
     }
 
-    /// Adds the counts of the rows that an earlier run answered.
+    /// Returns the summary with the counts of an earlier run's rows in place of its own.
     pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
         Summary {
             counts,
@@ -56,7 +57,7 @@ impl Summary {
         }
     }
 
-    /// Adds an answer with the given status.
+    /// Adds the time and the counters of an answer, and counts its status.
     pub(super) fn add(&mut self, status: Status, timed: &TimedAnswer) {
         let answer = &timed.answer;
         self.counts.add(status);
@@ -109,7 +110,7 @@ impl Summary {
 /// A histogram of times with a relative resolution of a thousandth; its size does not grow with the number of times.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct TimeHistogram {
-    /// The counts by the leading bits of the time, which sort as the times do.
+    /// For each value of a time's leading bits, the number of times. These bits sort as the times do.
     counts: BTreeMap<u64, u64>,
     count: u64,
     total: f64,

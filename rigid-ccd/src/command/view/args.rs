@@ -28,7 +28,7 @@ pub(in crate::command) struct ViewArgs {
         requires = "a"
     )]
     motions: Option<PathBuf>,
-    /// Table of results of `ccd query`: show what it says, without solving anything
+    /// Table of results of `ccd query`: show its answers instead of solving the queries
     #[arg(
         long,
         value_name = "CSV",
@@ -45,10 +45,10 @@ pub(in crate::command) struct ViewArgs {
         conflicts_with = "scene"
     )]
     pub(super) ids: Vec<String>,
-    /// Table of the bodies of one scene, CSV: `body` as for --a, and px, vx, ... as in a table of motions
+    /// Table of the bodies of one scene, CSV: column `body` as in --a, columns px, vx, ... as in a table of motions
     #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]
     scene: Option<PathBuf>,
-    /// End of the motions of --scene [default: 1]
+    /// Time at which the motions of --scene end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = not_negative, allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance
@@ -67,14 +67,14 @@ pub(in crate::command) struct ViewArgs {
 
 /// What a page shows: rows of a table of motions, or a scene.
 pub(super) enum Subject<'a> {
-    /// Rows of a table of motions of two bodies, given by its path.
+    /// The rows of a table of motions, given by the table's path, for two bodies.
     Rows(BodiesArgs, &'a Path),
     /// The bodies of a scene, given by the path of its table.
     Scene(&'a Path, SceneArgs<'a>),
 }
 
 impl ViewArgs {
-    /// Returns what the page shows; `None` if no option says it, which the parser refuses.
+    /// Returns what the page shows; `None` if an option for it is missing, which the parser prevents.
     pub(super) fn subject(&self) -> Option<Subject<'_>> {
         if let Some(scene) = &self.scene {
             let (meshes, duration) = (&self.meshes, self.duration);

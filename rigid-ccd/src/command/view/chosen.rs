@@ -11,16 +11,17 @@ const MAX_ROWS: usize = 100;
 /// The rows chosen for a page so far, and the rule by which they are chosen.
 #[derive(Debug)]
 pub(in crate::command) struct ChosenRows {
-    /// The ids to show; if empty, some rows of each status.
+    /// The ids of the rows to show; if empty, a few rows of each status are shown.
     ids: Vec<String>,
     rows: Vec<(Movements, ResultRow)>,
-    /// The number of chosen rows that cannot be drawn, and the message about the first.
+    /// The number of rows that cannot be drawn.
     omitted_count: usize,
+    /// The message about the first row that cannot be drawn.
     first_fault: Option<String>,
 }
 
 impl ChosenRows {
-    /// Creates a choice of rows with these ids, or of some of each status.
+    /// Starts the choice of rows: the rows with these ids or, without ids, a few rows of each status.
     pub(in crate::command) fn new(ids: Vec<String>) -> Self {
         ChosenRows {
             ids,
@@ -30,7 +31,7 @@ impl ChosenRows {
         }
     }
 
-    /// Returns whether an id is one of those given; `None` if no ids are given.
+    /// Returns whether an id is one of the given ids; `None` if none are given.
     pub(super) fn is_requested(&self, id: &str) -> Option<bool> {
         if self.ids.is_empty() {
             None
@@ -39,7 +40,7 @@ impl ChosenRows {
         }
     }
 
-    /// Adds a row if it is one of the wanted ids, or if there are few of its status.
+    /// Adds a row if its id is one of the given ids or, without ids, if few rows of its status have been added.
     pub(in crate::command) fn add_if_wanted(&mut self, course: &Movements, row: &ResultRow) {
         let wanted = self.is_requested(&row.id).unwrap_or_else(|| {
             let alike = self
@@ -58,12 +59,12 @@ impl ChosenRows {
         }
     }
 
-    /// Returns whether the page can take no further row.
+    /// Returns whether no further row is needed: the page is full, or every given id has a row.
     pub(super) fn is_full(&self) -> bool {
         self.rows.len() >= MAX_ROWS || (!self.ids.is_empty() && self.missing().next().is_none())
     }
 
-    /// Returns the given ids that no row of the table had.
+    /// Returns the given ids for which no row has been added.
     pub(super) fn missing(&self) -> impl Iterator<Item = &str> {
         let has = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
         self.ids
@@ -77,18 +78,18 @@ impl ChosenRows {
         std::mem::take(&mut self.rows)
     }
 
-    /// Counts a chosen row that cannot be drawn, with the reason.
+    /// Counts a row that cannot be drawn; `fault` is the message about it.
     pub(super) fn count_omitted(&mut self, fault: String) {
         self.omitted_count += 1;
         self.first_fault.get_or_insert(fault);
     }
 
-    /// Returns whether no row was added or left out.
+    /// Returns whether no row has been added, nor counted as one that cannot be drawn.
     pub(super) fn is_empty(&self) -> bool {
         self.rows.is_empty() && self.omitted_count == 0
     }
 
-    /// Returns whether all chosen rows could be drawn.
+    /// Returns whether no row has been counted as one that cannot be drawn.
     pub(super) fn are_all_rows_drawable(&self) -> bool {
         self.omitted_count == 0
     }

@@ -1,4 +1,4 @@
-//! Tests that the tree finds the same pairs as a comparison of every two boxes.
+//! Tests that the search in a tree finds the same pairs as a comparison of every two boxes.
 
 use super::*;
 use ccd_core::glam::DVec3;
@@ -46,7 +46,7 @@ fn pairs_are_those_of_the_twin() {
     assert!(meet > 10_000 && 2 * meet < asked, "{meet} of {asked}");
 }
 
-/// Tests that boxes that touch in a face, a corner or a plane count as meeting.
+/// Tests that boxes that only touch, in a face or an edge, count as meeting.
 #[test]
 fn boxes_that_touch_meet() {
     let unit = |x: f64, y: f64| SweptBox {

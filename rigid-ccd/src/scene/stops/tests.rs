@@ -1,4 +1,4 @@
-//! Tests stopping bodies at sampled times: none overlaps another one, and none stops early.
+//! Tests at sampled times that bodies that stop never overlap other bodies, and that no body stops too early.
 
 use super::super::tests::{bodies, parts};
 use super::*;
@@ -15,7 +15,7 @@ use rand_pcg::Pcg64;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
 
-/// Returns the poses of all bodies at a time, where some of the bodies have stopped.
+/// Returns the poses of all bodies at a time; a stopped body has the pose at which it stopped.
 fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
     let pose = |(member, stop): (&super::super::SceneBody<'_>, &Stop)| {
         member.movement.pose(lesser(time, stop.time)).unwrap()
@@ -114,8 +114,8 @@ fn bodies_that_stop_never_overlap() {
     );
 }
 
-/// Checks that a stop's contact is with the body that it names, at the time of the stop, or later at rest. There the
-/// witnesses are near, and one behind the other along the normal.
+/// Checks that a stop's contact is with the body `stop.by`, and not before the time of the stop. At the contact the
+/// witnesses are at most `reach` apart, along the normal.
 fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
     let by = stop.by.unwrap();
     let Impact { bodies, hit } = stop.contact.expect("no limit was reached");
@@ -185,7 +185,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     assert_eq!((stop.by, stop.contact), (Some(1), None));
 }
 
-/// Tests that a stopped body stops the next one.
+/// Tests balls in a row that fly at a wall: the wall stops the first ball, and each ball stops the next one.
 #[test]
 fn a_queue_of_balls_stops_one_behind_the_other() {
     let (ball, wall) = (
@@ -218,7 +218,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
     }
 }
 
-/// Tests that a ball that is pressed onto a floor keeps half of the tolerance over many steps.
+/// Tests that a ball pressed onto a floor never rises, and never sinks below the floor, over 200 steps.
 #[test]
 fn a_pressed_ball_stays_above_the_floor() {
     let (ball, floor) = (
@@ -281,8 +281,8 @@ fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
     assert!(matches!(first.hit.kind, HitKind::Touching(_)), "{first:?}");
 }
 
-/// Tests a pressed ball on a wide floor, where distances have larger rounding errors. What is pressed onto it would
-/// sink by that in each step.
+/// Tests that a ball pressed onto a wide floor keeps 0.4 times the tolerance over 1,000 steps. Rounding errors of
+/// distances are large there, and the ball could sink by one of them in each step.
 #[test]
 fn a_pressed_ball_does_not_sink_by_rounding() {
     let mut rng = Pcg64::seed_from_u64(7);
@@ -381,7 +381,7 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
     assert!(stopped > 100 && crossed > 50, "{stopped} {crossed}");
 }
 
-/// A motion whose true poses are known up to a shift only.
+/// A motion whose true poses may differ from its computed poses by a displacement of at most `shift`.
 struct UncertainMotion {
     motion: Motion,
     shift: f64,
@@ -395,7 +395,7 @@ impl Trajectory for UncertainMotion {
     }
 }
 
-/// Tests that a body stops as far from one that has stopped as the pose of that one may be off.
+/// Tests that a body that stops at a stopped body keeps a distance of at least the error of the stopped body's pose.
 #[test]
 fn stopped_bodies_are_as_blurred_as_moving_ones() {
     let (ball, wall) = (

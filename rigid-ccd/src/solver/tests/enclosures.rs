@@ -1,4 +1,4 @@
-//! Tests bodies that exceed their shapes: bounds of distances hold for the shapes.
+//! Tests that bounds of distances hold for the true shapes when bodies exceed these shapes.
 
 use super::ballistic_trajectory;
 use crate::{Body, Motion, Pose, Settings, Solver};
@@ -10,11 +10,11 @@ use ccd_core::{Answer, SolidOfRevolution};
 /// The radius of both cylinders.
 const RADIUS: f64 = 1.0;
 
-/// The allowed excess of a cylinder: its polygons have some twenty corners.
+/// The allowed excess of the polytope that encloses a cylinder; its polygons have some twenty corners.
 const EXCESS: f64 = 0.01;
 
-/// A test scene of two cylinders side by side, each rotated about its axis; the first moves between two places. Their
-/// axes are never nearer than `apart`, and their surfaces than `least`.
+/// A test scene of two cylinders side by side, each rotated about its axis; the first moves past the second. The
+/// surfaces of the true cylinders are never nearer than `least`.
 struct Pair {
     body: Body,
     /// The poses of the first cylinder at times 0 and 1, and that of the second.
@@ -23,7 +23,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// Creates the scene with a number that determines the cylinders' rotations.
+    /// Creates the scene; `number` determines the rotations of the cylinders and the distance of their axes.
     fn new(number: u32) -> Self {
         let round = SolidOfRevolution::cylinder(RADIUS, 2.0).unwrap();
         let apart = 2.05 + 0.03 * f64::from(number % 9);
@@ -43,13 +43,14 @@ impl Pair {
         }
     }
 
-    /// Returns the motions of a cylinder that passes, and of one at rest.
+    /// Returns the motion of the first cylinder, which passes the second, and that of the second, which is at rest.
     fn motions(&self) -> [Motion; 2] {
         let passes = Motion::new(self.places[0], [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
         [passes, Motion::still(self.places[2])]
     }
 
-    /// Returns the least distance for motions, along an equal trajectory, and at rest where it is least.
+    /// Returns the least distance of the cylinders for motions, for an accelerated trajectory along the same line, and
+    /// at rest where their axes are nearest.
     fn least_distances(&self, solver: &mut Solver) -> [Answer; 3] {
         let [passes, stands] = self.motions();
         let (a, b) = (&self.body, &self.body);
@@ -137,7 +138,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
     assert!(between > 200, "{between}");
 }
 
-/// Tests overlapping enclosures: a clearance up to their excess stays unverified, a larger one is proven violated.
+/// Tests that for overlapping enclosures a clearance up to their excess is unverified, and a larger one is violated.
 #[test]
 fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     let pair = Pair::new(0);
@@ -171,7 +172,8 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     }
 }
 
-/// Tests a ball above a slot, which the single hull of the block fills.
+/// Tests that a clearance is not reported as violated when a ball keeps it from a slotted block whose hull fills the
+/// slot.
 #[cfg(feature = "meshes")]
 #[test]
 fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {

@@ -52,7 +52,7 @@ pub(crate) struct BodyRow {
     pub(crate) id: String,
     /// The description of the body in the column `body`.
     pub(crate) text: String,
-    /// The motion of the body.
+    /// The motion of the body, from time 0.
     pub(crate) motion: Motion,
 }
 
@@ -77,14 +77,14 @@ pub(crate) fn body<R: Record>(
     })
 }
 
-/// The poses of both bodies in one row of a table of paths.
+/// The time and the poses of both bodies in one row of a table of paths.
 pub(in crate::table) struct PosePair {
     pub(in crate::table) time: f64,
     pub(in crate::table) a: BodyPose,
     pub(in crate::table) b: BodyPose,
 }
 
-/// The pose of a body in one row of a table of paths.
+/// The pose of a body in one row of a table of paths, with its angular velocity and its centre of rotation.
 #[derive(Clone, Copy)]
 pub(in crate::table) struct BodyPose {
     pub(in crate::table) pose: Pose,
@@ -93,7 +93,7 @@ pub(in crate::table) struct BodyPose {
     pub(in crate::table) centre: DVec3,
 }
 
-/// Parses a row of a table of paths.
+/// Parses a row of a table of paths as the poses of both bodies at a time.
 pub(in crate::table) fn poses<R: Record>(
     columns: &Columns,
     record: &R,
@@ -176,7 +176,7 @@ impl<'a, R: Record> Row<'a, R> {
         }
     }
 
-    /// Returns the way in which the row gives the motion of a body; the cells of the other way must be empty.
+    /// Returns whether the row gives a body's motion by an end pose or by velocities; it is an error to give both.
     fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::AngularVelocity];
@@ -199,7 +199,7 @@ impl<'a, R: Record> Row<'a, R> {
         }
     }
 
-    /// Returns the first column of two quantities whose cell satisfies a condition; `None` without one.
+    /// Returns the first column, among those of two quantities, whose cell satisfies `wanted`; `None` without one.
     fn column_where(
         &self,
         side: Side,

@@ -147,7 +147,7 @@ fn a_path_that_cannot_be_followed_is_an_error() {
     }
 }
 
-/// Tests a half turn about z with the centre at (1, 0, 0): the centre moves in a straight line, and the origin turns
+/// Tests that in a half turn the centre of rotation, (1, 0, 0), moves in a straight line, and the body's origin turns
 /// about it.
 #[test]
 fn a_path_has_a_centre_of_rotation() {
@@ -165,7 +165,8 @@ fn a_path_has_a_centre_of_rotation() {
     );
 }
 
-/// Tests rotations of 3.25 turns, of which poses alone show 0.25; the last velocity has no effect.
+/// Tests that an angular velocity gives 3.25 turns between two poses that alone give 0.25 turns. The velocity in the
+/// last row has no effect.
 #[test]
 fn angular_velocities_give_whole_turns_to_the_next_row() {
     let spin = 3.25 * std::f64::consts::TAU / 2.0;
@@ -207,7 +208,7 @@ fn columns_of_motions_are_no_columns_of_paths() {
     assert!(message("id,t,a_pX\n").ends_with("did you mean `a_px`?"));
 }
 
-/// Tests that the same digits in other cells give another checksum.
+/// Tests that rows with the same characters in different cells have different checksums.
 #[test]
 fn checksums_tell_cells_apart() {
     let sum = |row: &str| {
@@ -242,7 +243,7 @@ fn checksums_are_of_the_paths_that_are_read() {
     assert_eq!(rows.skip_rows(5).unwrap(), 1);
 }
 
-/// Tests the byte counts of paths, although reading a path also reads the first row of the next one.
+/// Tests that the byte count ends with the last path returned, although the first row of the next path has been read.
 #[test]
 fn bytes_are_those_up_to_the_last_path() {
     let text = "id,t\nx,0\nx,1\ny,0\ny,1\n";

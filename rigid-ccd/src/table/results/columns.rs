@@ -9,7 +9,7 @@ use serde::ser::{Serialize, SerializeTuple, Serializer};
 #[derive(Clone, Copy, Debug)]
 pub struct Column(pub &'static str, pub Cells);
 
-/// The function that returns the cell of a column for a row, by type; empty cells do not apply.
+/// The function that returns a column's cell for a row, with a variant for each type of cell; `None` is an empty cell.
 #[derive(Clone, Copy, Debug)]
 pub enum Cells {
     /// The cells are texts.
@@ -44,7 +44,7 @@ pub const COLUMNS: [Column; 20] = [
     Column("reason", Text(|row| row.reason.as_deref())),
 ];
 
-/// The column of the end of a contact interval.
+/// The column of the time after which no contact happens, in the answers about contact intervals.
 const LAST_TIME_COLUMN: Column = Column("last_time", Number(|row| row.last_time));
 
 /// The columns of the counters, in order; they follow all other columns.
@@ -71,8 +71,7 @@ pub fn columns(question: Question) -> Vec<Column> {
     COLUMNS.into_iter().chain(last_time).collect()
 }
 
-/// Returns the columns of other tables with rows of results: those that are not `left_out`, with `first` before the
-/// others.
+/// Returns the columns of results in another order: the columns `first`, then all others that are not `left_out`.
 #[cfg(feature = "command")]
 pub(crate) fn reordered_columns(first: &[&str], left_out: &[&str]) -> Vec<Column> {
     let named = |name: &&str| COLUMNS.into_iter().find(|column| column.0 == *name);

@@ -4,23 +4,23 @@ use crate::batch::question::Question;
 use ccd_core::{Clearance, HitKind, Outcome};
 use serde::Deserialize;
 
-/// The kind of an answer, or that a row is an error.
+/// The kind of a row's answer, or `error` for a row that is not a valid query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// The bodies come into contact.
+    /// The bodies come into contact after the start.
     Contact,
-    /// The bodies stay apart for the whole duration.
+    /// The bodies stay apart by more than the margin for the whole duration.
     Free,
-    /// The bodies touch at the start.
+    /// The bodies are at most margin + tolerance apart at the start, without overlapping.
     Touching,
     /// The bodies overlap at the start.
     Overlapping,
-    /// The distance of the bodies is measured.
+    /// The distance of the bodies is between the two bounds of the row.
     Measured,
-    /// The distance is at least the clearance.
+    /// The distance is proven to be at least the clearance.
     Kept,
-    /// The distance is less than the clearance.
+    /// The distance is proven to be less than the clearance.
     Violated,
     /// The bounds of the distance are too wide to compare it with the clearance.
     Unverified,
@@ -32,7 +32,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// All statuses, in the order in which they are reported.
+    /// All statuses, in the order in which the summary of a run lists them.
     pub const ALL: [Status; 10] = [
         Status::Contact,
         Status::Free,

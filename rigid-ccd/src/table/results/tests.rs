@@ -50,12 +50,12 @@ fn table(columns: &[Column], row: &ResultRow) -> String {
     String::from_utf8(writer.into_inner().unwrap()).unwrap()
 }
 
-/// Returns the cells that are written for an outcome, by column.
+/// Returns the names of the columns, and the cells that are written for the outcome of a first contact.
 fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
     cells_of((Question::FirstContact, outcome), None)
 }
 
-/// Returns the cells that are written for any answer, by column.
+/// Returns the names of the columns, and the cells that are written for the outcome of any question.
 fn cells_of(asked: (Question, Outcome), clearance: Option<f64>) -> Vec<(&'static str, String)> {
     let compared = ClearanceComparison {
         clearance,
@@ -294,7 +294,7 @@ fn distances_are_compared_to_the_clearance() {
     }
 }
 
-/// Tests bodies that exceed their shapes: an overlap violates no clearance up to the excess, and the reason names the
+/// Tests that an overlap of bodies leaves a clearance up to their excess unverified, with a reason that names the
 /// excess.
 #[test]
 fn the_excess_of_bodies_is_reported() {

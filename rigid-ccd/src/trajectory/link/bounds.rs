@@ -15,24 +15,27 @@ pub(super) struct LinkBounds {
     pub(super) jerks: AccelerationBounds,
     /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
     axis: Option<DVec3>,
-    /// The number of joints so far, the sum of the arms' lengths, and the sum of the angles in radians.
+    /// The number of joints so far; a reversed joint counts twice, because its pose is rounded once more.
     pub(super) joints: f64,
+    /// The sum of the lengths of the arms from joint to joint; those of a reversed joint count twice.
     pub(super) arms: f64,
+    /// The sum of the joints' largest angles, in radians.
     pub(super) angles: f64,
 }
 
-/// Bounds on the speeds of a link, per unit of time.
+/// Upper bounds on the linear and the angular speed of a link, per unit of time; angles are in radians.
 #[derive(Clone, Copy, Debug, Default)]
 struct SpeedBounds {
     linear: f64,
     angular: f64,
 }
 
-/// Bounds on the position of a joint in an interval of time, in radians or as a length.
+/// Bounds on a joint's position and rate over an interval of time, in radians or as a length.
 pub(super) struct PositionBounds {
     /// The largest absolute value of the position in the interval.
     pub(super) largest: f64,
-    /// The largest absolute value of the position in the interval and at time 0, from which all positions are computed.
+    /// The largest absolute value of the position in the interval and at time 0. All positions are computed from the
+    /// one at time 0.
     pub(super) largest_with_start: f64,
     pub(super) first: f64,
     /// The absolute value of the joint's rate.
@@ -40,7 +43,7 @@ pub(super) struct PositionBounds {
 }
 
 impl PositionBounds {
-    /// Returns the largest length by which a joint slides; 0 for one that turns.
+    /// Returns the largest distance by which a prismatic joint slides; 0 for other joints.
     fn slide(&self, joint: &Joint) -> f64 {
         match joint.kind() {
             Kind::Prismatic(_) => self.largest_with_start,
@@ -50,7 +53,7 @@ impl PositionBounds {
 }
 
 impl LinkBounds {
-    /// Replaces the bounds for the link before a joint by those for the link after it.
+    /// Updates the bounds from the link before a joint to the link after it.
     pub(super) fn pass_joint(&mut self, joint: &Joint, positions: &PositionBounds) {
         let arm = length(joint.origin().translation());
         // The frame of the joint's axis as seen from the link before the joint.
@@ -74,7 +77,8 @@ impl LinkBounds {
         }
     }
 
-    /// Adds the motion of a joint about or along its axis. The common axis is in the frame of the joint's axis.
+    /// Adds the bounds due to a joint's motion about or along its axis. The common axis is in the frame of the joint's
+    /// axis.
     fn add_freedom(&mut self, joint: &Joint, positions: &PositionBounds) {
         let PositionBounds { rate, .. } = *positions;
         match joint.kind() {
@@ -102,7 +106,7 @@ impl LinkBounds {
         }
     }
 
-    /// Adds the motion of a point at distance `length` that rotates with the link.
+    /// Adds the bounds due to the rotation of an arm of a given length that is fixed to the link.
     fn add_arm(&mut self, length: f64) {
         let SpeedBounds { angular, .. } = self.speeds;
         let turning = self.accelerations.angular;
@@ -112,7 +116,7 @@ impl LinkBounds {
         self.speeds.linear += angular * length;
     }
 
-    /// Adds a rotation at a nonzero rate about an axis in the joint's frame.
+    /// Adds the bounds due to a rotation at a nonzero rate about an axis, which is given in the joint's frame.
     fn add_rotation(&mut self, axis: DVec3, rate: f64) {
         let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),
@@ -132,5 +136,5 @@ impl LinkBounds {
     }
 }
 
-/// The sine of the largest angle between axes that count as parallel, far above rounding.
+/// The sine of the angle below which two axes count as parallel; it is far above rounding errors.
 const PARALLEL_SINE: f64 = 1e-12;

@@ -6,22 +6,24 @@ use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose};
 use std::f64::consts::FRAC_PI_2;
 
-/// The segment from a pose to the next at constant rates, corrected for the rotation that a given angular velocity
-/// leaves over.
+/// The segment from one pose to the next: a motion at constant rates, and a correction that makes the rotation end at
+/// the next orientation.
 ///
 /// With a rotation vector `w` of the motion and a shortest one `e` that leads from its end to the next pose, the
 /// orientation after a share `s` is `exp(s e) exp(s w)` times the first one.
 pub(super) struct Segment {
     motion: Motion,
-    /// The rotation vector `e` that is left over, divided by the duration.
+    /// The rotation vector `e` from the motion's last orientation to that of the next pose, divided by the duration.
     residual_angular_velocity: DVec3,
 }
 
-/// The largest allowed leftover rotation in radians: half a turn would leave the number of turns ambiguous.
+/// The largest allowed correction of a segment's rotation, in radians: at half a turn, the number of turns would be
+/// ambiguous.
 pub(crate) const MAX_RESIDUAL_ROTATION: f64 = FRAC_PI_2;
 
 impl Segment {
-    /// Creates the segment with the shortest rotation, or with the number of turns nearest to a given angular velocity.
+    /// Creates the segment with the number of turns nearest to that of the angular velocity `spin`; zero stands for the
+    /// shortest rotation.
     pub(super) fn new(
         [from, to]: [Pose; 2],
         centre: DVec3,
@@ -41,7 +43,7 @@ impl Segment {
         })
     }
 
-    /// Returns the motion at a time after the first pose, with the velocities of that time.
+    /// Returns the motion with the segment's pose and velocities at `time`, which is counted from the first pose.
     pub(super) fn at(&self, time: f64) -> Result<Motion, InputError> {
         let Segment {
             motion,
@@ -65,14 +67,14 @@ impl Segment {
         Motion::about(pose, motion.velocity(), spin, centre)
     }
 
-    /// Bounds the angular acceleration: the angular velocity is `e + exp(s e) w`, per unit of time.
+    /// Returns a bound on the angular acceleration. The angular velocity is `e + exp(s e) w`, per unit of time.
     pub(super) fn angular_acceleration(&self) -> f64 {
         length(self.residual_angular_velocity) * length(self.motion.spin())
     }
 }
 
-/// Returns the shortest rotation vector from the orientation that an angular velocity leads to, to that of the next
-/// pose.
+/// Returns the rotation that is left over after rotating `from` at `spin` for `duration`: the shortest rotation vector
+/// to the orientation of `to`.
 pub(crate) fn residual_rotation([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
     let led = DQuat::from_scaled_axis(spin * duration) * from.rotation();
     rotation_vector(to.rotation() * led.conjugate())

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Checks the deviation bounds of segments between two times, far from 0 or with large coordinates.
+/// Checks that a trajectory deviates from random stretches between two times by no more than their bounds.
 fn check_deviation_between(
     name: &str,
     trajectory: &impl Trajectory,
@@ -68,7 +68,7 @@ fn places_may_come_from_afar() {
     check_deviation_between("poses", &poses, 0.9, 1.0, &mut rng);
 }
 
-/// Tests that a trajectory at rest has a segment, of zero length or after the end.
+/// Tests that stretches of no length, and stretches after the end of a trajectory, have a deviation near zero.
 #[test]
 fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
@@ -111,7 +111,7 @@ fn axes_have_any_length_but_0() {
     assert!(screw(Pose::IDENTITY, [0.0; 3], [f64::NAN, 0.0, 0.0], 1.0, 1.0).is_err());
 }
 
-/// Tests that the deviation of a curve whose second differences overflow is not bounded by less than the true one.
+/// Tests that a curve whose second differences overflow gives an error, or a deviation bound that is not too small.
 #[test]
 fn differences_that_overflow_are_unbounded() {
     let points = [[3.0, 0.0, 0.0], [2.0, 1.0, 0.0], [-3.0, 0.0, 0.0]];

@@ -29,7 +29,7 @@ pub enum Family {
     Margins,
     /// Budgets too small for most queries.
     Budget,
-    /// Bodies in contact at the start that are released under `StartPolicy::Leave`.
+    /// Bodies in contact at the start, under `StartPolicy::Leave`.
     Leave,
     /// Rotations of up to a thousand radians.
     Turns,
@@ -58,8 +58,8 @@ impl Family {
     }
 }
 
-/// Returns a case of two shapes that pass each other halfway, or meet. Their centres come within about the sum of
-/// their radii. Both move, and rotate by up to `turn` over a duration of 1.
+/// Returns a case of two moving shapes that pass each other, or meet, at about half the duration. Their centres come
+/// within about the sum of their radii. Both rotate by up to `turn` over a duration of 1.
 fn passing_case(draw: &mut RandomSource, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
     let (way, aside) = (draw.direction(), draw.point());

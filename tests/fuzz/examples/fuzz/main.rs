@@ -128,7 +128,7 @@ fn run(family: Family, args: &Args) -> bool {
     tally.has_failures()
 }
 
-/// Writes the query of a trial as a seed of the fuzz target `query`, with a method chosen by its number.
+/// Writes the query of a trial as a seed of the fuzz target `query`; `number` chooses the method that answers it.
 fn write_seed(folder: &Path, family: Family, number: u64, trial: &Trial) -> io::Result<()> {
     match encode(&trial.case, (number % 15) as u8) {
         Some(bytes) => fs::write(

@@ -47,7 +47,7 @@ pub fn cuboid(half: [f64; 3]) -> Shape {
     Shape::cuboid(half)
 }
 
-/// Returns a closed tube around the z axis, of quadrilaterals that are not flat, with an open middle.
+/// Returns a closed ring around the z axis, whose quadrilaterals are not flat and are divided into triangles.
 pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
     let turn = |k: u32, n: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
@@ -87,7 +87,7 @@ pub fn bipyramid(draw: &mut RandomSource, corners: u32, waist: f64) -> Shape {
     shape(vertices, faces, form)
 }
 
-/// Returns the hull of points on a stretched sphere, built facet by facet.
+/// Returns the convex hull of random points on a stretched sphere, built point by point.
 pub fn hull(draw: &mut RandomSource, count: usize) -> Shape {
     let stretch = [(); 3].map(|()| draw.log_uniform(0.2..1.0));
     let point = |draw: &mut RandomSource| {
@@ -133,7 +133,7 @@ pub fn any_shape(draw: &mut RandomSource) -> Shape {
     }
 }
 
-/// Returns a random closed shape.
+/// Returns a random tetrahedron, box or bipyramid, all of which are closed.
 pub fn closed_shape(draw: &mut RandomSource) -> Shape {
     match draw.count(0..4) {
         0 => tetrahedron(draw),

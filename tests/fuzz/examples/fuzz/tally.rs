@@ -16,7 +16,7 @@ pub struct Tally {
     status_counts: BTreeMap<String, u64>,
     /// The number of unresolved answers by reason, for all methods.
     unresolved: BTreeMap<String, u64>,
-    /// The number of the first query with each reason.
+    /// The number of the first query that stayed unresolved for each reason.
     first_query_numbers: BTreeMap<String, u64>,
     refusal_counts: BTreeMap<String, u64>,
     fault_counts: BTreeMap<Fault, u64>,
@@ -81,7 +81,7 @@ impl Tally {
         count as f64 / self.queries as f64
     }
 
-    /// Checks that both contacts and free bodies occur often enough.
+    /// Checks that contacts and free bodies each occur in at least 5 % of the queries.
     ///
     /// # Panics
     /// If almost no query has a contact, or almost all have one: then little is tested.

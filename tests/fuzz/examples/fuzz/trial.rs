@@ -25,7 +25,7 @@ pub fn run(family: Family, seed: u64, number: u64, watch: &Watchdog) -> Trial {
     trial
 }
 
-/// Chooses the methods and pieces for a case: always the default, and some others.
+/// Chooses the kinds of pieces and the methods for a case: always the default, and some others.
 fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
     let mut asked = vec![(Kind::Triangles, Method::Direct)];
     let form = |form: Form| case.shapes.iter().any(|s| s.form == form);

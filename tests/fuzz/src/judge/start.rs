@@ -6,10 +6,11 @@ use crate::solid::{PointLocation, Solid, distance_to_surface, points_beside_tria
 use crate::vector::Vector;
 use ccd_core::Volume;
 
-/// The facts about the bodies at the start, as far as they are known.
+/// The distance of the bodies at the start, and whether they overlap, as far as the referee can tell.
 pub(super) struct Start {
     pub(super) distance: f64,
-    /// Whether triangles penetrate deeper than rounding explains, or one body is inside the other.
+    /// Whether the bodies certainly overlap: triangles penetrate by more than rounding, or one body is inside the
+    /// other.
     pub(super) overlaps: bool,
     /// Whether an answer may report one body inside the other.
     pub(super) may_contain: bool,
@@ -39,7 +40,7 @@ impl Start {
     }
 }
 
-/// Locates the parts of each body relative to the other body, given that the surfaces are apart.
+/// Returns whether a part of one body is inside the other body, given that the surfaces are apart.
 fn containment(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
     let mut doubtful = PointLocation::Outside;
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
@@ -56,7 +57,7 @@ fn containment(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
     doubtful
 }
 
-/// Searches for a point well inside one body, and on or inside the other, given that the bodies touch.
+/// Returns `Inside` for bodies that touch if a point is found well inside one body, and on or inside the other body.
 fn find_shared_inner_point(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> PointLocation {
     let well_inside = |p: Vector<Double>, solid: &Solid| {
         solid.locate(p) == PointLocation::Inside && distance_to_surface(p, &solid.triangles) > far

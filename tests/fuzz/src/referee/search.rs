@@ -7,8 +7,9 @@ use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::Snapshot;
 use crate::vector::{Number, larger, smaller};
 
-/// The maximum number of steps of one pair, and of all pairs, before the rest of the time is sampled.
+/// The maximum number of steps of one pair of triangles, before the rest of the time is sampled.
 const MAX_PAIR_STEPS: usize = 300;
+/// The maximum number of steps of all pairs of triangles together.
 const MAX_TOTAL_STEPS: usize = 60_000;
 const SAMPLES: usize = 24;
 
@@ -23,14 +24,15 @@ pub(super) struct Search<'a> {
     proven: bool,
 }
 
-/// The gap of two balls, its closing rate, and a bound on the change of the rate.
+/// A gap beyond the threshold, a bound on its closing rate, and a bound on the change of the rate per unit of time.
 struct GapRate {
     gap: f64,
     rate: f64,
     rate_change_bound: f64,
 }
 
-/// Returns the time until which a gap stays open: solves gap = rate τ + bend τ²/2, in the form without cancellation.
+/// Returns a time during which a gap certainly stays open: slightly less than the root τ of `gap = rate τ + bend τ²/2`,
+/// by a formula without cancellation.
 fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
     (1.0 - 1e-9) * 2.0 * gap / (rate + (rate * rate + 2.0 * bend * gap).sqrt())
 }
@@ -67,7 +69,7 @@ impl<'a> Search<'a> {
         (self.found, self.proven)
     }
 
-    /// Returns a time until which balls around the two centres of rotation are certainly apart.
+    /// Returns a time until which the balls around the bodies' centres of rotation are certainly apart.
     fn centre_balls_apart_until(&self, reaches: f64) -> f64 {
         let [a, b] = &self.scene.sides;
         let way = (b.track.start - a.track.start).rounded();
@@ -123,7 +125,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns a time after `begin` until which the bodies are well apart, by a bound for all pairs together.
+    /// Returns a time after `begin` until which the bodies are certainly apart, by one bound on the closing rate of all
+    /// pairs of triangles.
     fn bodies_apart_until(&self, begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..MAX_PAIR_STEPS {
@@ -151,7 +154,7 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// Returns a time after `begin` until which two balls are well apart.
+    /// Returns a time after `begin` until which two balls are certainly farther apart than the threshold.
     fn balls_apart_until(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..MAX_PAIR_STEPS {
@@ -173,8 +176,8 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// Returns by how much the gap of two balls exceeds the threshold, its closing rate, and a bound on the change of
-    /// the rate.
+    /// Returns the gap of two balls beyond the threshold, a bound on its closing rate, and a bound on the change of the
+    /// rate.
     fn ball_gap(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapRate {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;

@@ -8,7 +8,7 @@ use ccd_decomp::Model;
 /// The work budget of each query, in iterations.
 const BUDGET: u64 = 4000;
 
-/// Checks that a stored model reads back to the same bytes.
+/// Checks that a stored model reads back to the same bytes, and that queries on its body agree.
 pub(super) fn check_storing(model: &Model) {
     let bytes = stored(model);
     let again = Model::read(&bytes[..]).expect("a model that was stored");

@@ -15,11 +15,11 @@ const MEMORY_OF_SCENES: usize = 1 << 28;
 /// The memory limit of making bodies, in bytes. The bound of an outer hull's excess uses up to half a million boxes.
 const MEMORY_OF_BODIES: usize = 1 << 28;
 
-/// The maximum number of triangles for patches and hulls. `Auto` has a budget of its own.
+/// The largest number of triangles of a mesh from which patches and hulls are made. `Auto` has a budget of its own.
 const MAX_TRIANGLES: usize = 48;
-/// The maximum number of triangles for bodies of any kind. Scenes of few bytes may have many.
+/// The largest number of triangles of a mesh from which bodies of any kind are made. Scenes of few bytes may have many.
 const MAX_SCENE_TRIANGLES: usize = 1 << 11;
-/// The outer hull is made of one file in this many, because they take a hundred times as long as the rest.
+/// One file in this many is made into an outer hull, which takes a hundred times as long as the other bodies.
 const FILES_PER_OUTER_HULL: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {

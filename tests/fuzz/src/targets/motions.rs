@@ -27,7 +27,7 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Runs a check of a small table within a memory limit.
+/// Runs a check of a table within a memory limit, unless the table has more than `MAX_BYTES`.
 pub(super) fn run_within_memory_limit(bytes: &[u8], check: impl FnOnce()) {
     if bytes.len() <= MAX_BYTES {
         memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);

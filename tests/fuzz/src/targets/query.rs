@@ -14,7 +14,7 @@ pub use encode::encode;
 struct Question {
     case: Case,
     asked: Vec<(Kind, Method)>,
-    /// Whether to check for equal bits and to list the features in contact as well.
+    /// Whether to check also that other vector instructions give equal bits, and that contacts can be listed.
     extra_checks: bool,
 }
 

@@ -9,12 +9,12 @@ use std::sync::LazyLock;
 /// The maximum size of the input, in bytes.
 const MAX_BYTES: usize = 1 << 14;
 
-/// The memory limit of loading, in bytes.
+/// The constant part of the memory limit of loading, in bytes; the limit grows with the input.
 const MEMORY: usize = 1 << 25;
 const MEMORY_PER_BYTE: usize = 1 << 10;
 
-/// The length of the magic number and the version, which begin the file. The length of the payload and its checksum
-/// follow.
+/// The length in bytes of the magic number and the version at the start of a file. The length of the payload and its
+/// checksum follow.
 const HEADER_BYTES: usize = 12;
 const LENGTH_BYTES: usize = 8;
 const CHECKSUM_BYTES: usize = 4;
@@ -38,7 +38,7 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Returns the file with the magic number, version, length and checksum that fit its payload.
+/// Returns the file with a magic number, version, length and checksum that fit its payload.
 fn with_repaired_frame(bytes: &[u8]) -> Vec<u8> {
     let end = bytes.len().saturating_sub(CHECKSUM_BYTES);
     let payload = bytes

@@ -8,7 +8,7 @@ use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
 
-/// Converts a mesh, with the same triangles in the same order.
+/// Converts a mesh to parry's `TriMesh`, with the same triangles in the same order.
 pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh> {
     let vertices = mesh
         .vertices()
@@ -28,7 +28,7 @@ pub fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     )
 }
 
-/// Returns the pose of a body at a time.
+/// Returns the pose of a moving body at a time, in the library's type.
 pub fn pose_at(motion: &Motion, time: f64) -> Pose {
     let pose = motion.pose(time);
     Pose::from_parts(

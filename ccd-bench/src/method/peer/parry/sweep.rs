@@ -44,13 +44,13 @@ pub struct SweptMeshPair {
 
 /// The largest distance at which a hit is reported, as a multiple of the library's `linear_slop`.
 const MAX_HIT_DISTANCE_IN_SLOPS: f64 = 1.25;
-/// The largest error due to rotation within a segment, as a fraction of the tolerance.
+/// The largest error due to the interpolation of rotations within a segment, as a fraction of the tolerance.
 const ROTATION_ERROR_FRACTION: f64 = 0.25;
 /// The largest rotation, in radians, for which the library's documentation calls its sweeps a good approximation.
 const MAX_ROTATION: f64 = FRAC_PI_4;
-/// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
+/// The largest displacement of one body relative to the other in a segment, as a multiple of the smaller body's radius.
 const MAX_RELATIVE_TRAVEL: f64 = 0.5;
-/// The maximum number of segments of a motion; longer motions are refused.
+/// The maximum number of segments of a motion; queries that need more are unresolved.
 const MAX_SEGMENT_COUNT: f64 = 65_536.0;
 
 impl SweptMeshPair {
@@ -79,7 +79,7 @@ impl SweptMeshPair {
         (count <= MAX_SEGMENT_COUNT).then_some(count as u64)
     }
 
-    /// Returns the first time in a segment at which triangles meet, as a fraction of the segment.
+    /// Returns the first time in a segment at which triangles meet, as a fraction of the segment; `None` if none meet.
     fn first_hit(&self, query: &Motions, tolerance: f64, [from, to]: [f64; 2]) -> Option<Real> {
         let a = self.a.segment(&query.a, from, to);
         let b = self.b.segment(&query.b, from, to);
@@ -136,7 +136,7 @@ impl Solver for SweptMeshPair {
     }
 }
 
-/// A mesh with its bounding box, in the body's frame.
+/// A mesh with its bounding box and the box's radius, in the body's frame.
 #[derive(Clone, Debug)]
 struct SweptMesh {
     mesh: TriMesh,
@@ -149,8 +149,7 @@ struct SweptMesh {
 struct Segment {
     poses: [Pose; 2],
     sweep: Sweep,
-    /// An upper bound of the distance of any of the body's points from the straight line between its own places at the
-    /// start and the end.
+    /// An upper bound of how far any point of the body leaves the straight line from its start to its end position.
     path_deviation: Real,
 }
 
@@ -164,7 +163,7 @@ impl SweptMesh {
         })
     }
 
-    /// Returns a bound on the distance of all points from the centre of the motion.
+    /// Returns an upper bound of the distance of the mesh's points from the motion's centre of rotation.
     fn radius_about_centre(&self, motion: &Motion) -> f64 {
         let [low, high] = self.aabb_corners.map(|c| (c - motion.centre()).abs());
         low.max(high).length()
@@ -188,7 +187,8 @@ impl SweptMesh {
     }
 }
 
-/// Returns the largest rotation, in radians, that a body may make in a segment.
+/// Returns the largest rotation per segment, in radians, at which the interpolation error stays within its share of the
+/// tolerance.
 fn largest_turn(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
     // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
@@ -196,7 +196,7 @@ fn largest_turn(reach: f64, tolerance: f64) -> f64 {
     lesser(MAX_ROTATION, 4.0 * off.cbrt())
 }
 
-/// Returns the box that contains a body's box at the start and at the end of a segment.
+/// Returns the smallest axis-aligned box that contains the given box at both poses.
 fn swept_box(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))

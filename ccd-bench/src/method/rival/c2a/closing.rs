@@ -4,7 +4,7 @@ use crate::method::rival::swept_spheres::{Gap, Pair, RssTree, Trees};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
-/// Both motions of a query in the frame of body A at one time, with bounds on the speeds of nodes.
+/// The motions of both bodies in the frame of body A at one time, from which the closing speed of nodes is bounded.
 #[derive(Clone, Debug)]
 pub(super) struct ClosingSpeedBounds {
     a: BodyRotation,
@@ -26,8 +26,8 @@ struct BodyRotation {
     /// The unit axis of rotation in the body's frame, where it is fixed.
     axis: DVec3,
     rate: f64,
-    /// For each node, the greatest distance of its points from the axis, with the number of the motion for which it was
-    /// computed.
+    /// A cache with one entry per node: the number of the motion, and the greatest distance of the node's points from
+    /// that motion's axis.
     axis_distances: Vec<(u64, f64)>,
     motion: u64,
 }
@@ -52,7 +52,7 @@ impl ClosingSpeedBounds {
         self.axis_b_w = b.axis;
     }
 
-    /// Sets the placement of body A, in whose frame directions are given.
+    /// Sets the placement of body A at the current time, and converts the motions to A's frame.
     pub(super) fn set_frame(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
         self.velocity = to_a * self.velocity_w;
@@ -104,8 +104,8 @@ impl BodyRotation {
         }
     }
 
-    /// Returns a bound on the speed of a node's points along a direction, from the direction's cross product with the
-    /// axis.
+    /// Returns an upper bound of the speed of a node's points along a direction, due to rotation. `across` is the cross
+    /// product of the direction with the axis.
     #[inline]
     fn speed(&mut self, tree: &RssTree, node: u32, across: DVec3) -> f64 {
         if self.rate == 0.0 {

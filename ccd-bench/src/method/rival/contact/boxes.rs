@@ -1,4 +1,4 @@
-//! Tests continuously whether two oriented boxes overlap.
+//! Tests whether two moving oriented boxes stay apart over an interval of time.
 
 use super::relative::Enclosure;
 use crate::method::rival::interval::cross_sum;
@@ -12,7 +12,7 @@ const COSINE_SLACK: f64 = 1e-14;
 /// The relation of two boxes over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum BoxRelation {
-    /// The boxes do not meet in the interval.
+    /// An axis separates the boxes over the whole interval.
     Separated,
     /// No axis is found that separates the boxes over the whole interval.
     NotSeparated {
@@ -65,7 +65,7 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
     }
 }
 
-/// Returns upper bounds of the absolute values of cosines that are known to within a radius.
+/// Returns upper bounds of the absolute values of cosines, each of which is known to within a radius.
 fn upper_cosines(cos: DMat3, radius: DMat3) -> DMat3 {
     let upper =
         |c: DVec3, r: DVec3| (c.abs() + r + COSINE_SLACK).min(DVec3::splat(1.0 + COSINE_SLACK));

@@ -1,11 +1,11 @@
-//! Halves time, and encloses the motion over each interval.
+//! Halves intervals of time, and encloses the motion over each of them.
 
 use super::relative::{Enclosure, RelativeMotion, Span};
 
-/// The maximum number of times that the duration is halved: 2⁻⁵² of it is the resolution of numbers.
+/// The maximum number of times that an interval is halved, since 2⁻⁵² of the duration is the resolution of numbers.
 pub(super) const MAX_HALVING_DEPTH: usize = 52;
 
-/// An interval of time from repeated halving, perhaps cut short at its end.
+/// An interval of time that arises from repeated halving of the duration; its end may be cut short.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HalvedInterval {
     pub(super) span: Span,
@@ -52,7 +52,7 @@ impl HalvedInterval {
 }
 
 impl MotionEncloser {
-    /// Creates the clock of a motion, with the width and the number at which halving ends.
+    /// Creates the encloser of a motion, with the interval width and the number of halvings at which halving ends.
     pub(super) fn new(relative: RelativeMotion, resolution: f64, most_halvings: u64) -> Self {
         let nothing = CachedEnclosure {
             span: Span {
@@ -74,17 +74,18 @@ impl MotionEncloser {
         }
     }
 
-    /// Returns the relative motion of the two bodies.
+    /// Returns the motion of the first body in the frame of the second.
     pub(super) fn relative_motion(&self) -> &RelativeMotion {
         &self.relative_motion
     }
 
-    /// Returns the width at which intervals are no longer halved.
+    /// Returns the width at or below which intervals are no longer halved.
     pub(super) fn resolution(&self) -> f64 {
         self.resolution
     }
 
-    /// Returns true if an interval must not be halved.
+    /// Returns true if an interval must not be halved, because its width is at the resolution or it comes from the
+    /// maximum number of halvings.
     pub(super) fn is_at_resolution(&self, interval: HalvedInterval) -> bool {
         !(interval.span.width() > self.resolution) || interval.level >= MAX_HALVING_DEPTH
     }
@@ -94,14 +95,14 @@ impl MotionEncloser {
         self.halvings >= self.max_halvings
     }
 
-    /// Returns the enclosure of all placements over an interval.
+    /// Returns the enclosure of all placements of the first body in the second body's frame over an interval.
     pub(super) fn placements(&mut self, interval: HalvedInterval) -> &Enclosure {
         self.placements[interval.level].enclosure_over(interval.span, |span| {
             self.relative_motion.enclosure_over(span)
         })
     }
 
-    /// Returns the enclosure of all rates of change over an interval.
+    /// Returns the enclosure of the rates of change of the placements over an interval.
     pub(super) fn rates(&mut self, interval: HalvedInterval) -> &Enclosure {
         self.rates[interval.level]
             .enclosure_over(interval.span, |span| self.relative_motion.rates_over(span))

@@ -6,18 +6,18 @@ use crate::method::rival::interval::{Interval, IntervalVec};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// A triangle with the vectors that the tests need.
+/// A triangle with its edge vectors, its normal, and the inward normals of its edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     corners: [DVec3; 3],
     /// The edge vectors: edge k leads from corner k to the next.
     edges: [DVec3; 3],
     normal: DVec3,
-    /// Vectors in the plane, away from edge k towards the third corner.
+    /// For each edge, a vector in the triangle's plane that is perpendicular to the edge and points into the triangle.
     inward_edge_normals: [DVec3; 3],
 }
 
-/// An elementary test of one feature of each of two triangles.
+/// A test of one feature of the first triangle against one feature of the second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ElementaryTest {
     /// A corner of the first triangle against the second's face.
@@ -32,7 +32,7 @@ pub(super) enum ElementaryTest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ElementaryTestSet(u16);
 
-/// Two triangles; the second is at rest in the frame of the enclosures.
+/// Two triangles, each in its body's frame; enclosures map the first into the frame of the second.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrianglePair {
     pub(super) a: Facet,
@@ -101,8 +101,8 @@ impl ElementaryTestSet {
 }
 
 impl TrianglePair {
-    /// Returns the contact function of a test at a placement. It is zero where the corner meets the
-    /// plane, or where both lines meet.
+    /// Returns the value of a test's contact function at a placement of the first triangle. It is zero where the corner
+    /// meets the plane, or where both lines meet.
     pub(super) fn contact_function(&self, test: ElementaryTest, at: &Placement) -> f64 {
         let (a, b) = (&self.a, &self.b);
         match test {
@@ -117,8 +117,7 @@ impl TrianglePair {
         }
     }
 
-    /// Returns the enclosure of the rate of change of a contact function over the interval of the
-    /// enclosures.
+    /// Encloses the rate of change of a test's contact function over the interval of the given enclosures.
     pub(super) fn contact_function_rate(
         &self,
         test: ElementaryTest,
@@ -178,7 +177,7 @@ impl TrianglePair {
         })
     }
 
-    /// Returns true if a corner of the first triangle may be above the second's face.
+    /// Returns true if the projection of a corner of the first triangle may fall into the second triangle.
     fn may_project_into_b(&self, corner: IntervalVec) -> bool {
         let b = &self.b;
         (0..3).all(|k| {
@@ -189,7 +188,7 @@ impl TrianglePair {
         })
     }
 
-    /// Returns true if a corner of the second triangle may be above the first's face.
+    /// Returns true if the projection of a corner of the second triangle may fall into the first triangle.
     fn may_project_into_a(
         &self,
         corner: DVec3,
@@ -260,7 +259,7 @@ fn have_same_sign(values: [Interval; 3]) -> bool {
     values.iter().all(|value| value.low() > 0.0) || values.iter().all(|value| value.high() < 0.0)
 }
 
-/// Returns true if `part` cannot contain a vector of `whole` scaled by a factor from 0 to 1.
+/// Returns true if no vector in `part` can be a vector in `whole` times a factor from 0 to 1.
 fn excludes_multiples(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.mignitude() - whole.magnitude()).max_element() > 0.0
 }

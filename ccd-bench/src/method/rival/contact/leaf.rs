@@ -12,7 +12,7 @@ pub(super) enum FirstTouch {
     AtTime(f64),
     /// The triangles do not touch in the interval.
     Never,
-    /// The work limit was reached before it was decided.
+    /// The work limit was reached before a first touch was found or excluded.
     Unknown,
 }
 
@@ -82,7 +82,8 @@ enum Root {
     Several,
 }
 
-/// Returns the root of a contact function over the interval, if the function is known to be monotone.
+/// Returns the root of a contact function over the interval if the function is proven monotone there, else
+/// [`Root::Several`].
 fn root(
     triangles: &TrianglePair,
     test: ElementaryTest,
@@ -118,8 +119,8 @@ fn root(
 /// numbers.
 const MAX_BRACKET_STEPS: usize = 110;
 
-/// Returns the root of a monotone function between two times, to within the resolution. Uses false
-/// position, and bisection after a step that leaves more than half.
+/// Returns an interval around the root of a monotone contact function, as wide as the resolution at most; `None`
+/// without a root. Uses false position, and bisection after a step that leaves more than half.
 fn root_by_false_position(
     triangles: &TrianglePair,
     test: ElementaryTest,

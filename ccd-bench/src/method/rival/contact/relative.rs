@@ -1,10 +1,10 @@
-//! The relative motion of two bodies: at a time, and enclosed over an interval of time.
+//! Computes the relative motion of two bodies at a time, and encloses it over an interval of time.
 
 use crate::method::rival::interval::{Interval, IntervalMat, IntervalVec, SineCosineRange};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
-/// The motion of the first body in the frame of the second, each about a reference point.
+/// The motion of the first body in the frame of the second, with positions relative to a reference point of each body.
 ///
 /// For a point `x` of the first body relative to its reference point, `rotation(t) x + offset(t)`
 /// is the same point relative to the reference point of the second body, along that body's axes.
@@ -14,8 +14,8 @@ pub(super) struct RelativeMotion {
     second_motion: BodyMotion,
 }
 
-/// The motion of one body: `rotation(t) = fixed + cos(ωt) cos + sin(ωt) sin`. The reference point
-/// moves likewise, plus a straight part.
+/// The motion of one body: `rotation(t) = constant_term + cos(ωt) cosine_coefficient + sin(ωt) sine_coefficient`. The
+/// reference point moves likewise, plus a straight part.
 #[derive(Clone, Copy, Debug)]
 struct BodyMotion {
     constant_term: DMat3,
@@ -36,7 +36,7 @@ pub(super) struct Enclosure {
     pub(super) offset: IntervalVec,
 }
 
-/// An interval of time.
+/// An interval of time, from `start` to `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub(super) start: f64,
@@ -54,7 +54,7 @@ impl Span {
 }
 
 impl RelativeMotion {
-    /// Combines the motions of two bodies, each with its reference point in the body's frame.
+    /// Creates the relative motion of two bodies, each given by its motion and a reference point in its frame.
     pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
         // The axes are those of the second body at the start: a body that does not rotate then needs no
         // inverse rotation.
@@ -147,7 +147,7 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the position of the reference point of a body that does not rotate, without its linear motion.
+    /// Returns the start position of the reference point of a body that does not rotate.
     fn still_position(&self) -> DVec3 {
         self.start_centre + self.constant_term * self.reference_offset
     }
@@ -200,7 +200,7 @@ impl BodyMotion {
         (rotation_over(cos, sin, arc), velocity)
     }
 
-    /// Returns the coefficients of cosine and sine for an angle counted from the angle at `time`.
+    /// Returns the coefficients of cosine and sine for a rotation angle that is counted from the angle at `time`.
     fn coefficients_at(&self, time: f64) -> (DMat3, DMat3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         (
@@ -214,7 +214,8 @@ fn map_columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
     DMat3::from_cols(map(matrix.x_axis), map(matrix.y_axis), map(matrix.z_axis))
 }
 
-/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc.
+/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients `cos` and
+/// `sin`.
 fn rotation_over(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
     let Interval { middle, radius } = arc.cos;
     IntervalMat {
@@ -223,7 +224,7 @@ fn rotation_over(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
     }
 }
 
-/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc, for vectors.
+/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients as vectors.
 fn vector_rotation_over(cos: DVec3, sin: DVec3, arc: SineCosineRange) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {

@@ -40,7 +40,7 @@ fn motions_beyond_numbers_are_given_up() {
     assert_eq!(reply.claim, Claim::Unresolved { safe_until: 0.0 });
 }
 
-/// Tests bodies that touch at a halving time, when all earlier segments are free up to rounding.
+/// Tests that a contact in the middle of the duration is found, although all time before it may be proven free.
 #[test]
 fn a_touch_at_a_halving_is_a_contact() {
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));

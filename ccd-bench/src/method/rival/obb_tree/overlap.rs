@@ -11,7 +11,7 @@ use ccd_core::glam::{DMat3, DVec3};
 /// separates nothing \[OBBTREE96 §5\].
 const COSINE_SLACK: f64 = 1e-14;
 
-/// Returns whether the triangles of two trees touch or cross, A placed in B's frame.
+/// Returns true if any triangles of two trees touch or cross, with A placed in B's frame.
 ///
 /// `stack` is scratch space of the caller, which avoids allocations.
 ///
@@ -58,7 +58,7 @@ pub(in crate::method::rival) fn trees_intersect(
     false
 }
 
-/// Returns true if A's node is to be opened next, because B's is a leaf or smaller.
+/// Returns true if A's node is to be opened before B's, because B's node is a leaf or smaller.
 fn should_split_self(other: NodeContent, a: &Obb, b: &Obb) -> bool {
     matches!(other, NodeContent::Triangle(_))
         || a.half_extents.max_element() > b.half_extents.max_element()

@@ -1,4 +1,4 @@
-//! Builds a tree of swept spheres: fits them to triangles, and splits sets of triangles.
+//! Builds a tree of swept spheres: fits a swept rectangle to a set of triangles, and splits the set in two.
 
 use super::{Node, RssTree, principal_axes};
 use crate::method::rival::Placement;
@@ -49,9 +49,10 @@ const IDENTITY_PLACEMENT: Placement = Placement {
     translation: DVec3::ZERO,
 };
 
-/// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
+/// Splits triangles by their centres along an axis, and returns the number of triangles in the first part. The split is
+/// at the mean, or in the middle of the order if that would be lopsided.
 fn partition_triangles(part: &mut [Triangle], axis: DVec3) -> usize {
-    /// The smallest share of the triangles that a side may get.
+    /// The smallest share of the triangles that either part of a split may get.
     const MIN_FRACTION: f64 = 1.0 / 16.0;
 
     let along = |t: &Triangle| (t[0] + t[1] + t[2]).dot(axis);
@@ -67,8 +68,8 @@ fn partition_triangles(part: &mut [Triangle], axis: DVec3) -> usize {
     }
 }
 
-/// Fits a rectangle across the direction in which the triangles are thinnest, and returns it with the required radius
-/// \[PQP99 §3\].
+/// Fits a rectangle across the direction in which the triangles are thinnest, and returns its frame, its side lengths
+/// and the required radius \[PQP99 §3\].
 fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     let (_, axes) = principal_axes(triangles.iter().flatten().copied());
     let to_axes = axes.transpose();
@@ -103,7 +104,7 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     )
 }
 
-/// A rectangle in the plane z = `middle` that grows until all points are within the radius of it.
+/// A rectangle in the plane z = `middle` that grows until it has all points within the radius.
 struct GrowingRectangle {
     low: DVec2,
     high: DVec2,
@@ -112,7 +113,8 @@ struct GrowingRectangle {
 }
 
 impl GrowingRectangle {
-    /// Returns how far from a point's foot in the plane the rectangle may end with the point still within the radius.
+    /// Returns the greatest distance from a point's foot in the plane at which the rectangle may end and still have the
+    /// point within the radius.
     fn foot_radius(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;
         greater(0.0, self.radius * self.radius - up * up).sqrt()

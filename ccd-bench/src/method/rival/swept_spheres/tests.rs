@@ -19,7 +19,7 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
     }
 }
 
-/// Returns the indices of the triangles below a node.
+/// Returns the indices of all triangles in the leaves below a node.
 fn triangles(tree: &RssTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].content {
         NodeContent::Triangle(k) => vec![k],

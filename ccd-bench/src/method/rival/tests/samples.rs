@@ -21,7 +21,7 @@ impl RandomSource {
         self.0.random_range(low..high)
     }
 
-    /// Returns a random vector in a cube about the origin, of half side `half`.
+    /// Returns a random vector whose coordinates are between `-half` and `half`.
     pub(in crate::method::rival) fn vector(&mut self, half: f64) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.uniform(-half, half)))
     }
@@ -34,7 +34,8 @@ impl RandomSource {
         [(); 3].map(|()| self.vector(1.0))
     }
 
-    /// Returns a random motion with an angular velocity of up to `spin` about any centre.
+    /// Returns a random motion about a random centre, whose velocity and angular velocity have coordinates up to
+    /// `speed` and `spin`.
     pub(in crate::method::rival) fn motion(&mut self, speed: f64, spin: f64) -> Motion {
         let start = Pose::new(self.vector(2.0), self.rotation()).unwrap();
         let (velocity, spin) = (self.vector(speed), self.vector(spin));
@@ -46,7 +47,7 @@ impl RandomSource {
     }
 }
 
-/// Returns a query of duration 1.
+/// Returns the query of duration 1 in which A and B have the given motions.
 pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Motions {
     Motions {
         id: String::new(),
@@ -89,7 +90,8 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
     least
 }
 
-/// Returns the distance of a point from a triangle's plane, if the nearest point of the plane lies in the triangle.
+/// Returns the distance of a point from a triangle's plane if the point's foot lies in the triangle, and infinity
+/// otherwise.
 fn interior_plane_distance(p: DVec3, t: &[DVec3; 3]) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;

@@ -75,7 +75,7 @@ fn query(a: Motion, b: Motion) -> Motions {
 /// third half extent.
 const SLAB_HALF_EXTENTS: DVec3 = DVec3::new(10.0, 10.0, 1.0);
 
-/// The position of the slab, with its top at 0.
+/// The position of the slab, at which its top is at height 0.
 const SLAB_POSITION: DVec3 = DVec3::new(0.0, 0.0, -1.0);
 
 fn falling_boxes() -> Vec<ExactCase> {
@@ -117,7 +117,7 @@ fn falling_boxes() -> Vec<ExactCase> {
     ]
 }
 
-/// Returns cases of rotating rods of half length 2 and half width 0.05 whose corner meets a plane, or another rod.
+/// Returns cases of rotating rods that meet a slab, a wall, another rod, or a post.
 fn turning_rods() -> Vec<ExactCase> {
     let (length, width, height) = (2.0_f64, 0.05_f64, 1.2);
     let radius = length.hypot(width);
@@ -165,7 +165,7 @@ fn turning_rods() -> Vec<ExactCase> {
     scenes
 }
 
-/// Returns the case of a rotating rod with an edge along z that meets an edge of a post.
+/// Returns the case of a rod that rotates about z until its side meets an upright edge of a post.
 fn rod_on_post() -> ExactCase {
     let (length, width, distance, at) = (2.0, 0.05_f64, 1.3, 1.0_f64);
     let near = DVec3::new(at.cos(), at.sin(), 0.0);
@@ -185,8 +185,8 @@ fn rod_on_post() -> ExactCase {
     }
 }
 
-/// Asserts that times are never late, and not earlier than the time to close the tolerance at half
-/// the contact speed.
+/// Asserts that a rival's contact times are never late, and early by at most the time to close the tolerance at half
+/// the closing speed.
 pub(in crate::method::rival) fn assert_exact_contact_times<C: Solver>(
     tolerance: f64,
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
@@ -215,7 +215,7 @@ pub(in crate::method::rival) fn assert_exact_contact_times<C: Solver>(
     }
 }
 
-/// Two torus knots whose distance is computed over all pairs of triangles.
+/// The triangles of a mesh, to compute its distance from a moved copy of itself over all pairs of triangles.
 struct BruteForceDistance {
     triangles: Vec<Triangle>,
     bounding_balls: Vec<(DVec3, f64)>,
@@ -261,13 +261,13 @@ impl BruteForceDistance {
     }
 }
 
-/// Asserts for shots of small knots that nothing touches until the reported time, and that the
-/// bodies are within the tolerance at that time.
+/// Asserts for shots of small knots that the bodies do not touch before the reported time, and are within the tolerance
+/// at that time.
 pub(in crate::method::rival) fn assert_shots_are_conservative(
     tolerance: f64,
     rival: &mut impl Solver,
 ) {
-    /// The least spacing of samples, as a fraction of the duration; otherwise it is the time to close the distance.
+    /// The least time between samples, as a fraction of the duration; bodies that are far apart are sampled less often.
     const MIN_SAMPLE_SPACING: f64 = 5e-4;
 
     let shots = Shots {
@@ -317,7 +317,7 @@ pub(in crate::method::rival) fn assert_shots_are_conservative(
     assert!(hits >= 20 && free >= 10, "{hits} hits, {free} free");
 }
 
-/// Asserts that a rival with a small work limit ends with a time, for either kind of limit.
+/// Asserts that a rival that reaches its limit of steps, or of pairs, reports a time until which it found no contact.
 pub(in crate::method::rival) fn assert_stops_at_work_limit<C: Solver>(
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
     give: impl Fn(&mut C, WorkLimit),

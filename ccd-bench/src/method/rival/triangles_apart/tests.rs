@@ -8,7 +8,8 @@ fn random_vec(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Returns two triangles with corners in the plane, on a grid, or anywhere, or the same triangle twice.
+/// Returns two random triangles: in parallel planes, with corners on a grid, collapsed to segments, or in general
+/// position.
 fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     let kind = rng.random_range(0..5);
     let mut triangle = |shift: DVec3| {
@@ -28,7 +29,7 @@ fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     (a, b.map(|corner| corner + shift))
 }
 
-/// Returns the distance of a point from a triangle, computed by points of the triangle `1/steps` of an edge apart.
+/// Returns the least distance of a point from a grid of points on a triangle, which are `1/steps` of an edge apart.
 fn distance_to_samples(point: DVec3, [a, b, c]: &Triangle, steps: u32) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..=steps {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::body::hull_tree::HullFault;
 
-/// Creates an unevenly split tree over `pieces` pieces, each node before its children.
+/// Creates a tree over `pieces` pieces whose nodes are split at about a third, each node before its children.
 fn hierarchy(pieces: usize) -> Hierarchy {
     let mut nodes = vec![HierarchyNode::Leaf(0)];
     let mut stack = vec![(0, 0, pieces)];
@@ -37,7 +37,7 @@ fn results_do_not_depend_on_the_number_of_parts() {
     }
 }
 
-/// Tests a tree as deep as there are pieces: every node has a leaf and the rest as children.
+/// Tests that a tree as deep as its number of pieces overflows no stack: one child of every inner node is a leaf.
 #[test]
 fn chains_take_no_more_stack_than_other_trees() {
     const PIECE_COUNT: u32 = 100_000;

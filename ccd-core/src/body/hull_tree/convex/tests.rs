@@ -1,4 +1,4 @@
-//! Tests surfaces with integer coordinates that are convex, or nearly so.
+//! Tests that convex surfaces are recognised, and that nearly convex ones are rejected, at integer coordinates.
 
 use super::is_convex;
 use crate::body::pieces::Pieces;
@@ -78,7 +78,8 @@ fn dented_turned_or_open_surfaces_are_not_convex() {
     assert!(!facets_are_convex(&spare, &ROOF_FACETS));
 }
 
-/// Tests a pyramid over a five-pointed star, which is locally convex but winds about its middle twice.
+/// Tests that a double pyramid over a five-pointed star is rejected: it is locally convex, but winds about its middle
+/// twice.
 #[test]
 fn a_star_that_winds_twice_is_not() {
     let rim = [
@@ -108,8 +109,8 @@ fn a_star_that_winds_twice_is_not() {
     assert!(!check(2));
 }
 
-/// Tests a box whose lid is cut into an L and a square. It is flat, but climbing along the L's outline ends in its
-/// reflex corner.
+/// Tests that a box is rejected if its lid is cut into an L-shaped facet and a square, as the L is no convex polygon.
+/// The lid is flat, but climbing along the L's outline ends in its reflex corner.
 #[test]
 fn facets_that_are_not_convex_are_not() {
     let [o, z] = [0.0, 1.0];
@@ -136,7 +137,7 @@ fn facets_that_are_not_convex_are_not() {
     assert!(with(&[&[4, 5, 6, 7], &[4, 7, 8, 9], &[7, 6, 10, 8]]));
 }
 
-/// Tests a spindle with a second, lower roof over the same rim.
+/// Tests that a double pyramid is rejected if a second, lower pyramid shares the rim between its halves.
 #[test]
 fn surfaces_that_share_a_rim_are_not() {
     let points = [

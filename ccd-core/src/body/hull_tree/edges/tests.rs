@@ -23,7 +23,7 @@ fn edges_are_found_as_in_a_table() {
     }
 }
 
-/// Finds the first fault of facets that do not close a surface, one edge after the other.
+/// Finds the first fault of facets that do not close a surface with a hash table of edges, as a reference.
 fn fault_by_a_table(hull: &Hull) -> Result<(), HullFault> {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges = HashSet::new();

@@ -2,7 +2,7 @@ use super::*;
 use crate::body::hull_tree::PolygonList;
 use std::collections::HashMap;
 
-/// Numbers the points by a table, point after point, as a reference.
+/// Numbers the points with a hash table, one point after the other, as a reference.
 fn reference_numbering(hull: &[DVec3], children: [&[DVec3]; 2]) -> (Vec<u32>, Vec<DVec3>) {
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let mut numbers: HashMap<[u64; 3], u32> = hull.iter().map(place).zip(0..).collect();

@@ -1,4 +1,4 @@
-//! Tests that stored trees can be read again, and are checked.
+//! Tests that a stored hull tree is read back unchanged, and that invalid stored trees are refused.
 
 use super::*;
 use crate::body::hierarchy::Hierarchy;
@@ -71,7 +71,7 @@ fn trees_are_checked_when_read() {
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
 }
 
-/// Tests that damaged bytes give an error or a valid tree.
+/// Tests that reading a stored tree with a damaged or missing byte never panics: it fails or gives a valid tree.
 #[test]
 fn no_bytes_make_it_panic() {
     let (_, tree) = pieces_with_hull_tree();

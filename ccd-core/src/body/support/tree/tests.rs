@@ -1,4 +1,5 @@
-//! Compares discs in f32 with the points in them in f64. The error of f64 is a five hundred millionth of that of f32.
+//! Measures the worst rounding errors of the tree search: of discs in f32 against their points in f64, and of the found
+//! point. The error of f64 is a five hundred millionth of that of f32.
 
 use super::{Disc, Discs, LANES, SupportTree};
 use crate::math::order::greater;
@@ -8,7 +9,7 @@ use crate::tests::scene::direction;
 use crate::tests::worst::{RandomCase, Worst, share};
 use glam::{DVec3, Vec3};
 
-/// Draws points in a ball of radius 1, and a direction along which a point at the rim of their disc, or next to it, is
+/// Draws points in a ball of radius 1, and a direction along which a point at or near the rim of their disc is
 /// farthest.
 fn points(tape: &mut RandomCase) -> (Vec<DVec3>, DVec3) {
     let half = direction(tape) * tape.size(-10..=-1);
@@ -20,7 +21,7 @@ fn points(tape: &mut RandomCase) -> (Vec<DVec3>, DVec3) {
     (shares.into_iter().enumerate().map(point).collect(), along)
 }
 
-/// Scales a direction so that its largest component is 1; returns it exact and rounded.
+/// Scales a direction so that its largest component is 1, and returns it in f64 and rounded to f32.
 fn unit_in_max_norm(d: DVec3) -> (DVec3, Vec3) {
     let d = d / d.abs().max_element();
     (d, d.as_vec3())
@@ -63,8 +64,7 @@ fn worst_tilt() {
     found.is_within(20.0);
 }
 
-/// Measures the worst error of extremal points among points of nearly equal height: two roundings of heights are
-/// allowed.
+/// Measures how much lower than the highest point the found point may be, among points of nearly equal height.
 #[test]
 fn worst_farthest() {
     let found = Worst::of("HEIGHT_F64, twice: the farthest point", 6_000).search(|tape| {

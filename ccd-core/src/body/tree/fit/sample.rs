@@ -1,4 +1,4 @@
-//! A sample of a node's points, to compare the boxes of many frames quickly.
+//! A sample of a node's points, on which the box sizes of many frames are compared quickly.
 
 use super::NodePoints;
 use crate::math::order::{greater, lesser};
@@ -6,17 +6,18 @@ use crate::math::vector::bounding_box;
 use crate::tuning::MAX_SAMPLED_TRIANGLES;
 use glam::{DMat3, DVec3, Vec3};
 
-/// The number of values that are computed at once.
+/// The number of points whose heights are computed at once by vector instructions.
 const LANES: usize = 8;
 
 const MAX_POINTS: usize = 3 * MAX_SAMPLED_TRIANGLES;
 
-/// Points of a node, moved and scaled to unit size. The memory is reused by one sample after the other.
+/// A sample of a node's points, moved to the origin and scaled to unit size. The memory is reused by one sample after
+/// the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Sample {
     buffer: [DVec3; MAX_POINTS],
     count: usize,
-    /// The points, coordinate by coordinate; the last block repeats the last point.
+    /// The points in blocks of eight x, y and z coordinates; the last block repeats the last point.
     blocks: [[[f32; LANES]; 3]; MAX_POINTS / LANES],
 }
 
@@ -28,7 +29,8 @@ impl Sample {
         blocks: [[[0.0; LANES]; 3]; MAX_POINTS / LANES],
     };
 
-    /// Fills the sample with the points, at even steps if there are too many. Triangles are taken whole.
+    /// Fills the sample with a node's points, or with every k-th point if there are too many. Triangles are taken with
+    /// all three corners.
     pub(in super::super) fn fill_from(&mut self, node_points: &NodePoints<'_>) {
         self.count = 0;
         let size = if node_points.triangles { 3 } else { 1 };
@@ -42,12 +44,12 @@ impl Sample {
         self.scale_to_unit_size();
     }
 
-    /// Returns the points, moved and scaled.
+    /// Returns the sampled points, moved to the origin and scaled to unit size.
     pub(super) fn points(&self) -> &[DVec3] {
         &self.buffer[..self.count]
     }
 
-    /// Returns half the surface area of the bounding box along the columns of a frame.
+    /// Returns half the surface area of the sample's bounding box along the columns of a frame.
     pub(super) fn surface(&self, frame: &DMat3) -> f32 {
         let axes = [0, 1, 2].map(|k| frame.col(k).as_vec3());
         let mut low = [[f32::INFINITY; LANES]; 3];

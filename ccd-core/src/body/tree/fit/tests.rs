@@ -1,4 +1,4 @@
-//! Compares fitted boxes with a slow fit that tries every frame on all points in f64.
+//! Tests that fitted boxes are about as small as those of a slow fit, which tries every frame on all points in f64.
 
 use super::*;
 use crate::math::order::lesser;
@@ -6,7 +6,7 @@ use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use crate::tuning::MAX_SAMPLED_TRIANGLES;
 use glam::DQuat;
 
-/// Returns the least surface area of the boxes along all frames.
+/// Returns the least of half the surface areas of the points' boxes along all trial frames.
 fn least_surface_area(points: &[DVec3], triangles: bool) -> f64 {
     let mut frames = vec![DMat3::IDENTITY];
     frames.push(principal_axes(|| points.iter().map(|&p| (p, 1.0))));
@@ -28,7 +28,7 @@ fn least_surface_area(points: &[DVec3], triangles: bool) -> f64 {
     surfaces.fold(f64::INFINITY, lesser)
 }
 
-/// Returns half the surface area of the bounding box along a frame.
+/// Returns half the surface area of the points' bounding box along the axes of a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
     let FittedBox { low, high, .. } = FittedBox::fit_along(frame, points);
     let size = high - low;
@@ -44,7 +44,7 @@ fn triangles(points: &[DVec3]) -> NodePoints<'_> {
     }
 }
 
-/// Returns triangles of a bent sheet, each about a tenth of its size.
+/// Returns triangles of a bent sheet, each about a tenth as large as the sheet.
 fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
     let turn = DQuat::from_axis_angle(direction(rng), 1.0);
     let middle = 3.0 * size * direction(rng);
@@ -57,8 +57,9 @@ fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
         .collect()
 }
 
-/// Returns triangles of equal winding in a rectangle. In a square no principal axes stand out, and frames turned about
-/// the normal fit best. If half of the triangles are a cluster of tiny ones, principal axes by area fit best.
+/// Returns random triangles of equal winding in one rectangle, some of them tiny and close together if requested. In a
+/// square no principal axes stand out, and frames turned about the normal fit best. If half of the triangles are a
+/// cluster of tiny ones, principal axes by area fit best.
 fn random_triangles_in_rectangle(
     rng: &mut Pcg64,
     count: usize,
@@ -189,7 +190,7 @@ fn only_orthonormal_frames_are_frames() {
     }
 }
 
-/// Tests that a sample has unit size about the origin, and contains nothing of an earlier sample.
+/// Tests that a refilled sample is centred at the origin, has unit size, and contains no points of its earlier filling.
 #[test]
 fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut rng = rng(9);

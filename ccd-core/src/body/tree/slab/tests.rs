@@ -5,7 +5,7 @@ use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// Compares half the distance of the planes, without the added 16u, with the exact distance.
+/// Measures by how much a slab without its allowance of 16u is too thin for the exact heights of its corners.
 #[test]
 fn worst_slab() {
     let found = Worst::of("Slab::about: 16u", 20_000).search(|tape| {

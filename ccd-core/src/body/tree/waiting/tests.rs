@@ -1,4 +1,4 @@
-//! Compares the stack of nodes with a list.
+//! Tests that the stack returns nodes in the same order as a list does.
 
 use super::*;
 use crate::tests::scene::{RngExt, rng};

@@ -1,11 +1,11 @@
-//! Checks that a body's box contains all of its points, up to the stated slack.
+//! Tests that a body's box contains all of the body's points, up to its `slack`.
 
 use super::*;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation};
 use crate::tests::worst::{Worst, share};
 
-/// Compares the slack of a body without rounding radius with the exact heights of all points along a direction.
+/// Measures how much of a box's slack is needed for the exact heights of all points, without a rounding radius.
 #[test]
 fn worst_slack() {
     let mut sample = Sample::EMPTY;

@@ -1,5 +1,5 @@
-//! Compares the points beside edges with densely sampled edges. Coordinates are whole numbers, so that edges run along
-//! sides, and end on them, exactly.
+//! Compares the points of `points_beside_edges` with points that are computed from dense samples of the edges.
+//! Coordinates are whole numbers, so that edges run along sides, and end on them, exactly.
 
 use super::points_beside_edges;
 use crate::body::Body;
@@ -13,7 +13,7 @@ const SAMPLES: usize = 1 << 14;
 
 const REACH: f64 = 1e-9;
 
-/// A rigid motion that is exact for whole numbers.
+/// A permutation of the axes and a translation, both exact for whole numbers.
 struct Placement {
     axes: usize,
     shift: DVec3,
@@ -40,7 +40,7 @@ impl Placement {
     }
 }
 
-/// Draws a vector of whole numbers below `most`.
+/// Draws a vector of whole numbers from −`most` to `most`.
 fn whole(rng: &mut Pcg64, most: i32) -> DVec3 {
     DVec3::from([0; 3].map(|_| f64::from(rng.random_range(-most..=most))))
 }
@@ -67,7 +67,7 @@ fn random_plate_outline(rng: &mut Pcg64) -> Vec<DVec2> {
     }
 }
 
-/// Draws the ends of an edge, sometimes along a side.
+/// Draws the ends of an edge in the plate's plane, sometimes along a side of the outline.
 fn ends(rng: &mut Pcg64, outline: &[DVec2]) -> [DVec2; 2] {
     if rng.random_bool(0.2) {
         let k = rng.random_range(0..outline.len());
@@ -114,7 +114,7 @@ fn polytope(points: Vec<DVec3>, facets: &[&[u32]]) -> Body {
     .unwrap()
 }
 
-/// Creates a triangle or a tetrahedron with a given edge, whose other corners are off the plane of the edge.
+/// Creates a triangle or a tetrahedron with a given level edge; its other corners are at other heights.
 fn random_body_with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> Body {
     let mut apex = |height: f64| random_plane_point(rng).extend(from.z + height);
     let (mut points, facets): (Vec<DVec3>, &[&[u32]]) = if apex(0.0).x > 0.0 {
@@ -138,7 +138,7 @@ fn random_body_with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Pl
     )
 }
 
-/// Returns the distance of an inside point from the nearest side; negative for outside points.
+/// Returns the distance of a point inside the outline from the nearest side; negative for a point outside.
 fn depth(outline: &[DVec2], p: DVec2) -> f64 {
     let side = |k: usize| {
         let (from, to) = (outline[k], outline[(k + 1) % outline.len()]);
@@ -149,7 +149,7 @@ fn depth(outline: &[DVec2], p: DVec2) -> f64 {
         .fold(f64::INFINITY, crate::math::order::lesser)
 }
 
-/// Computes the expected points from samples, and how much each may be off; `None` if samples cannot decide.
+/// Computes from samples the points that `points_beside_edges` should return; `None` if samples cannot decide.
 fn expected_points(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec2>> {
     let at = |k: usize| from + (to - from) * (k as f64 / SAMPLES as f64);
     let held: Vec<usize> = (0..=SAMPLES)
@@ -219,7 +219,7 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
     assert!(none > 300 && one > 100 && two > 300, "{counts:?}");
 }
 
-/// Tests pieces in one plane, about which the faces beyond the edges decide.
+/// Tests that a triangle in the plane of a piece gives no points, and that a tilted triangle gives two.
 #[test]
 fn pieces_in_one_plane_have_no_points() {
     let [a, b] = [DVec3::ZERO, DVec3::ONE.with_z(0.0)].map(|p| {

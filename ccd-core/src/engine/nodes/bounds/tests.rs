@@ -20,7 +20,7 @@ use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
 use setting::{Setting, Shape};
 
-/// A rigid set of points with its motion.
+/// A rigid set of points that turns about a centre.
 struct Solid {
     points: Vec<DVec3>,
     /// The position of the centre of rotation.
@@ -43,7 +43,7 @@ impl Solid {
         rates.fold(f64::NEG_INFINITY, greater)
     }
 
-    /// Returns the largest second derivative of a height along `n`, at any time.
+    /// Returns an upper bound of the second derivative of the points' heights along `n`, at any time.
     fn max_second_derivative(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
@@ -55,14 +55,15 @@ impl Solid {
     }
 }
 
-/// A group and another node, in f32 and in f64. `P` and `C` are their types, as in the bounds.
+/// A group of children and the other node: in f32, as the bounds take them, and as sets of points in f64. `C` and `P`
+/// are the types of the group and of the other node.
 struct Sample<C, P> {
     group: C,
     other: P,
     motion: RelativeMotionF32,
     /// The gap to keep, which is the slack minus the rounding of a gap.
     kept_gap: f64,
-    /// The error of a gap for which the slack allows.
+    /// The part of the slack that allows for the rounding error of a gap.
     allowed_gap_error: f32,
     children: Vec<Solid>,
     other_solid: Solid,
@@ -78,9 +79,10 @@ struct WorstShares {
     rate: f64,
     cross_product: f64,
     clock: f64,
-    /// The smallest excess of a gap over the gap to keep at the end of a free time, relative to that at the start.
+    /// The smallest excess of a gap over the gap to keep at the end of a free time, as a share of the excess at its
+    /// start.
     min_relative_excess: f64,
-    /// The number of free times that fixed planes gave.
+    /// The number of positive free times of fixed planes.
     still: usize,
     attached_count: usize,
     /// The number of free times of bodies that accelerate.
@@ -112,7 +114,7 @@ fn planes_hold_and_allowances_suffice_for_triangles() {
     worst.assert_within_allowances();
 }
 
-/// The values that the bounds compute along one axis, before they become eight free times: one number for each child.
+/// The values that the bounds compute along one axis, one number for each child.
 #[derive(Clone, Copy, Debug)]
 struct AxisValues {
     axis: [[f32; LANES]; 3],
@@ -129,7 +131,7 @@ impl AxisValues {
         DVec3::from_array(self.axis.map(|row| row[lane].into()))
     }
 
-    /// Returns all values for comparison, with NaN replaced so that NaN values are equal.
+    /// Returns all values for comparison, with `None` for NaN, so that NaN values compare equal.
     fn numbers(&self) -> Vec<Option<f32>> {
         let rows = [
             &self.axis[..],
@@ -170,7 +172,7 @@ impl WorstShares {
     }
 }
 
-/// Computes the values along three axes: two that the bounds try, and a given one.
+/// Computes the values along three axes: the two that the bounds try, and the axis `some`.
 ///
 /// Nothing is inlined: in one function without vectors, the compiler would take minutes.
 fn axis_values<L: Simd, C: Children, P: OtherNode>(
@@ -301,7 +303,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         best
     }
 
-    /// Compares each rounded value with the same in f64, and records the error.
+    /// Compares each value in f32 with its value in f64, and records the largest errors in `worst`.
     fn record_errors(&self, found: &AxisValues, worst: &mut WorstShares) {
         let frees = self.clocks(found);
         for lane in 0..self.children.len() {
@@ -352,7 +354,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// Checks one free time against samples of a gap, and returns whether there was a free time.
+    /// Checks at sampled times that a gap is kept for a free time, and returns whether the free time is positive.
     fn check(
         &self,
         lane: usize,

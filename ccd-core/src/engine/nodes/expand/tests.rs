@@ -1,4 +1,4 @@
-//! Compares the free times of all lanes with samples, vertex by vertex in f64.
+//! Checks the free times of all lanes against sampled distances of triangles in f64.
 
 use super::*;
 use crate::math::order::{greater, lesser};
@@ -7,7 +7,7 @@ use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
 use crate::tuning::MUCH_LARGER_RATIO;
 
-/// The number of samples of a lane within its free time, ends included.
+/// The number of sampled times within a lane's free time, both ends included.
 const SAMPLES: usize = 17;
 
 /// Counters that show that a test covers its cases.
@@ -16,14 +16,14 @@ struct Tally {
     /// The number of lanes with a free time, all of which are checked.
     free: usize,
     no_free_time: usize,
-    /// The number of free times that only planes turning with a body give.
+    /// The number of free times that are more than 1.5 times as long as those of fixed planes.
     turning_plane_only: usize,
-    /// The number of lanes whose pieces are not apart at the clock.
+    /// The number of lanes without a free time whose pieces are within the gap to keep at the clock.
     overlapping: usize,
-    /// The number of samples proven apart by one axis.
+    /// The number of samples at which one axis separates all triangles.
     proven_by_axis: usize,
     proven_by_pieces: usize,
-    /// The number of splits by the kind of the split node, and by that of the other node.
+    /// The number of lanes with a free time, by the body whose node is split.
     splits_by_kind: [usize; 2],
     boxes: usize,
     triangles: usize,
@@ -107,7 +107,7 @@ struct Lane {
 }
 
 impl SceneAudit<'_> {
-    /// Descends from the roots to a pair of pieces, splitting either side, and checks each split at another clock.
+    /// Descends from the pair of roots to a pair of pieces by random splits, and checks each split at a random clock.
     fn descend(&self, rng: &mut Pcg64, tally: &mut Tally) {
         let mut ids = [0, 0];
         let (a, b) = (self.problem.a.body.tree(), self.problem.b.body.tree());
@@ -148,7 +148,7 @@ impl SceneAudit<'_> {
         }
     }
 
-    /// Chooses the child with which to continue, mostly the one of least free time.
+    /// Chooses the child with which the descent continues, mostly the one with the least free time.
     fn next(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
         let free = |k: &u32| expansion.bounds.free_times.time_of_lane(*k as usize);
         let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
@@ -159,7 +159,7 @@ impl SceneAudit<'_> {
         }
     }
 
-    /// Returns the number of a node's children, and whether they are triangles.
+    /// Returns the number of a node's children, and whether these are triangles.
     fn below(&self, split: WhichBody, node: NodeId) -> (u32, bool) {
         let tree = split.of(self.problem).body.tree();
         match tree.get(node) {
@@ -213,14 +213,15 @@ impl SceneAudit<'_> {
         }
     }
 
-    /// Returns whether some pieces of a small lane are not farther apart than the gap to keep.
+    /// Returns whether some pieces of a lane are within the gap to keep; `false` for a lane of more than 64 pairs of
+    /// pieces.
     fn overlap(&self, lane: &Lane) -> bool {
         let (near, far) = self.at(lane, lane.from);
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
-    /// Checks all triangles below the child against all below the other node, at every sampled time. They have to be
-    /// farther apart than the gap of all clocks.
+    /// Checks at every sampled time that all triangles below the child stay apart from those below the other node. They
+    /// have to be farther apart than the gap of all clocks.
     fn verify_lane(&self, lane: &Lane, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
@@ -295,7 +296,7 @@ fn below(side: &BodyWithPath<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     }
 }
 
-/// Searches for an axis that separates two sets of triangles, starting with the axis that did last time.
+/// A search for an axis that separates two sets of triangles, which starts with the axis found last.
 #[derive(Default)]
 struct AxisSearch {
     axis: Option<DVec3>,
@@ -371,7 +372,7 @@ fn expand_with_fixed_planes(
     })
 }
 
-/// Like the bounds of a group, with fixed planes only. A radius that is neither much larger nor much smaller than the
+/// Like `RelativeMotion::bound`, with fixed planes only. A radius that is neither much larger nor much smaller than the
 /// other node's excludes planes that turn.
 #[inline(always)]
 fn still<L: Simd, C: Children>(

@@ -106,7 +106,7 @@ fn many_points_are_bounded_like_all_of_them() {
     assert!(tight.into_iter().all(|count| count > 900), "{tight:?}");
 }
 
-/// Tests heights, rates and second derivatives of few and many points against rotated points.
+/// Compares the heights, rates and second derivatives of few and of many points with those of rotated points.
 #[test]
 fn points_rise_and_sink_as_their_body_turns() {
     let mut rng = rng(32);
@@ -151,7 +151,7 @@ fn points_rise_and_sink_as_their_body_turns() {
     assert!(many > 50, "{many}");
 }
 
-/// The points relative to the centre of rotation, as a reference.
+/// A reference for [`Heights`], which rotates every point about the centre of rotation.
 struct ReferenceHeights {
     arms: Vec<DVec3>,
     normal: DVec3,
@@ -174,7 +174,7 @@ impl ReferenceHeights {
         }
     }
 
-    /// Returns the rise that all points share, without rotation.
+    /// Returns the displacement of all points along the normal after `tau`, without rotation.
     fn linear_rate(&self, tau: f64) -> f64 {
         self.normal
             .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
@@ -230,8 +230,8 @@ impl ReferenceHeights {
         self.check_descent(heights, 0.7);
     }
 
-    /// Checks that `max_descent_until` is no less than the largest sampled descent by rotation, and at most 1e-3 more; or
-    /// `None`, if the piece has many points.
+    /// Checks that `max_descent_until` is not less than the largest sampled descent by rotation, and at most 1e-3 more;
+    /// or `None`, if the piece has many points.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
         let many = heights.piece.bounding_ball().is_some();
         let Some(descent) = heights.max_descent_until(horizon) else {

@@ -10,7 +10,8 @@ use crate::query::MovingBody;
 use crate::settings::Settings;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 
-/// Creates a ball of radius 1 at `x` that moves along −x by `speed`, and a resting ball at the origin.
+/// Calls `then` with the problem of two balls of radius 1: one at `x` that moves along −x at `speed`, one at rest at
+/// the origin.
 fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let ball = Body::sphere(1.0).unwrap();
     let start = Pose::at(x * DVec3::X).unwrap();
@@ -22,7 +23,8 @@ fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_
     then(&Problem::about(a, b, 1.0, config).unwrap())
 }
 
-/// Advances a new pair until the step is not a later clock.
+/// Advances a new pair until a step is not a clock before the end, and returns that step and the clock at which it was
+/// made.
 fn run(problem: &Problem<'_>) -> (f64, PairStep) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
@@ -96,7 +98,8 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");
 }
 
-/// Creates a bar that turns about z away from the one it touches, and back to it from the other side.
+/// Calls `then` with the problem of a bar that turns about y away from a ball it touches. The other end of the bar then
+/// comes around to the ball.
 fn with_returning_bar<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let bar = Body::capsule(0.1, 1.0).unwrap();
     let ball = Body::sphere(0.1).unwrap();

@@ -24,7 +24,7 @@ fn agrees_with_the_standard_library() {
     assert_eq!(sin_cos(0.0), (0.0, 1.0));
 }
 
-/// Tests the guaranteed error of 2u, at angles next to multiples of a right angle and elsewhere.
+/// Tests that `sin_cos` is off by at most 2u, at angles next to multiples of a right angle and elsewhere.
 #[test]
 fn worst_sine_and_cosine() {
     let found = Worst::of("sin_cos: 2u", 40_000).search(|tape| {

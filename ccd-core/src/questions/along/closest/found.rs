@@ -12,7 +12,7 @@ use crate::shortcuts::bounding_volumes::least_distance;
 use crate::tuning::MIN_CUT_SHARE;
 
 impl Query<'_> {
-    /// Returns the query for measuring distances, with a margin of 0.
+    /// Returns a copy of the query for measuring distances, with a margin of 0 and no required clearance.
     pub(in crate::questions::along) fn for_distances(&self) -> Self {
         Query {
             terms: QuerySettings {
@@ -25,7 +25,7 @@ impl Query<'_> {
         }
     }
 
-    /// Returns the query for contacts with the margin, tolerance and budget of a rung.
+    /// Returns a copy of the query that asks for contacts with the margin, tolerance and budget of `rung`.
     pub(super) fn contact_query(&self, rung: MarginQuery) -> Self {
         let MarginQuery {
             margin,
@@ -43,17 +43,17 @@ impl Query<'_> {
     }
 }
 
-/// The bounds of the distance of a stretch's motions, and where they are nearest.
+/// The bounds of the least distance of a stretch's motions, and the time at which the motions are nearest.
 #[derive(Default)]
 pub(super) struct StretchResult {
     pub(super) lower: f64,
     pub(super) upper: f64,
-    /// The most by which the bodies' distance differs from that of the approximate motions: the sum of both bodies'
-    /// deviations.
+    /// The sum of both bodies' deviations, which bounds the difference between the bodies' distance and that of the
+    /// approximate motions.
     pub(super) total_deviation: f64,
-    /// The time in the stretch at which the motions are nearest.
+    /// The time at which the motions are nearest, counted from the start of the stretch.
     pub(super) time: f64,
-    /// The rate at which the motions approach each other at that time.
+    /// The rate at which the motions approach each other at the time when they are nearest.
     pub(super) approach: f64,
 }
 
@@ -75,8 +75,9 @@ impl StretchResult {
         width > tolerance && self.total_deviation <= width
     }
 
-    /// Returns the first or last time of the stretch if the motions are nearest there and approach so fast beyond it
-    /// that, over another such length, the distance would fall by more than the deviations; `None` otherwise.
+    /// Returns the end of the stretch beyond which the distance probably decreases further; `None` if there is no such
+    /// end. The motions are nearest at about that end. At their rate of approach there, the distance would fall by more
+    /// than the deviations over another stretch of this length.
     pub(super) fn end_with_decrease_beyond(&self, motions: &StretchMotions) -> Option<f64> {
         let Span { from, to, .. } = motions.span;
         let (near, falls) = (
@@ -94,12 +95,12 @@ impl StretchResult {
     }
 }
 
-/// The bounds of the least distance found so far.
+/// The bounds of the bodies' least distance that a search along trajectories has found so far.
 pub(super) struct LeastDistanceSoFar {
     /// A lower bound of the distance in all finished stretches.
     pub(super) lower: f64,
     pub(super) best: Option<(f64, Contact)>,
-    /// The lower bound that is proven for all times.
+    /// The lower bound of the distance that is proven for all times, with the state of further attempts.
     pub(super) ladder: LowerBoundLadder,
 }
 
@@ -118,7 +119,7 @@ impl LeastDistanceSoFar {
         self.best.map_or(f64::INFINITY, upper)
     }
 
-    /// Records the outcome for the motions of a stretch.
+    /// Records the outcome of the search for the least distance of a stretch's motions, and returns its bounds.
     ///
     /// # Errors
     /// The limit that was reached.
@@ -179,8 +180,8 @@ impl LeastDistanceSoFar {
         self.answer(query, stretches, nearest)
     }
 
-    /// Returns the answer when a limit is reached in a stretch. For this stretch and the waiting ones, bounding balls
-    /// of the bodies give the lower bound.
+    /// Returns the unresolved answer for a search that reached a limit in the stretch `span`. For this stretch and the
+    /// waiting ones, bounding balls of the bodies give the lower bound.
     pub(super) fn unresolved(
         &self,
         query: &Query<'_>,
@@ -201,7 +202,8 @@ impl LeastDistanceSoFar {
         self.answer(query, stretches, self.unresolved_outcome(lower, reason))
     }
 
-    /// Returns the outcome when a limit is reached; `lower` is a lower bound for all times.
+    /// Returns the unresolved outcome for a search that reached a limit; `lower` is a lower bound of the distance at
+    /// all times.
     fn unresolved_outcome(&self, lower: f64, limit: Limit) -> Outcome {
         let lower = lesser(greater(self.ladder.lower, lower), self.upper());
         let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));

@@ -1,4 +1,4 @@
-//! Tests answers along trajectories with every budget: each part between two corners has its own.
+//! Tests queries along trajectories that run out of budget. Each part between two corners has its own budget.
 
 use super::*;
 use crate::answer::Limit;
@@ -40,7 +40,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
     assert!(ended > 300, "{ended}");
 }
 
-/// A trajectory that passes beside the origin back and forth along x, with a corner at each turn.
+/// A trajectory that goes back and forth along x past the origin, with a corner at each reversal.
 struct Shuttle {
     laps: u32,
     lateral_offset: f64,

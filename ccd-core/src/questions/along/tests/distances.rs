@@ -1,11 +1,12 @@
-//! Tests required and least distances along trajectories, and bounds after a limit.
+//! Tests required clearances and least distances along trajectories, and the bounds of searches that reach a limit.
 
 use super::*;
 use crate::answer::Clearance;
 use crate::answer::Limit;
 use crate::answer::Unresolved;
 
-/// Returns the least distance at equal time steps, so short that distances in between hardly differ.
+/// Returns the least of the distances sampled at equal time steps, which are so short that distances in between hardly
+/// differ.
 fn sampled_least_distance(swings: &SwingingBodies) -> f64 {
     let distances = (0..=200).map(|k| swings.distance(f64::from(k) / 200.0));
     distances.fold(f64::INFINITY, lesser)

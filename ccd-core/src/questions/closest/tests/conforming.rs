@@ -1,4 +1,4 @@
-//! Tests bodies whose surfaces stay close to each other while one of them turns.
+//! Tests the work of the closest approach of bodies whose surfaces stay close to each other while one body turns.
 
 use super::*;
 use crate::engine::answer::EngineSchedule;

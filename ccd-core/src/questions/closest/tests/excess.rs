@@ -1,4 +1,5 @@
-//! Tests bodies that exceed their shapes: upper bounds hold for the shapes, and bodies alone violate no clearance.
+//! Tests the closest approach of bodies that exceed their shapes: upper bounds hold for the shapes, and a clearance
+//! counts as violated only if the shapes violate it.
 
 use super::*;
 use crate::tests::scene::Scene;
@@ -44,8 +45,8 @@ fn upper_bounds_have_the_excess_added_once() {
     );
 }
 
-/// Tests a clearance that bodies violate by less than the excess, which their shapes may keep, and by more. Nearer
-/// bodies certainly violate it.
+/// Tests that a required clearance is reported as violated only if the bodies come nearer than it by more than their
+/// excess over the shapes.
 #[test]
 fn a_clearance_is_violated_by_more_than_the_excess_only() {
     let mut rng = rng(22);

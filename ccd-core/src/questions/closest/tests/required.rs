@@ -1,4 +1,4 @@
-//! Tests required distances above and below the least one, and bounds after a limit.
+//! Tests required distances above and below the least distance, and the bounds of searches that reach a limit.
 
 use super::*;
 
@@ -69,7 +69,8 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     );
 }
 
-/// Tests that the decision about a required distance costs as much as a margin, or at most twice as much.
+/// Tests that the decision about a required distance takes at most twice the work of a query for any contact with that
+/// margin, and less than the closest approach.
 #[test]
 fn a_required_distance_costs_little_more_than_a_margin() {
     let mut rng = rng(12);

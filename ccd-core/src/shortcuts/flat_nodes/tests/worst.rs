@@ -1,4 +1,5 @@
-//! Compares the extent of a flat node with that of all points between its planes and in its ball.
+//! Tests that the extent of a flat node bounds the extent of all points that lie in its ball and between its two
+//! planes.
 
 use super::super::FlatNode;
 use crate::motion::Motion;

@@ -19,8 +19,8 @@ fn motion(tape: &mut RandomCase) -> Option<Motion> {
     Motion::about(start, velocity, spin, centre).ok()
 }
 
-/// The contributions of both bodies to a rate and a second derivative, without allowances and exact, with the
-/// allowances.
+/// Sums over both bodies: the exact rate of approach and its exact derivative, and the terms of the engine's bounds of
+/// them.
 struct Sums {
     rate: Double,
     second_derivative: Double,

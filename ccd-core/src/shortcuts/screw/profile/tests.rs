@@ -1,4 +1,4 @@
-//! Compares profiles with exact surfaces through the corners of a triangle.
+//! Compares the intervals of profiles with exact values at the corners of a triangle.
 
 use super::{Profile, ScrewAxis};
 use crate::math::order::greater;
@@ -36,7 +36,8 @@ fn cylindrical_coordinates(axis: &ScrewAxis, point: Double3, near: f64) -> [Doub
     [radius, height, angle + tau * Double::from(turns)]
 }
 
-/// Returns the largest error of an interval at a corner, as a share of its allowance.
+/// Returns the largest amount by which a corner lies outside the interval of its profile, as a share of the allowance
+/// for rounding.
 fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let body = body(&[corners]);
@@ -80,7 +81,7 @@ fn axis(tape: &mut RandomCase, advance: f64) -> Option<ScrewAxis> {
     Some(ScrewAxis::new(origin, direction, advance))
 }
 
-/// Tests tiny triangles anywhere about the axis.
+/// Tests the rounding of profiles of tiny triangles anywhere about the axis.
 #[test]
 fn worst_of_an_arm() {
     let found = Worst::of("profile_rounding, an arm", 20_000).search(|tape| {
@@ -94,7 +95,8 @@ fn worst_of_an_arm() {
     found.is_within(40.0);
 }
 
-/// Tests a triangle in a plane with the axis that is much longer than its distance from the axis.
+/// Tests the rounding of profiles of triangles in a plane through the axis, which are much longer than their distance
+/// from the axis.
 #[test]
 fn worst_of_a_radius() {
     let found = Worst::of("profile_rounding, a radius", 20_000).search(|tape| {

@@ -1,4 +1,4 @@
-//! Compares the motion along a rounded screw with the given motion, by double-double arithmetic.
+//! Compares the computed screw motion of a body with its exact motion, in double-double arithmetic.
 
 use crate::math::vector::length;
 use crate::motion::Motion;

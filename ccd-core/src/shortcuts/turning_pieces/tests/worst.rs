@@ -17,14 +17,14 @@ use crate::tests::worst::{RandomCase, Worst, share};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use glam::DVec3;
 
-/// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
+/// Draws a motion over a time of 1 that turns by up to 1e5 radians, about the body's origin or another centre.
 fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let ranges = [-20..=6, -20..=15, -20..=8, -20..=6];
     let [velocity, spin, centre, at] = ranges.map(|range| tape.vector(range));
     Motion::about(Pose::new(at, rotation(tape)).ok()?, velocity, spin, centre).ok()
 }
 
-/// A point and a turning plane, as computed and exact.
+/// A point of one body and a plane that turns with the other body, to compare computed heights with exact heights.
 struct Setting<'s> {
     sweep: &'s TurningPiece<'s>,
     motions: [Motion; 2],
@@ -33,7 +33,7 @@ struct Setting<'s> {
 }
 
 impl Setting<'_> {
-    /// Returns the computed height of the point, and its rate.
+    /// Returns the computed height of the point above the plane after a time, and the rate of the height.
     fn found(&self, tau: f64) -> [Double; 2] {
         let HeightTerms {
             height,

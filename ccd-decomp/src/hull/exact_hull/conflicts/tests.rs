@@ -1,8 +1,8 @@
 use super::*;
 use crate::test_meshes::star_bipyramid;
 
-/// Tests that the number of created facets stays small for two cones. An apex sees up to half of all facets when it
-/// is inserted, and so does a point of the rim.
+/// Tests that the construction of the hull of two cones creates at most eight facets per point of their common rim. An
+/// apex sees up to half of all facets when it is inserted, and so does a point of the rim.
 #[test]
 fn few_facets_are_made_for_any_points() {
     for (corners, inner) in [(2_000, 1.0), (2_000, 0.5), (16_000, 1.0)] {

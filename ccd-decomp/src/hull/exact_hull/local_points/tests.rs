@@ -2,8 +2,8 @@ use super::*;
 use proptest::prelude::*;
 
 proptest! {
-    /// Tests the filtered side test against the exact predicate, for points near a plane that may be far from the
-    /// origin.
+    /// Tests that the filtered side test gives the result of the exact predicate, for points near a plane that may be
+    /// far from the origin.
     #[test]
     fn heights_agree_with_the_predicate(
         points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 4..12),

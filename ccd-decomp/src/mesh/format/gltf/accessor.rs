@@ -8,7 +8,7 @@ use crate::mesh::error::{MeshFault, element_name};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Reads accessors, and charges their elements to the limit on what the file may expand to.
+/// A reader of accessors, which charges their elements to the file's expansion budget.
 pub(super) struct AccessorReader<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
@@ -27,13 +27,13 @@ enum ComponentType {
 }
 
 impl<'a> AccessorReader<'a> {
-    /// Returns whether an accessor has uncompressed data, not only a compression extension.
+    /// Returns whether an accessor can be read without a compression extension.
     pub(super) fn has_uncompressed_data(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);
         about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
     }
 
-    /// Spends the cost of `count` face corners from the allowance.
+    /// Spends the cost of `count` face corners from the expansion budget.
     pub(super) fn spend_corners(&mut self, count: usize) -> Result<(), MeshFault> {
         self.allowance.spend(expansion_cost(0, count as u64))
     }
@@ -70,7 +70,7 @@ impl<'a> AccessorReader<'a> {
         })
     }
 
-    /// Calls `read` for an accessor, and names the accessor in faults.
+    /// Calls `read` with an accessor's description, and adds the accessor's number to its faults.
     fn read_accessor<T>(
         &mut self,
         accessor: usize,
@@ -80,7 +80,7 @@ impl<'a> AccessorReader<'a> {
         read(self, about).map_err(|fault| fault.at(element_name("accessor", accessor, None)))
     }
 
-    /// Reads all elements of an accessor, sparse ones included.
+    /// Reads all elements of an accessor, including those that its sparse part replaces.
     fn read_elements<T: Clone>(
         &mut self,
         about: &schema::Accessor,
@@ -116,7 +116,8 @@ impl<'a> AccessorReader<'a> {
         Ok(elements)
     }
 
-    /// Returns the bytes of each of `count` elements of `size` bytes, at a constant stride.
+    /// Returns an iterator over the bytes of each of `count` elements of `size` bytes, at a constant stride in a buffer
+    /// view.
     fn rows(
         &self,
         view: usize,
@@ -140,7 +141,7 @@ impl<'a> AccessorReader<'a> {
         Ok((0..count as usize).map(move |k| &bytes[k * stride as usize..][..size]))
     }
 
-    /// Reads the positions at which a sparse accessor replaces elements of a list of a given length.
+    /// Reads the indices of the elements that a sparse accessor replaces, each below `length`.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
         let component = ComponentType::index_type_from_code(about.component_type)?;
@@ -182,7 +183,7 @@ impl ComponentType {
         })
     }
 
-    /// Returns the component type of vertex indices for a numeric code.
+    /// Returns the unsigned integer type with a given glTF code, for vertex indices; other types are a fault.
     fn index_type_from_code(number: u32) -> Result<Self, MeshFault> {
         match ComponentType::from_code(number)? {
             unsigned @ (ComponentType::U8 | ComponentType::U16 | ComponentType::U32) => {
@@ -202,7 +203,8 @@ impl ComponentType {
         }
     }
 
-    /// Reads a coordinate from its bytes. A normalized integer is a fraction of the largest value of its type.
+    /// Reads a coordinate of this type from the first bytes of a slice. A normalized integer is a fraction of the
+    /// largest value of its type.
     fn read_coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
         let number = self.read_f64(bytes);
         let largest: f64 = match self {
@@ -229,7 +231,7 @@ impl ComponentType {
     }
 }
 
-/// Returns the first `N` bytes, or zeros if there are too few.
+/// Returns the first `N` bytes of a slice, or `N` zeros if there are too few.
 fn first_bytes<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.first_chunk().copied().unwrap_or([0; N])
 }

@@ -1,4 +1,4 @@
-//! Resolves the buffers of a glTF: embedded, binary chunk, or separate file.
+//! Finds the bytes of the buffers of a glTF: embedded in the JSON, in the binary chunk, or in a separate file.
 
 use super::schema::{Buffer, Root};
 use super::{element, extensions};
@@ -9,7 +9,7 @@ use base64::engine::general_purpose::GeneralPurpose;
 use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
 use std::borrow::Cow;
 
-/// The buffers of a file. A buffer that only a compression extension fills has no data and is `None`.
+/// The bytes of all buffers of a glTF. A buffer that only a compression extension fills has no data and is `None`.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
     bytes: Vec<Option<Cow<'a, [u8]>>>,
@@ -33,7 +33,7 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// Returns the bytes of a buffer view from `offset` on.
+    /// Returns the bytes of a buffer view, except for the first `offset` bytes.
     pub(super) fn view_bytes(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
         let buffer = self.bytes.get(about.buffer);
@@ -114,7 +114,7 @@ pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault>
     }
 }
 
-/// Returns the encoded data of a data URI; `None` for any other URI.
+/// Returns the base64 text of a data URI; `None` for any other URI.
 fn data_uri_payload(uri: &str) -> Option<Result<&str, MeshFault>> {
     let rest = match uri.split_at_checked(5) {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("data:") => rest,

@@ -1,4 +1,4 @@
-//! Splits a glTF into its JSON and its binary chunk.
+//! Splits a glTF file into its JSON and its binary chunk.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -56,7 +56,7 @@ impl<'a> Container<'a> {
     }
 }
 
-/// Reads a chunk: its kind and its content.
+/// Reads the next chunk, and returns its kind and its content.
 fn read_chunk<'a>(rest: &mut &'a [u8]) -> Result<([u8; 4], &'a [u8]), MeshFault> {
     let length = read_u32(rest)? as usize;
     let kind = read_four_bytes(rest)?;

@@ -1,4 +1,4 @@
-//! Checks the required extensions of a glTF. Only those that do not change shapes are accepted.
+//! Checks the extensions that a glTF requires of its readers. Only those that do not change shapes are accepted.
 
 use super::schema::Root;
 use crate::mesh::error::{MeshFault, Quote};
@@ -21,12 +21,12 @@ const HARMLESS_PREFIXES: [&str; 14] = [
     "EXT_instance_features",
 ];
 
-/// The extension for integer positions, which is supported.
+/// The name of the extension for positions as integers, which is supported.
 const QUANTIZATION_EXTENSION: &str = "KHR_mesh_quantization";
 
 const DRACO_EXTENSION: &str = "KHR_draco_mesh_compression";
 
-/// Refuses a file that requires an unsupported extension, as the specification demands.
+/// Returns an error if a file requires an unsupported extension, as the glTF specification demands.
 pub(super) fn check_required_extensions(root: &Root) -> Result<(), MeshFault> {
     let known = |name: &str| {
         name == QUANTIZATION_EXTENSION

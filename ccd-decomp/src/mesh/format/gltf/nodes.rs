@@ -10,7 +10,7 @@ use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
-/// The meshes of a glTF scene, and the parts that place them.
+/// The meshes of a glTF scene as shapes, and the parts that place them.
 #[derive(Default)]
 pub(super) struct Scene {
     pub(super) shapes: Vec<Polygons>,
@@ -18,8 +18,8 @@ pub(super) struct Scene {
     pub(super) remarks: Remarks,
 }
 
-/// Reads the default scene of the file, or else the first one. A file without scenes gives all nodes; one without
-/// nodes, all meshes.
+/// Reads the default scene of the file or, if none is named, the first scene. In a file without scenes it reads all
+/// nodes, and in a file without nodes all meshes.
 pub(super) fn scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene, MeshFault> {
     let mut walk = SceneTraversal {
         root,
@@ -41,11 +41,11 @@ pub(super) fn scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene,
     Ok(walk.scene)
 }
 
-/// The state of a traversal of the nodes. Each mesh is read at its first use.
+/// The state of a traversal of the scene's nodes. Each mesh is read at its first use.
 struct SceneTraversal<'a> {
     root: &'a Root,
     accessors: AccessorReader<'a>,
-    /// The number of the shape of each mesh that has been read, by mesh index.
+    /// The index of the shape for each mesh that has been read, by mesh index.
     shape_of_mesh: HashMap<usize, usize>,
     visited_nodes: Vec<bool>,
     scene: Scene,
@@ -104,7 +104,7 @@ impl SceneTraversal<'_> {
         self.visit_descendants(&tops)
     }
 
-    /// Adds remarks about content that was skipped or is drawn differently.
+    /// Adds remarks about content that was skipped, or that was read in its rest pose.
     fn add_remarks(&mut self) {
         let root = self.root;
         let with_mesh = root

@@ -1,4 +1,4 @@
-//! Reads the primitives of a glTF mesh as triangles.
+//! Reads the primitives of a glTF mesh, such as triangle lists and strips, as triangles.
 
 use super::accessor::AccessorReader;
 use super::extensions;
@@ -22,7 +22,7 @@ pub(super) fn shape(
     Ok(shape)
 }
 
-/// The range of vertex numbers in the shape that an accessor's points have.
+/// The range of the shape's vertices that were read from one accessor.
 #[derive(Clone, Copy)]
 struct VertexRange {
     first: usize,
@@ -89,7 +89,7 @@ fn add(
     Ok(())
 }
 
-/// Checks that the points are finite, before a transform, while they have the file's numbers.
+/// Checks that all points of an accessor are finite; a fault names the point by its number in the file.
 fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
     match points.iter().position(|point| !point.is_finite()) {
         Some(vertex) => Err(MeshFault::NotFinite { vertex, line: None }),
@@ -97,12 +97,14 @@ fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
     }
 }
 
-/// The codes of glTF for primitives of triangles. Smaller ones are of points and lines.
+/// The glTF mode of primitives that are separate triangles. Smaller modes are points and lines; the next two are strips
+/// and fans.
 const TRIANGLES_MODE: u32 = 4;
 const TRIANGLE_STRIP_MODE: u32 = 5;
 const TRIANGLE_FAN_MODE: u32 = 6;
 
-/// Returns the triangles in a common orientation: every second triangle of a strip is reversed.
+/// Returns the triangles of a primitive with the given mode and corners, all in the same orientation. Every second
+/// triangle of a strip is reversed for that.
 fn triangles(mode: u32, corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     let count = match mode {
         TRIANGLES_MODE => corners.len() / 3,

@@ -1,4 +1,4 @@
-//! The fields of a glTF's JSON that define shapes.
+//! The fields that are read from the JSON of a glTF: they define shapes and the places of shapes.
 
 use super::whole;
 use crate::mesh::error::MeshFault;

@@ -1,5 +1,5 @@
-//! Tests that valid glTF files are read as specified: `shapes` of meshes, and `nodes` that place them. Invalid files
-//! are in `faults`.
+//! Tests that valid glTF files are read as the glTF specification says. `shapes` tests meshes, `nodes` tests the nodes
+//! that place them, and `faults` tests invalid files.
 
 mod faults;
 mod nodes;
@@ -31,7 +31,7 @@ fn corner(gltf: &Gltf) -> DVec3 {
     read(gltf).vertices()[1]
 }
 
-/// Returns a glTF of a square: two triangles over four vertices.
+/// Returns a glTF with an accessor of the four corners of a unit square, and no primitives yet.
 fn square_gltf() -> Gltf {
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
@@ -86,7 +86,7 @@ fn extensions_about_looks_do_not_hinder() {
     assert_eq!(read(&gltf).faces().len(), 1);
 }
 
-/// Tests that uncompressed data in a Draco or meshopt file is read.
+/// Tests that the uncompressed data are read if a glTF holds its data also in Draco or meshopt compression.
 #[test]
 fn data_beside_a_compression_is_read() {
     let mut gltf = Gltf::triangle().set(
@@ -99,7 +99,8 @@ fn data_beside_a_compression_is_read() {
     assert_eq!(read(&gltf).faces().len(), 1);
 }
 
-/// Tests that 1.0 and 1e0 are read as 1 in counts and indices, as JSON allows.
+/// Tests that a glTF with whole numbers written as floats, such as 1.0, gives the same faces as with integers. Numbers
+/// that are fractional, negative, too large or quoted are errors.
 #[test]
 fn whole_numbers_may_have_a_fraction_of_zero() {
     fn convert_numbers_to_floats(value: &mut serde_json::Value) {

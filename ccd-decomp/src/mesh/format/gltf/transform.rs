@@ -20,7 +20,7 @@ pub(super) fn node_transform(node: &Node) -> Result<AffineMap, MeshFault> {
     }
 }
 
-/// Composes the map from a node's scale, rotation and translation, applied in this order.
+/// Returns the affine map that applies a node's scale, then its rotation, then its translation.
 fn compose(node: &Node) -> Result<AffineMap, MeshFault> {
     let scale = node.scale.map_or(DVec3::ONE, DVec3::from_array);
     let rotation = node.rotation.unwrap_or(DQuat::IDENTITY.to_array());

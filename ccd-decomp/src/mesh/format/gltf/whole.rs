@@ -3,12 +3,12 @@
 use serde::de::{Deserialize, Deserializer, Error, Unexpected};
 use serde_json::Value;
 
-/// Deserializes a required whole number.
+/// Deserializes a required whole number, which may be written like 1.0 or 1e0.
 pub(super) fn required<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result<T, D::Error> {
     whole(&Value::deserialize(from)?)
 }
 
-/// Deserializes an optional whole number.
+/// Deserializes an optional whole number, which may be written like 1.0 or 1e0.
 pub(super) fn optional_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Option<T>, D::Error> {
@@ -16,7 +16,7 @@ pub(super) fn optional_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     number.as_ref().map(whole).transpose()
 }
 
-/// Deserializes a list of whole numbers.
+/// Deserializes a list of whole numbers, which may be written like 1.0 or 1e0.
 pub(super) fn number_list<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {

@@ -94,7 +94,7 @@ fn an_element_that_is_passed_over_is_named() {
     }
 }
 
-/// Returns a text PLY with the given face elements in its header, and the given lines.
+/// Returns a text PLY of five vertices, with `faces` as the end of its header and `lines` after the vertices.
 fn ply_text(faces: &str, lines: &str) -> String {
     format!(
         "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\

@@ -4,7 +4,7 @@ use crate::worst::{Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Searches for the largest error of the normal of an accepted facet, as a fraction of the error of distances.
+/// Tests that the unit normal of an accepted facet has a rounding error of at most `NEAREST_DISTANCE_ERROR`.
 #[test]
 fn worst_normal() {
     let found = Worst::of("MIN_CORNER_SINE, a normal", 20_000).search(|tape| {

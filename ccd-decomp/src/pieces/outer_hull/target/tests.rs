@@ -1,4 +1,4 @@
-//! Compares distances to a triangle with exact fractions, in the worst cases that a search finds.
+//! Tests distances from a point to a triangle against exact fractions. A random search looks for the largest error.
 
 use super::Target;
 use crate::mesh::TriangleMesh;

@@ -1,4 +1,4 @@
-//! Compares cuts of an edge with exact fractions, in the worst cases that a search finds.
+//! Tests the clipping of an edge against exact fractions. A random search looks for the largest error.
 
 use super::clip_to_half_space;
 use crate::rational::{Exact3, exact};
@@ -28,7 +28,7 @@ fn distance_from_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
     root * 2f64.powi(-250)
 }
 
-/// Cuts an edge by a plane between its ends, and leaves the part from the cut to one end.
+/// Clips an edge at a random coordinate plane between its ends, and keeps the part on one side.
 fn cut(tape: &mut RandomCase, polygon: &mut Vec<DVec3>) -> Option<()> {
     let (axis, keep) = (tape.pick(3), tape.pick(2) == 0);
     let (p, q) = (polygon[0][axis], polygon[1][axis]);
@@ -46,7 +46,7 @@ fn largest_coordinate(of: [DVec3; 2]) -> f64 {
     greater(of[0].abs().max_element(), of[1].abs().max_element())
 }
 
-/// Tests that six successive cuts, as many as a box has sides, move a point by less than the bound.
+/// Tests that an edge clipped six times, once for each side of a box, stays on its line to within `excess_rounding`.
 #[test]
 fn worst_cuts() {
     let found = Worst::of("excess_rounding, 6 cuts", 20_000).search(|tape| {

@@ -2,8 +2,7 @@ use super::*;
 use crate::exact::predicates::side;
 use proptest::prelude::*;
 
-/// Tests by brute force, over all planes through three of the points, whether one separates the triangle from the
-/// hull.
+/// Returns whether any plane through three of the points separates the triangle from the hull, by trying all planes.
 fn is_separated_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
     let obstacle = Obstacle::new(points, hull);
     let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();
@@ -37,8 +36,8 @@ proptest! {
         prop_assert_eq!(Obstacle::new(&points, &hull).is_separated_from(triangle), expected);
     }
 
-    /// Tests that a triangle with a point strictly inside all facets is not reported as apart. The coordinates make
-    /// the point exact.
+    /// Tests that a triangle with a point strictly inside the hull is not reported as separated from the hull. The
+    /// coordinates make the point exact.
     #[test]
     fn triangles_inside_are_not_apart(
         hull in prop::collection::vec(coarse(), 4..9),

@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
-/// Returns combs with teeth of whole or uneven heights, rotated by an angle, with tetrahedra in, on and next to them.
+/// Returns a comb with teeth of the given heights, and a tetrahedron at each of the given places, all rotated by an
+/// angle.
 fn combs_with_tetrahedra(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
     let comb = comb(heights);
     let thorn = tetrahedron();
@@ -26,8 +27,7 @@ fn combs_with_tetrahedra(heights: &[f64], places: &[[i32; 4]], turn: f64) -> Tri
     crate::test_meshes::mesh(turned.collect(), all.faces())
 }
 
-/// Tests that all pairs of faces that meet are reported, except those of one plate. Compares with an exact test of
-/// all pairs.
+/// Tests that every pair of faces that intersect is reported exactly once, against an exact test of all pairs.
 #[test]
 fn whoever_meets_is_reported() {
     let place = [-1..80_i32, -1..12_i32, -2..4_i32, 1..4_i32];

@@ -45,7 +45,7 @@ fn check(nodes: &[Node]) -> Vec<u32> {
     pieces
 }
 
-/// Returns the total area of all boxes after a move.
+/// Returns half the total area of all boxes after the subtree `from` becomes the sibling of `to`.
 fn total_area_after_move(nodes: &[Node], from: u32, to: u32) -> f64 {
     let mut copy = nodes.to_vec();
     Tree::new(&mut copy).apply(from, to);

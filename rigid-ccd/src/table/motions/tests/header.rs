@@ -1,4 +1,4 @@
-//! Tests headers, and files that are not tables.
+//! Tests which headers are refused, and that files of other formats are recognised.
 
 use super::*;
 use crate::table::courses::Courses;
@@ -94,7 +94,7 @@ fn columns_that_need_each_other_come_together() {
     assert!(MotionTable::read(&b"a_px,b_vy,a_wz,b_cx\n"[..]).is_ok());
 }
 
-/// Tests that columns of Euler angles are refused: without them, the table would describe another motion.
+/// Tests that a column of an Euler angle is refused, with a message that names the columns of the quaternion.
 #[test]
 fn angles_are_pointed_to_quaternions() {
     for (column, columns) in [

@@ -34,7 +34,8 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     case
 }
 
-/// Returns the same motion, given by end poses about any centre, and moved far from the origin.
+/// Returns a motion with the displacement of `course` and a start moved by `far`, in most cases between end poses and
+/// about a random centre.
 fn between_end_poses(
     draw: &mut RandomSource,
     course: &RawMotion,

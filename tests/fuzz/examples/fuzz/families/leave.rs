@@ -1,4 +1,5 @@
-//! Draws queries of bodies in contact at the start that are released: they separate, slide, approach or rotate.
+//! Draws queries under `StartPolicy::Leave` of bodies in contact at the start, which separate, slide, approach or
+//! rotate.
 
 use super::{motion_at_rest, settings_with_random_tolerance};
 use crate::case::{Case, Expectation, Shape};
@@ -66,8 +67,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     }
 }
 
-/// Returns a shape moved so that its lowest corner is in the plane z = 0, and the height of the origin above it,
-/// which is 0.
+/// Returns a shape moved so that its lowest corner is at z = 0, with 0 as the height of its origin above that plane.
 fn with_lowest_corner_at_zero(shape: Shape) -> (Shape, f64) {
     let lowest = shape
         .vertices
@@ -76,7 +76,7 @@ fn with_lowest_corner_at_zero(shape: Shape) -> (Shape, f64) {
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
 }
 
-/// Returns the velocity and the angular velocity of a released body, and the expected result.
+/// Returns a random velocity and angular velocity of a body in contact at the start, and the expected result.
 fn released_motion(
     draw: &mut RandomSource,
     gap: f64,

@@ -86,7 +86,7 @@ fn thin_triangles(draw: &mut RandomSource) -> Shape {
     shape
 }
 
-/// Returns a direction with small whole components, or any direction.
+/// Returns a vector with whole components from −2 to 2, or a random unit vector.
 fn lattice_direction(draw: &mut RandomSource) -> [f64; 3] {
     if draw.bool_with_probability(0.3) {
         return draw.direction();

@@ -46,7 +46,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     }
 }
 
-/// Returns one to four closed parts. Some are inside out, and some are nested.
+/// Returns a shape of one to four closed parts. Some are inside out, and some are nested.
 fn closed_parts(draw: &mut RandomSource) -> Shape {
     let count = draw.count(1..5);
     let mut all = Shape::default();

@@ -13,17 +13,17 @@ const BUDGET: u64 = 20_000;
 /// The largest rotation of a body, in radians. The referee takes time in proportion to it.
 const MAX_ROTATION: f64 = 40.0;
 
-/// The bits for the kind of shape, in the byte before a shape.
+/// The mask of the bits that give the kind of a shape, in the byte before the shape.
 pub(super) const KIND_MASK: u8 = 7;
 pub(super) const FLIPPED_BIT: u8 = 64;
 pub(super) const SCALED_BIT: u8 = 128;
-/// The bit for a rotated start, in the byte before a motion.
+/// The bit that marks a rotated start pose, in the byte before a motion.
 pub(super) const ROTATED_BIT: u8 = 1;
 pub(super) const VELOCITY_BIT: u8 = 2;
 pub(super) const SPIN_BIT: u8 = 4;
 pub(super) const CENTRE_BIT: u8 = 8;
 pub(super) const END_POSE_BIT: u8 = 16;
-/// The bit for a margin, in the byte before the settings.
+/// The bit that marks a margin, in the byte before the settings.
 pub(super) const MARGIN: u8 = 1;
 pub(super) const LEAVE_BIT: u8 = 2;
 pub(super) const DURATION_BIT: u8 = 4;
@@ -32,7 +32,7 @@ pub(super) const TOLERANCE: u8 = 16;
 pub(super) const AIMED_BIT: u8 = 32;
 pub(super) const EXTRA_CHECKS_BIT: u8 = 64;
 
-/// The kind of shape that is a mesh of any vertices and faces.
+/// The number of the kind of shape with arbitrary vertices and faces.
 pub(super) const MESH_KIND: u8 = 0;
 
 pub(super) fn decode_question(bytes: &[u8]) -> Question {
@@ -87,7 +87,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Settings {
     }
 }
 
-/// Returns the methods that answer the query: always the default, and mostly another one.
+/// Returns the methods that answer the query: always the default, and in most cases another one.
 fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
     const METHODS: [Method; 5] = [
         Method::Direct,

@@ -9,8 +9,8 @@ use crate::case::{Case, Form, Shape};
 use crate::raw_motion::{Goal, RawMotion};
 use ccd_core::StartPolicy;
 
-/// Returns bytes that decode to the case and to the method with a number from 0 to 14. The budget is kept only if it
-/// is small, and meshes must have fewer than 33 vertices and 49 faces.
+/// Returns bytes that decode to the case and to the `method`, a number from 0 to 14. The budget is kept only if it is
+/// small, and meshes must have fewer than 33 vertices and 49 faces.
 pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
     let mut out = Writer(Vec::new());
     let config = &case.config;

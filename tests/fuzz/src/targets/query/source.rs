@@ -1,6 +1,6 @@
 //! Reads numbers from the bytes of a fuzz input.
 
-/// A reader of numbers from bytes. Most numbers take one byte, and often return, so that edges line up and gaps
+/// A reader of numbers from bytes. Most numbers take one byte, and numbers often repeat, so that edges align and gaps
 /// vanish.
 pub(super) struct Source<'a> {
     bytes: &'a [u8],
@@ -9,7 +9,7 @@ pub(super) struct Source<'a> {
 
 /// The tag byte before a number in eight bytes.
 pub(super) const RAW_NUMBER_TAG: u8 = 255;
-/// The number of tag bytes that stand for multiples of a sixteenth.
+/// The number of tag bytes that stand for multiples of 1/16, from −4 to below 4.
 pub(super) const SIXTEENTH_TAGS: u8 = 128;
 
 impl<'a> Source<'a> {
@@ -68,7 +68,7 @@ impl<'a> Source<'a> {
         x
     }
 
-    /// Returns a number read before, `back` numbers before the last one.
+    /// Returns the number that was read `back` numbers before the last one; 0 if there is none.
     fn earlier(&self, back: u8) -> f64 {
         let at = self.seen.len().checked_sub(1 + usize::from(back));
         at.map_or(0.0, |at| self.seen[at])
@@ -78,7 +78,7 @@ impl<'a> Source<'a> {
         [(); N].map(|()| self.number())
     }
 
-    /// Reads `N` numbers if a bit is set; otherwise returns the numbers `or`.
+    /// Reads `N` numbers if `bit` is true; otherwise returns `or`.
     pub(super) fn numbers_if<const N: usize>(&mut self, bit: bool, or: [f64; N]) -> [f64; N] {
         if bit { self.numbers() } else { or }
     }

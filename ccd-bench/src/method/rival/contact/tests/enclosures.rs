@@ -1,4 +1,4 @@
-//! Compares enclosures, boxes and triangles with samples of the motion.
+//! Tests enclosures of motions, separated boxes, and first touches of triangles against samples of the motions.
 
 use crate::method::rival::contact::boxes::{BoxRelation, relate_boxes};
 use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
@@ -114,7 +114,7 @@ fn random_box(samples: &mut RandomSource) -> Obb {
     }
 }
 
-/// Returns true if a point of a grid over one box lies in the other.
+/// Returns true if a point of a grid over either box lies in the other box.
 fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
     const GRID_COORDINATES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
     let grid = |o: &Obb| {
@@ -197,11 +197,11 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     }
 }
 
-/// A bound on the relative speed of the triangles' points in this test: centres move by √3 (2 + 4), points up to 3 √3
-/// from them by √3 times as much, twice.
+/// An upper bound of the relative speed of the triangles' points in this test. Centres move by √3 (2 + 4), points up to
+/// 3 √3 from them by √3 times as much, twice.
 const MAX_SPEED: f64 = 30.0;
 
-/// Returns a motion of the first body towards the second one's start.
+/// Returns a random relative motion in which the first body flies towards the start of the second.
 fn approaching_motion(samples: &mut RandomSource) -> RelativeMotion {
     let query = samples.query(1.0, 1.0);
     let (mut a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));

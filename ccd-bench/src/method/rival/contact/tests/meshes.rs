@@ -9,7 +9,7 @@ use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// The number of samples of a motion for the reference answer.
+/// The number of steps between the samples of a motion for the reference answer.
 const SAMPLE_COUNT: u32 = 1000;
 
 fn placement(query: &Motions, time: f64) -> Placement {
@@ -17,7 +17,7 @@ fn placement(query: &Motions, time: f64) -> Placement {
     a.relative_to(&b)
 }
 
-/// Returns the first sample at which the meshes cross.
+/// Returns the time of the first sample at which the two meshes touch or cross.
 fn first_crossing(tree: &ObbTree, query: &Motions) -> Option<f64> {
     let mut stack = Vec::new();
     (0..=SAMPLE_COUNT)
@@ -37,8 +37,8 @@ fn mesh_distance(mesh: &TriangleMesh, at: &Placement) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Compares the method's answers to queries with samples, and returns the number of contacts. Returns the number of
-/// hits.
+/// Asserts that the method's contacts are neither missed nor late nor farther apart than the tolerance, as samples of
+/// the motions show. Returns the number of hits.
 fn check_against_samples(queries: &[Motions], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
@@ -101,7 +101,7 @@ fn both_bodies_may_move_and_turn_far() {
     assert!((6..20).contains(&hits), "{hits} of 20 hit");
 }
 
-/// Returns another motion from the same start pose.
+/// Returns a motion from the same start pose with other velocities.
 fn with_velocities(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(motion.start(), velocity, spin).unwrap()
 }

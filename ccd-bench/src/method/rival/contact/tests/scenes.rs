@@ -8,15 +8,17 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// The half length of the rod, and below it the half width.
+/// The half length of the rod that rotates in these scenes.
 const ROD_HALF_LENGTH: f64 = 2.0;
+/// The half width of this rod.
 const ROD_HALF_WIDTH: f64 = 0.05;
 
 fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Motions) -> Claim {
     Contact::new(a, b).answer(query, tolerance).claim
 }
 
-/// Asserts at three tolerances that the answer is not late, and not earlier than the time to close the tolerance.
+/// Asserts at three tolerances that a contact is not late, and early by at most the time to close 1.5 times the
+/// tolerance.
 fn assert_contact(meshes: [&TriangleMesh; 2], query: &Motions, exact: f64, speed: f64) {
     for tolerance in [1e-2, 1e-4, 1e-8] {
         let swapped = Motions {
@@ -41,7 +43,7 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Motions, exact: f64, speed
     }
 }
 
-/// Returns a fall from a height of 3 with speed 4 onto a body whose top is at 0.
+/// Returns the query of a body that falls from height 3 at speed 4 onto a body whose top is at height 0.
 fn flat_fall_query() -> Motions {
     let down = -4.0 * DVec3::Z;
     let a = constant_velocity_motion(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);

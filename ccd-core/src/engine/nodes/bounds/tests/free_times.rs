@@ -1,4 +1,4 @@
-//! Compares free times with a sorted list.
+//! Tests that `FreeTimes` returns its lanes in the order of a sorted list.
 
 use crate::body::tree::LANES;
 use crate::engine::nodes::bounds::{FreeTimes, LANE_BITS};
@@ -7,7 +7,7 @@ use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;
 
-/// Draws a time; many are equal or extreme.
+/// Draws a free time; many are equal, extreme or NaN.
 fn time(rng: &mut Pcg64) -> f32 {
     match rng.random_range(0..7) {
         0 => 0.0,

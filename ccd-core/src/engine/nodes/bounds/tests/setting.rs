@@ -1,4 +1,4 @@
-//! Draws groups and other nodes that come near each other, in f64 and rounded to f32.
+//! Draws groups of nodes, and other nodes near them, in f64 and rounded to f32.
 
 use super::{Sample, Solid};
 use crate::body::tree::{
@@ -41,7 +41,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Draws a box of any proportions, a needle, or a tiny box.
+    /// Draws a box of random size and proportions, often as thin as a plate or a needle.
     pub(super) fn new(rng: &mut impl RngExt) -> Self {
         let size = magnitude(rng, -4.0, 4.0);
         Shape::random_of_size(rng, size, DVec3::ZERO)
@@ -96,7 +96,7 @@ pub(super) struct Setting {
     /// The rotation from the other body's frame to the split body's.
     turn: DMat3,
     place: DVec3,
-    /// The size of the children.
+    /// The scale of the children's sizes, and of their distances from the group's origin.
     size: f64,
     origin: DVec3,
     velocity: DVec3,
@@ -136,12 +136,12 @@ impl Setting {
         }
     }
 
-    /// Returns the size of the children.
+    /// Returns the scale of the children's sizes, and of their distances from the group's origin.
     pub(super) fn size(&self) -> f64 {
         self.size
     }
 
-    /// Moves the other node to a distance, in units of both sizes.
+    /// Moves the other node to the distance `far`, in units of the sum of both sizes.
     pub(super) fn at_distance(self, far: f64, other: &Shape) -> Self {
         let far = far * (f64::from(other.node.radius) + self.size);
         Setting {
@@ -233,7 +233,7 @@ impl Setting {
         self.sample(group, triangle, reach, children, far)
     }
 
-    /// Creates a sample with the allowances that an expansion uses.
+    /// Creates a sample with the allowances for rounding that an expansion uses.
     fn sample<C, P: OtherNode>(
         &self,
         group: C,

@@ -1,4 +1,4 @@
-//! The errors of bounds, as shares of their allowances.
+//! Computes the rounding errors of bounds, as shares of their allowances.
 
 use super::{AxisValues, Sample, free_times};
 use crate::body::tree::LANES;
@@ -27,7 +27,7 @@ pub(super) struct ErrorShares {
     pub(super) clock: f64,
 }
 
-/// Returns the error of a free time as a share of [`FREE_TIME_FACTOR_F32`].
+/// Returns the error of a free time as a share of the allowance in [`FREE_TIME_FACTOR_F32`].
 pub(super) fn free_time_error_share(numbers: [f32; 4]) -> f64 {
     let [free, apart, rate, second_derivative] = numbers.map(f64::from);
     let root = (rate * rate + 2.0 * second_derivative * apart).sqrt();
@@ -59,7 +59,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// Returns the errors of a lane as shares of their allowances.
+    /// Returns the rounding errors of one pair's bounds, as shares of their allowances.
     pub(super) fn error_shares(
         &self,
         found: &AxisValues,

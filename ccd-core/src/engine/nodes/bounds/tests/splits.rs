@@ -1,4 +1,4 @@
-//! Compares the choices of the pairs that wait, and of the nodes to split, with choices in f64.
+//! Tests which pairs the bounds choose to visit again, and which nodes to split, against choices computed in f64.
 
 use super::setting::{Setting, Shape};
 use super::{Sample, axis_values, widest_axis};
@@ -52,7 +52,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         })
     }
 
-    /// Sets `motion.larger` to the split or the other body if its nodes are much larger than the other's.
+    /// Sets `motion.larger` to the body whose nodes are much larger, or to `None` if neither body's nodes are.
     fn with_larger_side(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
@@ -76,7 +76,7 @@ fn exceeds(one: f64, other: f64) -> Option<bool> {
     ((one - other).abs() > near).then_some(one > other)
 }
 
-/// The number of choices against and for an option.
+/// For each option, the number of pairs for which it was not chosen, and for which it was chosen.
 #[derive(Debug, Default)]
 struct Decisions {
     revisit: [usize; 2],

@@ -19,7 +19,7 @@ use crate::tests::worst::{RandomCase, Worst, share};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
 
-/// A search for the largest share of one allowance among random settings.
+/// A search among random settings for the largest rounding error, as a share of its allowance.
 #[derive(Clone, Copy)]
 struct Search {
     name: [&'static str; 2],
@@ -29,7 +29,7 @@ struct Search {
 }
 
 impl Search {
-    /// Runs the search over nodes with boxes, then over triangles.
+    /// Runs the search over boxes, then over triangles, and checks the largest shares.
     fn run(self) {
         let boxes = Worst::of(self.name[0], 3_000).search(|tape| {
             let other = Shape::new(tape);
@@ -63,7 +63,8 @@ impl Search {
     }
 }
 
-/// Tests nodes that are far apart: their size contributes less than a hundredth of the allowance.
+/// Tests the errors of gaps between nodes that are far apart. Their size contributes less than a hundredth of the
+/// allowance.
 #[test]
 fn way_f32() {
     Search {
@@ -81,7 +82,8 @@ fn way_f32() {
     .run();
 }
 
-/// Tests nodes that are close: their distance contributes less than a hundredth of the allowance.
+/// Tests the errors of gaps between nodes that are close. Their distance contributes less than a hundredth of the
+/// allowance.
 #[test]
 fn reach_f32() {
     Search {
@@ -107,8 +109,8 @@ fn rate_f32() {
     .run();
 }
 
-/// Tests a node that turns about its own middle far from the group. Its speed is tiny, except for the share of its
-/// position.
+/// Tests the errors of closing rates for a node that turns about its own middle far from the group. The speed from
+/// which the allowance is computed is tiny, except for the share of the node's position.
 #[test]
 fn places() {
     Search {
@@ -128,7 +130,7 @@ fn places() {
     .run();
 }
 
-/// Computes eight numbers with every set of vector instructions, and checks that all are equal.
+/// Computes a value with every set of vector instructions, and checks that all results are equal.
 fn on_all_instruction_sets<T: PartialEq + std::fmt::Debug>(
     of: impl Fn(fearless_simd::Level) -> T,
 ) -> T {
@@ -147,7 +149,7 @@ fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     })
 }
 
-/// Draws eight axes, rounded to f32, and an angular velocity.
+/// Draws eight unit axes and an angular velocity, to which some of the axes are nearly parallel.
 fn turned(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
     let spin = DVec3::from(tape.vector(-20..=5));
     let aside = tape.size(-30..=0);
@@ -172,7 +174,7 @@ fn across_f32() {
     found.is_within(8.0);
 }
 
-/// Measures the error of products whose two factors are both close to their upper bounds.
+/// Measures the relative error of products of two lengths `|n × ω|`, each above half of its upper bound.
 #[test]
 fn bend_f32() {
     let found = Worst::of("SECOND_DERIVATIVE_FACTOR_F32", 40_000).search(|tape| {
@@ -211,8 +213,8 @@ fn clock_f32() {
     found.is_within(16.0);
 }
 
-/// Measures the underflow of gaps just above the least gap, which takes less than the rounding of its time. The gap is
-/// that used up at the end of a free time, or of the duration.
+/// Measures by how much a free time uses up more than the whole gap, for gaps just above the least gap. The excess is
+/// due to underflow, and is a share of the allowance for the rounding of the free time.
 #[test]
 fn least_gap_f32() {
     let found = Worst::of("LEAST_GAP_F32", 40_000).search(|tape| {
@@ -245,7 +247,7 @@ fn least_gap_f32() {
     found.is_within(16.0);
 }
 
-/// Tests the shortest vectors that give an axis: their lengths are as accurate as those of longer ones.
+/// Tests that the lengths of the shortest vectors that give an axis are as accurate as those of longer vectors.
 #[test]
 fn least_axis_f32() {
     let found = Worst::of("LEAST_AXIS_F32", 40_000).search(|tape| {

@@ -19,7 +19,7 @@ use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{RandomCase, Worst, share};
 use glam::DVec3;
 
-/// The exact rotation of a body from a given frame.
+/// The rotation of a body about a centre from a given frame, in double-double arithmetic.
 struct ExactRotation {
     frame: Frame,
     spin: Double3,
@@ -82,7 +82,7 @@ fn worst_rate() {
     found.is_within(10.0);
 }
 
-/// Measures the error of distances that are bounded by a ball around many points.
+/// Measures the rounding error of the upper bound of the distances to all points in a ball.
 #[test]
 fn worst_farthest() {
     let found = Worst::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
@@ -98,8 +98,8 @@ fn worst_farthest() {
     found.is_within(16.0);
 }
 
-/// Returns the errors of the lowest height and of the least rate of many points, as shares of [`TURNED_SUPPORT`]. The
-/// points are equally low up to rounding, and far from each other.
+/// Returns the errors of the lowest height and of the least rate of many points, as shares of [`TURNED_SUPPORT_ERROR`].
+/// The points are equally low up to rounding, and far from each other.
 fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.fraction());
     let ball = Body::sphere(0.1).ok()?;
@@ -168,7 +168,7 @@ fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
     Some([share(height, allowed), share(rate, path.rate * allowed)])
 }
 
-/// The number of points of the tested pieces, more than are scanned.
+/// The number of points of each tested piece, so many that extremal points are searched and not scanned.
 const COUNT: usize = 36;
 
 #[test]

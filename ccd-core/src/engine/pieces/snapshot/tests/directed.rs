@@ -1,10 +1,10 @@
-//! Compares free times from a bound of each body's velocity with the sum of both bounds.
+//! Tests that a free time along an axis is the gap divided by the sum of both bodies' velocity bounds.
 
 use super::super::*;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, RngExt, rng, scene};
 
-/// Returns the rate at which two pieces approach along a normal from A to B, by a bound.
+/// Returns the sum of both bodies' velocity bounds along a normal from A to B.
 fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: VelocityBound, reaches: [f64; 2]) -> f64 {
     let Problem { a, b, .. } = snapshot.problem;
     let sides = [

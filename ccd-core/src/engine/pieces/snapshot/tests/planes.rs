@@ -1,4 +1,4 @@
-//! Tests which planes are tried, and how the work is counted.
+//! Tests which planes give the free time of two pieces, and how the work is counted.
 
 use super::super::*;
 use crate::body::Body;
@@ -78,7 +78,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
 }
 
-/// Returns the free time of a plane; infinite if the plane keeps the pieces apart for good.
+/// Converts a free time to a number; `None`, an unbounded time, becomes infinity.
 fn time(free: Option<f64>) -> f64 {
     free.unwrap_or(f64::INFINITY)
 }
@@ -160,7 +160,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
     assert!((100..500).contains(&planes), "{planes}");
 }
 
-/// Tests that the allowance for rounding is a share of all speeds, not of the rate of approach, which may be much less.
+/// Tests that the allowance for rounding is a share of both bodies' speeds, not of their much lower rate of approach.
 #[test]
 fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     let [a, b] = [0.5, 0.25].map(|size| body(&[[DVec3::ZERO, size * DVec3::X, size * DVec3::Y]]));
@@ -188,8 +188,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     }
 }
 
-/// Tests that pieces pass with exactly the slack that the points' descent by rotation, the common motion and rounding
-/// take.
+/// Tests that `rotation_keeps_slack` requires exactly the slack that rotation, straight motion and rounding use up.
 #[test]
 fn points_that_turn_pass_with_all_the_slack_they_need() {
     let mut rng = rng(13);
@@ -251,7 +250,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
 
-/// Compares the slack that accelerated motion takes with samples.
+/// Compares `least_linear_displacement` with the least of dense samples.
 #[test]
 fn a_drift_is_least_at_an_end_or_where_it_turns() {
     let mut rng = rng(14);
@@ -273,7 +272,7 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
     assert!(within.iter().all(|&count| count > 200), "{within:?}");
 }
 
-/// Checks the plane between the nearest points at their time of closest approach on straight paths.
+/// Checks that a plane is perpendicular to the vector between two points on straight paths at their closest approach.
 fn check_closest_approach_plane(
     snapshot: &Snapshot<'_>,
     checked: &CheckedClaim,

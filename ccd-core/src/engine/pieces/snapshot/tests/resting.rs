@@ -1,4 +1,4 @@
-//! Tests triangles in one plane: the side on which each is kept, and the free time.
+//! Tests for two triangles in one plane on which side of it each is kept, and for how long.
 
 use super::super::*;
 use crate::body::{Body, Volume};
@@ -33,7 +33,7 @@ impl Resting {
         }
     }
 
-    /// Creates a solid above the plane if `side` is positive, and below it otherwise.
+    /// Creates a cube on top of the plane if `side` is positive, and below the plane otherwise.
     fn solid(side: f64) -> Self {
         Resting::new(
             &translated_triangles(&cube(0.5, 1), 0.5 * side * DVec3::Z),
@@ -59,7 +59,7 @@ impl Resting {
     }
 
     /// Creates a shell with a figure of eight as cross section: the solid is above one half of a face, and below the
-    /// other.
+    /// other half.
     fn figure_eight_shell() -> Self {
         let eight = [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, -1.0)];
         let at = |k: usize, y: f64| DVec3::new(eight[k % 4].0, y, eight[k % 4].1);
@@ -75,8 +75,8 @@ impl Resting {
     }
 }
 
-/// Returns the free time of B's triangle on A's, for a required gap of minus `k` roundings. B moves away along z by
-/// `speed` in the whole duration. Both are rotated together by `whole`.
+/// Returns the free time of B's triangle on A's for a required gap of minus `k` roundings, in units in which B moves by
+/// one rounding. B moves away along z by `speed` in the whole duration. Both are rotated together by `whole`.
 fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
     let pose = Pose::new(DVec3::ZERO, whole).unwrap();
     // B's own frame differs from A's.
@@ -98,7 +98,7 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
     free.map(|free| free * speed.abs() / problem.rounding)
 }
 
-/// Checks that the free time uses up all but one of `k` roundings.
+/// Checks that a free time, given as a displacement in roundings, is about `k − 1`.
 fn check(free: f64, k: f64) {
     assert!(
         (free / (k - 1.0) - 1.0).abs() < 0.1,

@@ -26,7 +26,7 @@ fn nodes_are_placed_by_their_transforms(#[case] node: Value, #[case] expected: D
     assert_eq!(corner(&gltf), expected);
 }
 
-/// Tests that a rotation whose floats have been rounded does not scale.
+/// Tests that a rotation quaternion in rounded f32 is normalized, so that it does not scale the mesh.
 #[test]
 fn rotations_are_made_unit_first() {
     let half = 0.707_106_77_f32;
@@ -37,7 +37,7 @@ fn rotations_are_made_unit_first() {
 }
 
 proptest! {
-    /// Tests that the JSON's decimals are read as the nearest f64, as Rust parses them.
+    /// Tests that decimal numbers in the JSON are rounded to the nearest f64, as by Rust's own parser.
     #[test]
     fn numbers_are_rounded_to_the_nearest(digits in 0..u64::MAX, exponent in -30..10) {
         let text = format!("{digits}e{exponent}");
@@ -72,7 +72,7 @@ fn nodes_are_placed_in_those_above_them() {
     );
 }
 
-/// Tests that a node with one mirroring reverses the triangles, and a node with two does not.
+/// Tests that negative scales along an odd number of axes reverse the triangles, and along an even number do not.
 #[test]
 fn mirrored_nodes_turn_the_faces_round() {
     let mut gltf = Gltf::triangle();

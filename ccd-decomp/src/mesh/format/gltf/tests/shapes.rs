@@ -115,7 +115,7 @@ fn vertices_may_be_interleaved_with_other_data() {
     assert_eq!(read(&gltf).vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
 }
 
-/// Tests that integer components are read as coordinates or, if normalized, as fractions of the largest value.
+/// Tests that integer components are read as coordinates or, if normalized, as fractions of their type's largest value.
 #[rstest]
 #[case::bytes(5120, false, &[1, 0x80, 0], dvec3(1.0, -128.0, 0.0))]
 #[case::fractions_of_bytes(5120, true, &[127, 0x80, 0x81], dvec3(1.0, -1.0, -1.0))]
