@@ -11,7 +11,7 @@ mod settings;
 use ccd_bench::method::PAPER_TOLERANCE;
 use ccd_bench::method::guarded::Programs;
 use ccd_bench::method::solver::Solver;
-use ccd_bench::method::{Method, Ours};
+use ccd_bench::method::{Method, ProjectSolver};
 use ccd_bench::run::contest::{MeasurementLimits, PreparedScene, Session};
 use ccd_bench::scene::{ModelCache, PieceKind, listings};
 use ccd_core::Settings;
@@ -63,13 +63,13 @@ fn benchmark_queries(criterion: &mut Criterion) {
                 continue;
             }
             // A method that does not support the scene is not timed. A wrong answer stops the benchmark.
-            if !all_answers_are_right(&contest, method) {
+            if !supports_scene(&contest, method) {
                 continue;
             }
             let bodies = scene
                 .bodies_with_pieces(pieces)
                 .expect("it has just opened a session");
-            let mut solver = Ours::new(kind, bodies, Settings::DEFAULT.margin);
+            let mut solver = ProjectSolver::new(kind, bodies, Settings::DEFAULT.margin);
             group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
                 bencher.iter(|| {
                     let steps =
@@ -83,13 +83,13 @@ fn benchmark_queries(criterion: &mut Criterion) {
 }
 
 /// Returns true if the method supports the scene, after asserting that all its answers are right.
-fn all_answers_are_right(contest: &PreparedScene<'_>, method: Method) -> bool {
+fn supports_scene(contest: &PreparedScene<'_>, method: Method) -> bool {
     let allowance = MeasurementLimits {
         cell: Duration::MAX,
         patience: Duration::MAX,
         max_rows: ROWS_PER_SCENE,
         min_rows: ROWS_PER_SCENE,
-        preparation: Duration::MAX,
+        preparation_limit: Duration::MAX,
     };
     let session = Session::open(method, contest.scene(), &Programs::default());
     let session = session.expect("no peer is asked");

@@ -69,7 +69,7 @@ fn benchmark_distances(criterion: &mut Criterion) {
                 assert_distances_close(&distances, &course.distances::<Vmarch>());
                 group.bench_function(id("vmarch"), |b| b.iter(|| run_sequence::<Vmarch>(&course)));
                 group.bench_function(id("gjk"), |b| b.iter(|| run_sequence::<Gjk>(&course)));
-                if a.all_triangles() {
+                if a.are_all_triangles() {
                     assert_distances_close(&distances, &course.distances::<ClosedForm>());
                     group.bench_function(id("direct"), |b| {
                         b.iter(|| run_sequence::<ClosedForm>(&course));

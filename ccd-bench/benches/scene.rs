@@ -23,7 +23,7 @@ const STEP_DURATION: f64 = 1.0 / 60.0;
 /// The number of steps in a flight, and the number of flying bodies.
 const STEP_AND_BODY_COUNTS: (u32, usize) = (20, 200);
 /// The number of grid squares along each side of the terrain, and half the length of a side.
-const HILL_GRID_SIZE: (u32, f64) = (119, 30.0);
+const HILL_CELLS_AND_HALF_WIDTH: (u32, f64) = (119, 30.0);
 
 /// A function that returns the start position and the velocity of a body. Its arguments are a random vector for each of
 /// the two, and the height of the ground as a vector.
@@ -72,7 +72,7 @@ fn terrain_height(x: f64, y: f64) -> f64 {
 /// Returns the body of the hills, followed by the four flying bodies: a sphere, a box, a capsule and a torus knot.
 fn hills_and_bodies() -> anyhow::Result<[Body; 5]> {
     let of_mesh = |mesh: &TriangleMesh| anyhow::Ok(body_from_mesh(mesh, Detail::Auto)?.body);
-    let (cells, half) = HILL_GRID_SIZE;
+    let (cells, half) = HILL_CELLS_AND_HALF_WIDTH;
     let row = cells + 1;
     let vertices = (0..row * row).map(|k| {
         let [x, y] =

@@ -36,14 +36,14 @@ fn benchmark_support_search(criterion: &mut Criterion) {
             b.iter(|| {
                 looks
                     .iter()
-                    .fold(0, |sum, &n| sum ^ scan.extremal(black_box(n)))
+                    .fold(0, |sum, &n| sum ^ scan.extremal_point(black_box(n)))
             });
         });
         group.bench_with_input(BenchmarkId::new("climb", corners), &cold, |b, looks| {
             b.iter(|| {
                 looks
                     .iter()
-                    .fold(0, |sum, &n| sum ^ table.extremal(black_box(n)))
+                    .fold(0, |sum, &n| sum ^ table.extremal_point(black_box(n)))
             });
         });
         group.bench_with_input(
@@ -51,8 +51,8 @@ fn benchmark_support_search(criterion: &mut Criterion) {
             &warm,
             |b, looks| {
                 b.iter(|| {
-                    let last = table.extremal(looks[0]);
-                    let next = |last, &n: &DVec3| table.extremal_from(last, black_box(n));
+                    let last = table.extremal_point(looks[0]);
+                    let next = |last, &n: &DVec3| table.extremal_point_from(last, black_box(n));
                     looks.iter().fold(last, next)
                 });
             },

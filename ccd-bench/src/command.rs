@@ -10,7 +10,7 @@ use answer::AnswerArgs;
 use chart::ChartArgs;
 use clap::{Parser, Subcommand};
 use judge::JudgeArgs;
-use rigid_ccd::command::{CannotWrite, exit_code};
+use rigid_ccd::command::{OutputError, exit_code};
 use stability::StabilityArgs;
 use std::env;
 use std::ffi::OsString;
@@ -65,8 +65,8 @@ pub fn main() -> ExitCode {
 }
 
 /// Prints a summary of the results to standard output.
-fn print_summary(text: &impl Display) -> Result<(), CannotWrite> {
-    writeln!(io::stdout(), "{text}").map_err(|source| CannotWrite {
+fn print_summary(text: &impl Display) -> Result<(), OutputError> {
+    writeln!(io::stdout(), "{text}").map_err(|source| OutputError {
         place: "the summary".to_owned(),
         source,
     })

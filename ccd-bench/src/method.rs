@@ -8,7 +8,7 @@ pub mod solver;
 pub mod wire;
 
 use crate::method::peer::PeerKind;
-use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, to_screw_motions};
+use crate::method::rival::{C2a, Contact, DynamicChecker, FixedTimeSteps, to_screw_motions};
 use crate::method::script::ScriptKind;
 use crate::method::solver::{Claim, Reply, Solver};
 use crate::names::name_of;
@@ -126,7 +126,7 @@ impl Method {
 
     /// Returns true if the method is measured at every tolerance. Methods whose answers do not depend on
     /// the tolerance are not, nor are models of the bodies that are only compared with each other.
-    pub fn takes_tolerances(self) -> bool {
+    pub fn runs_at_all_tolerances(self) -> bool {
         match self {
             Method::ThisProject(..) => !self.is_piece_variant(),
             Method::Rival(_) => true,
@@ -171,7 +171,7 @@ impl RivalKind {
             RivalKind::Contact => Box::new(Contact::new(a, b)),
             RivalKind::DynamicChecker => Box::new(DynamicChecker::new(a, b)),
             RivalKind::C2a => Box::new(C2a::new(a, b)),
-            RivalKind::FixedTimeSteps => Box::new(Stepping::new(a, b)),
+            RivalKind::FixedTimeSteps => Box::new(FixedTimeSteps::new(a, b)),
         }
     }
 }
@@ -193,17 +193,17 @@ pub(crate) fn first_contact(
 }
 
 /// A solver of this project, with the bodies that it is asked about.
-pub struct Ours<'s> {
+pub struct ProjectSolver<'s> {
     bodies: Bodies<'s>,
     kind: SolverKind,
     solver: Box<dyn Solve>,
     margin: f64,
 }
 
-impl<'s> Ours<'s> {
+impl<'s> ProjectSolver<'s> {
     /// Creates a solver of the given kind for two bodies, and the margin that they are to keep.
     pub fn new(kind: SolverKind, bodies: Bodies<'s>, margin: f64) -> Self {
-        Ours {
+        ProjectSolver {
             bodies,
             kind,
             solver: kind.solver(Instructions::Best),
@@ -212,7 +212,7 @@ impl<'s> Ours<'s> {
     }
 }
 
-impl Solver for Ours<'_> {
+impl Solver for ProjectSolver<'_> {
     /// Answers a query with the solver of this project, which refuses an invalid query. Steps are advancements of all
     /// pairs together, or pairs of nodes visited by the best-first schedule.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
@@ -242,7 +242,7 @@ impl Solver for Ours<'_> {
                 unreachable!("no outcome of a first contact")
             }
         };
-        let steps = if self.kind.schedule.uses_a_bound() {
+        let steps = if self.kind.schedule.uses_velocity_bound() {
             answer.stats.advancements
         } else {
             answer.stats.iterations

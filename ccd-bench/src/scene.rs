@@ -5,7 +5,7 @@ pub mod model;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use listing::{Listing, listings};
+pub use listing::{SceneEntry, listings};
 
 use crate::scene::model::Model;
 use anyhow::{Context, Result};
@@ -65,7 +65,7 @@ impl SceneBody {
             return Some(&self.body);
         }
         let made = &self.bodies_by_pieces[pieces as usize];
-        made.get_or_init(|| pieces.body_of(&self.mesh).ok())
+        made.get_or_init(|| pieces.make_body(&self.mesh).ok())
             .as_ref()
     }
 }
@@ -75,7 +75,7 @@ impl PieceKind {
     ///
     /// # Errors
     /// If the mesh does not allow such pieces.
-    pub fn body_of(self, mesh: &TriangleMesh) -> Result<Body, PrepareError> {
+    pub fn make_body(self, mesh: &TriangleMesh) -> Result<Body, PrepareError> {
         let detail = match self {
             PieceKind::FewestPieces => Detail::Auto,
             PieceKind::Triangles => Detail::Triangles,

@@ -7,12 +7,12 @@ pub mod presentation;
 pub mod tables;
 pub mod views;
 
-use rigid_ccd::command::CannotWrite;
+use rigid_ccd::command::OutputError;
 use std::path::Path;
 
 /// Writes a text into a file, or returns an error that names the file.
-pub(crate) fn write(path: &Path, text: &str) -> Result<(), CannotWrite> {
-    ccd_file::write(path, |out| out.write_all(text.as_bytes())).map_err(|source| CannotWrite {
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), OutputError> {
+    ccd_file::write(path, |out| out.write_all(text.as_bytes())).map_err(|source| OutputError {
         place: path.display().to_string(),
         source,
     })

@@ -150,7 +150,7 @@ impl Answer {
     /// Converts an answer about enclosing bodies to an answer about the enclosed shapes. It is called once for each
     /// query about a distance.
     pub(crate) fn widened_by_excess(self, excess: Excess) -> Self {
-        let outcome = self.outcome.to_shapes(excess);
+        let outcome = self.outcome.for_enclosed_shapes(excess);
         Answer {
             outcome,
             tolerance: greater(self.tolerance, outcome.width()),
@@ -237,7 +237,7 @@ impl Outcome {
             }
             Outcome::Touching { contact } => Some((0.0, contact)),
             Outcome::Interval { first, .. } => first.contact().map(|contact| (first.time, contact)),
-            Outcome::Unresolved(known) => known.at,
+            Outcome::Unresolved(known) => known.nearest,
             Outcome::Free { .. } | Outcome::Overlapping { .. } => None,
         }
     }
@@ -275,7 +275,7 @@ impl Outcome {
     }
 
     /// Creates the outcome for two bodies that overlap at the start.
-    pub(crate) fn overlapping(overlap: Overlap) -> Self {
+    pub(crate) fn from_overlap(overlap: Overlap) -> Self {
         Outcome::Overlapping {
             overlap,
             upper: 0.0,
@@ -324,7 +324,9 @@ impl Outcome {
             },
             Outcome::Unresolved(known) => Outcome::Unresolved(
                 Unresolved {
-                    at: known.at.map(|(time, contact)| (time, map(contact, time))),
+                    nearest: known
+                        .nearest
+                        .map(|(time, contact)| (time, map(contact, time))),
                     ..known
                 }
                 .with_measured_upper_bound(),
@@ -335,7 +337,7 @@ impl Outcome {
     }
 
     /// Converts an outcome about enclosing bodies to an outcome about the enclosed shapes.
-    fn to_shapes(self, excess: Excess) -> Self {
+    fn for_enclosed_shapes(self, excess: Excess) -> Self {
         match self.map_contacts(|contact, _| contact.to_shapes(excess)) {
             Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
                 overlap,

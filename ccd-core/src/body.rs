@@ -25,16 +25,16 @@ use crate::error::InputError;
 use crate::math::order::greater;
 use crate::tuning::MIN_BOX_FILL;
 use feature::Feature;
-use feature_lookup::{face_at, prepare};
+use feature_lookup::{face_at, prepare_facets_by_corner};
 use glam::DVec3;
 use hierarchy::Hierarchy;
 #[cfg(feature = "hull-tree")]
 use hull_tree::convex::support_of;
 #[cfg(feature = "hull-tree")]
 use hull_tree::{HullTree, HullTreeError};
-use piece::{Combination, Piece};
+use piece::{ConvexCombination, Piece};
 use pieces::Pieces;
-use shell::{Shell, shells};
+use shell::{ExtremePoints, shells};
 use std::any::Any;
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
@@ -57,7 +57,7 @@ pub struct Body {
     pieces: Pieces,
     tree: Tree,
     volume: Volume,
-    shells: Vec<Shell>,
+    part_extremes: Vec<ExtremePoints>,
     /// The tree of convex hulls, if one was given; its leaves refer to the pieces by their index in `pieces`.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
@@ -113,15 +113,15 @@ impl Body {
             || shells(&pieces),
             || layout.fit_tree(&pieces),
         );
-        if !pieces.all_triangles() {
+        if !pieces.are_all_triangles() {
             // The searches are prepared now, so that no query waits for them.
             for piece in pieces.iter() {
                 piece.with_support_map(support_of);
-                prepare(&piece);
+                prepare_facets_by_corner(&piece);
             }
         }
         Ok(Body {
-            shells,
+            part_extremes: shells,
             pieces,
             tree,
             volume,
@@ -145,7 +145,7 @@ impl Body {
     pub fn with_surface(mut self, surface: Body) -> Result<Self, InputError> {
         let solid = |body: &Body| body.volume == Volume::Solid;
         let whole = self.pieces.len() == 1 && self.pieces.get(0).radius == 0.0;
-        if !(whole && solid(&self) && solid(&surface) && surface.pieces.all_triangles()) {
+        if !(whole && solid(&self) && solid(&surface) && surface.pieces.are_all_triangles()) {
             return Err(InputError::BadSurface);
         }
         let [x, y, z] = self.tree.half_extents().map(f64::from);
@@ -208,7 +208,7 @@ impl Body {
         }
         parallel_for_each(&mut pieces, &(), |(), _, piece| {
             // Pieces in queries have this search, too.
-            let _ = piece.with_support_map(support_of).cached(&make);
+            let _ = piece.with_support_map(support_of).cached_value(&make);
         });
     }
 
@@ -219,7 +219,7 @@ impl Body {
     /// assert!((box_of_4.span() - 3.0).abs() < 1e-12);
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
-    pub fn span(&self) -> f64 {
+    pub fn bounding_radius(&self) -> f64 {
         self.tree.span()
     }
 
@@ -232,7 +232,7 @@ impl Body {
     /// many triangles. A box that is larger than the other body is not replaced: its triangles would hardly be nearer
     /// to anything than the box is.
     pub(crate) fn query_body_against(&self, other: &Body) -> &Body {
-        let many = other.pieces.all_triangles() && other.pieces.len() > 1;
+        let many = other.pieces.are_all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
         match &self.surface {
             Some(surface) if many && !(larger && surface.is_box) => &surface.triangles,
@@ -261,7 +261,7 @@ impl Body {
     ///
     /// A virtual facet may be within the surface, over faces of other pieces. If the piece has no
     /// feature for the point, these pieces are searched.
-    pub(crate) fn feature(&self, piece: u32, point: &Combination) -> Feature {
+    pub(crate) fn feature(&self, piece: u32, point: &ConvexCombination) -> Feature {
         let feature = self.pieces.feature(piece as usize, point);
         let Feature::Piece(_) = feature else {
             return feature;
@@ -277,7 +277,7 @@ impl Body {
 
     /// Returns whether the body is a solid with a possibly empty space between its pieces, where another body might be.
     pub(crate) fn may_be_hollow(&self) -> bool {
-        self.volume == Volume::Solid && (self.pieces.all_triangles() || self.pieces.len() > 1)
+        self.volume == Volume::Solid && (self.pieces.are_all_triangles() || self.pieces.len() > 1)
     }
 
     /// Returns the bounding volume tree over the pieces.
@@ -288,8 +288,8 @@ impl Body {
     /// Returns the extreme points of every connected part of the body, to test whether the part is inside another
     /// solid. If one of a part's points is inside another solid, the whole part is, or its surface crosses that of the
     /// solid.
-    pub(crate) fn shells(&self) -> &[Shell] {
-        &self.shells
+    pub(crate) fn shells(&self) -> &[ExtremePoints] {
+        &self.part_extremes
     }
 }
 

@@ -17,7 +17,7 @@ pub enum InputError {
     /// A quantity is outside of its accepted range.
     OutOfRange {
         /// The name of the quantity that is out of range.
-        what: &'static str,
+        quantity: &'static str,
         /// The rejected value of the quantity.
         value: f64,
         /// The accepted values, described in words.
@@ -126,7 +126,7 @@ impl fmt::Display for InputError {
             Self::NotFinite { quantity } => write!(f, "{quantity} is NaN or infinite"),
             Self::ZeroQuaternion => write!(f, "a quaternion of length zero names no orientation"),
             Self::OutOfRange {
-                what,
+                quantity: what,
                 value,
                 allowed,
             } => write!(
@@ -222,7 +222,7 @@ pub(crate) fn check(
         Ok(())
     } else {
         Err(InputError::OutOfRange {
-            what,
+            quantity: what,
             value,
             allowed: words,
         })

@@ -113,12 +113,12 @@ pub use body::hierarchy::{Hierarchy, HierarchyNode};
 pub use body::hull_tree::{
     FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError, PolygonList,
 };
-pub use body::piece::Combination;
+pub use body::piece::ConvexCombination;
 pub use body::piece::Piece;
 pub use body::pieces::Pieces;
 pub use body::polytope::{Face, Facet, FacetOrigin, Polytope};
 pub use body::round::{Enclosure, SolidOfRevolution};
-pub use body::support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};
+pub use body::support::{Support, SupportScan, SupportTable, SupportTree, TABLE_DIRECTION_COUNT};
 pub use body::{Body, Volume};
 pub use contacts::{ContactsError, FeaturePair};
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUpReason, OrElse, PiecePair};

@@ -54,7 +54,7 @@ pub(crate) struct Problem<'a> {
 pub(crate) struct BodyWithPath<'a> {
     pub(crate) body: &'a Body,
     /// The body that the caller gave, if `body` is the surface that replaces it.
-    pub(crate) given: Option<&'a Body>,
+    pub(crate) given_body: Option<&'a Body>,
     pub(crate) path: Path,
 }
 
@@ -91,12 +91,12 @@ impl<'a> Problem<'a> {
         duration: f64,
         terms: &QuerySettings<'a>,
     ) -> Result<Self, InputError> {
-        Problem::accelerated(bodies, [DVec3::ZERO; 2], duration, terms)
+        Problem::with_accelerations(bodies, [DVec3::ZERO; 2], duration, terms)
     }
 
     /// Creates the problem of two bodies whose centres may accelerate, for schedules that handle
     /// [accelerations](crate::engine::answer::EngineSchedule::takes_accelerations).
-    pub(crate) fn accelerated(
+    pub(crate) fn with_accelerations(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
         duration: f64,
@@ -109,7 +109,7 @@ impl<'a> Problem<'a> {
             let path = Path::new(&motion, origin, duration);
             BodyWithPath {
                 body,
-                given: (!std::ptr::eq(body, given)).then_some(given),
+                given_body: (!std::ptr::eq(body, given)).then_some(given),
                 path: path.with_acceleration(acceleration * duration * duration),
             }
         };
@@ -152,14 +152,14 @@ impl<'a> Problem<'a> {
 
     /// Returns the distance by which the caller's bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
-        let given = |side: &BodyWithPath<'a>| side.given.unwrap_or(side.body);
-        Excess::of_bodies(given(&self.a), given(&self.b))
+        let given = |side: &BodyWithPath<'a>| side.given_body.unwrap_or(side.body);
+        Excess::sum_of_bodies(given(&self.a), given(&self.b))
     }
 
     /// Returns whether the query uses a shortcut.
     #[inline]
-    pub(crate) fn uses(&self, shortcut: Shortcut) -> bool {
-        self.shortcuts.has(shortcut)
+    pub(crate) fn uses_shortcut(&self, shortcut: Shortcut) -> bool {
+        self.shortcuts.contains(shortcut)
     }
 
     /// Returns whether a body turns at least twice.
@@ -205,11 +205,11 @@ impl<'a> Problem<'a> {
     /// by its triangulated surface; `None` if it replaced neither.
     pub(crate) fn with_given_bodies(&self) -> Option<Self> {
         let of = |side: &BodyWithPath<'a>| BodyWithPath {
-            body: side.given.unwrap_or(side.body),
-            given: None,
+            body: side.given_body.unwrap_or(side.body),
+            given_body: None,
             path: side.path,
         };
-        let looked_at = self.a.given.is_none() && self.b.given.is_none();
+        let looked_at = self.a.given_body.is_none() && self.b.given_body.is_none();
         (!looked_at).then(|| Problem {
             a: of(&self.a),
             b: of(&self.b),
@@ -324,7 +324,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Converts a point from the problem's coordinates to the world's.
-    pub(crate) fn world(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn to_world_point(&self, point: DVec3) -> DVec3 {
         point + self.origin
     }
 }
@@ -332,7 +332,7 @@ impl<'a> Problem<'a> {
 impl BodyWithPath<'_> {
     /// Returns the index of a piece in the body that the caller gave.
     pub(crate) fn index_in_given_body(&self, piece: u32) -> u32 {
-        if self.given.is_some() { 0 } else { piece }
+        if self.given_body.is_some() { 0 } else { piece }
     }
 
     /// Returns the span of the body plus twice the distance of its centre of rotation from its origin.

@@ -154,7 +154,7 @@ pub struct Query<'a> {
     pub(crate) a: MovingBody<'a>,
     pub(crate) b: MovingBody<'a>,
     pub(crate) duration: f64,
-    pub(crate) terms: QuerySettings<'a>,
+    pub(crate) settings: QuerySettings<'a>,
     /// The normalised problem, if both bodies move at constant velocities.
     pub(crate) problem: Option<Problem<'a>>,
 }
@@ -184,7 +184,7 @@ impl<'a> Query<'a> {
                 a,
                 b,
                 duration,
-                terms,
+                settings: terms,
                 problem: Some(problem),
             });
         }
@@ -199,7 +199,7 @@ impl<'a> Query<'a> {
             a,
             b,
             duration,
-            terms,
+            settings: terms,
             problem: None,
         })
     }
@@ -207,7 +207,7 @@ impl<'a> Query<'a> {
     /// Sets another deadline, for callers that divide the time among many queries.
     #[must_use]
     pub fn with_deadline(mut self, deadline: Option<Duration>) -> Self {
-        self.terms.deadline = deadline;
+        self.settings.deadline = deadline;
         if let Some(problem) = &mut self.problem {
             problem.deadline = deadline;
         }
@@ -218,7 +218,7 @@ impl<'a> Query<'a> {
     /// coordinates of the two motions. Along trajectories it may be larger.
     pub fn tolerance(&self) -> f64 {
         let problem = self.problem.as_ref();
-        problem.map_or(self.terms.tolerance, |problem| problem.tolerance)
+        problem.map_or(self.settings.tolerance, |problem| problem.tolerance)
     }
 
     /// Returns all pairs of features that are in contact at a time, the contact manifold `[FAST06 §5.2]`.
@@ -285,11 +285,11 @@ impl<'a> Query<'a> {
             Ok::<_, InputError>((moving.body, Motion::still(stretch.motion.start())))
         };
         let bodies = [still(&self.a)?, still(&self.b)?];
-        Problem::new(bodies, 0.0, &self.terms)?.contacts_at(0.0)
+        Problem::new(bodies, 0.0, &self.settings)?.contacts_at(0.0)
     }
 
     /// Returns the distance by which the two bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
-        Excess::of_bodies(self.a.body, self.b.body)
+        Excess::sum_of_bodies(self.a.body, self.b.body)
     }
 }

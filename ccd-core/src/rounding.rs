@@ -21,10 +21,10 @@ pub const SKIPPED_NEARER_SHARE: f64 = 1.0 / 65536.0;
 
 /// The range of squared lengths that are computed with a relative error of a few [`UNIT_ROUNDOFF_F64`]. A component
 /// whose own square underflows, below 2.2e-308, is negligible in this range.
-pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
+pub const SQUARED_LENGTH_RANGE: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 
 /// The power of two, 2⁷⁰⁰ = 5.3e210, by which vectors are scaled up or down if their squared lengths are outside of
-/// [`SQUARES`].
+/// [`SQUARED_LENGTH_RANGE`].
 ///
 /// It takes the least number, 4.9e-324, to 2.6e-113, whose square is exact enough, and 1e-100 to
 /// 5.3e110. Its inverse takes the greatest, 1.8e308, to 3.4e97, and 1e100 to 1.9e-111.
@@ -262,7 +262,7 @@ pub const INSIDE_DISTANCE: f64 = 4.0;
 
 /// The distance beside an edge at which points of a flat piece are tested, in units of the length of the edge's part on
 /// the piece. It is far above rounding, and below the distance to other features.
-pub const BESIDE_EDGE_DISTANCE: f64 = 1e-3;
+pub const EDGE_PROBE_DISTANCE: f64 = 1e-3;
 
 /// The error of a height `n·x` computed in f64, relative to the product of `|n|₁` and the largest coordinate of `x`.
 /// Three products and two sums take at most 3u; 4u are taken.
@@ -345,10 +345,10 @@ pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 
 /// In units of `u`: a corner's angle is off by 9 (a product with 2π, rounded twice), which brings an edge nearer by
 /// 6.4 at most; sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a cosine,
 /// by 4. That is 13.4, for which 16 are taken.
-pub(crate) const OUTWARD_FACTOR: f64 = 1.0 + 16.0 * UNIT_ROUNDOFF_F64;
+pub(crate) const POLYGON_ENLARGEMENT: f64 = 1.0 + 16.0 * UNIT_ROUNDOFF_F64;
 
 /// The least positive f64, which bounds the rounding of a product that underflows.
-pub(crate) const LEAST_F64: f64 = f64::from_bits(1);
+pub(crate) const LEAST_POSITIVE_F64: f64 = f64::from_bits(1);
 
 #[cfg(test)]
 mod tests;

@@ -71,7 +71,7 @@ impl Shortcuts {
 
     /// Returns whether the set contains a shortcut.
     #[inline]
-    pub const fn has(self, shortcut: Shortcut) -> bool {
+    pub const fn contains(self, shortcut: Shortcut) -> bool {
         self.0 >> shortcut as u8 & 1 == 1
     }
 }

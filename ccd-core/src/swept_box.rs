@@ -135,12 +135,12 @@ fn swept_box_of_motion(
     check_coordinates("centre", motion.centre())?;
     let side = BodyWithPath {
         body,
-        given: None,
+        given_body: None,
         path: Path::new(motion, DVec3::ZERO, duration),
     };
     side.check()?;
     let BodyWithPath { path, .. } = &side;
-    let (low, high) = at_start(&side);
+    let (low, high) = box_at_start(&side);
     // As seen from the centre of rotation, which moves straight, the body only turns.
     let way = path.velocity;
     let room = DVec3::splat(half_contact_distance(&side, terms));
@@ -152,7 +152,7 @@ fn swept_box_of_motion(
 
 /// Returns a box, by its least and greatest corner, that contains the body in all orientations of its motion with its
 /// centre of rotation held at the start.
-fn at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
+fn box_at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().body_box();
     let frame = path.frame(0.0);

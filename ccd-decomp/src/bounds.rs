@@ -67,7 +67,7 @@ impl BoundsTree {
 
     /// Returns whether `holds` is true for the index of every box that meets the given box. It calls `holds` until the
     /// first false result.
-    pub(crate) fn all_boxes_meeting(
+    pub(crate) fn all_meeting_boxes_satisfy(
         &self,
         bounds: &Bounds,
         mut holds: impl FnMut(u32) -> bool,

@@ -142,7 +142,7 @@ impl Model {
             let solid = self.volume == Volume::Solid;
             solid && pieces == 1 && self.pieces.get(0).radius == 0.0
         };
-        if surface.is_some_and(|(pieces, _)| !(whole() && pieces.all_triangles())) {
+        if surface.is_some_and(|(pieces, _)| !(whole() && pieces.are_all_triangles())) {
             return Err("the surface is not that of one solid piece");
         }
         if self.report.pieces != pieces {

@@ -9,7 +9,9 @@ pub(crate) mod exact_hull;
 mod flat;
 pub(crate) mod polygons;
 
-use crate::exact::predicates::{compare_lexicographically, first_out_of_range, too_fine};
+use crate::exact::predicates::{
+    compare_lexicographically, first_out_of_range, first_too_fine_point,
+};
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::merged_polygons;
 use ccd_core::glam::DVec3;
@@ -35,7 +37,7 @@ pub struct HullError {
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
-    if let Some(point) = first_out_of_range(points).or_else(|| too_fine(points)) {
+    if let Some(point) = first_out_of_range(points).or_else(|| first_too_fine_point(points)) {
         let point = point as u32;
         return Err(HullError { point });
     }

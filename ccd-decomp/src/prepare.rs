@@ -17,7 +17,7 @@ use crate::work::Work;
 use ccd_core::Volume;
 use error::PrepareError;
 use model::{Model, PreparedBody};
-use parts::{Choice, Parts, triangle_tree};
+use parts::{PiecesByKind, PiecesChoice, triangle_tree};
 use report::PieceReason;
 
 /// The kind of pieces that a body is made of.
@@ -93,30 +93,38 @@ pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareErro
     let may_need_triangles = !matches!(detail, Detail::Patches(_) | Detail::OuterHull);
     // Both take equally long, and the triangles are nearly always needed.
     let (choice, triangles) = rayon::join(
-        || Choice::new(mesh, detail),
+        || PiecesChoice::new(mesh, detail),
         || may_need_triangles.then(|| triangle_tree(mesh)),
     );
     choice?.into_model(mesh, triangles.transpose()?)
 }
 
-impl Choice {
+impl PiecesChoice {
     fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
         let (topology, turned) = Topology::with_reoriented_mesh(mesh);
         let mesh = turned.as_ref().unwrap_or(mesh);
         let (parts, why) = match detail {
             Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK_BUDGET)),
-            Detail::Triangles | Detail::Surface => (Parts::Triangles, PieceReason::Requested),
+            Detail::Triangles | Detail::Surface => {
+                (PiecesByKind::Triangles, PieceReason::Requested)
+            }
             Detail::Patches(order) => (
-                Parts::Patches(decompose(mesh, order)?),
+                PiecesByKind::Patches(decompose(mesh, order)?),
                 PieceReason::Requested,
             ),
             Detail::Hull => {
                 let polytope = convex_polytope(&solid_surface(mesh)?)?;
-                (Parts::Hull(Box::new(polytope)), PieceReason::Requested)
+                (
+                    PiecesByKind::Hull(Box::new(polytope)),
+                    PieceReason::Requested,
+                )
             }
             Detail::OuterHull => {
                 let hull = outer_hull(mesh, &topology)?;
-                (Parts::OuterHull(Box::new(hull)), PieceReason::Requested)
+                (
+                    PiecesByKind::OuterHull(Box::new(hull)),
+                    PieceReason::Requested,
+                )
             }
         };
         let volume = if topology.is_solid() && detail != Detail::Surface {
@@ -124,7 +132,7 @@ impl Choice {
         } else {
             Volume::Surface
         };
-        Ok(Choice {
+        Ok(PiecesChoice {
             volume,
             parts,
             reason: why,

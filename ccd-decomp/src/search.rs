@@ -24,7 +24,7 @@ use region::Region;
 /// Trees of oriented boxes over triangles, to search by region. Boxes are oriented like the triangles, so that those
 /// of adjacent slivers hardly overlap. Large fans around one vertex, where all boxes overlap, have separate trees.
 pub(crate) struct TriangleBoxes {
-    single: BoxTree,
+    single_face_tree: BoxTree,
     fans: Vec<Fan>,
     /// The axis-aligned boxes of the fans.
     bounds: BoundsTree,
@@ -35,7 +35,7 @@ impl TriangleBoxes {
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let (single, fans) = split(points, faces);
         TriangleBoxes {
-            single: BoxTree::of_faces(points, faces, single),
+            single_face_tree: BoxTree::from_faces(points, faces, single),
             bounds: BoundsTree::new(fans.iter().map(Fan::bounds).collect()),
             fans,
         }
@@ -46,24 +46,25 @@ impl TriangleBoxes {
     ///
     /// # Guarantee
     /// An omitted triangle shares no point with the region, except perhaps a common corner.
-    pub(crate) fn all_meeting(
+    pub(crate) fn all_faces_meeting(
         &self,
         region: &Region,
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        if !self.single.all_meeting(region, work, &mut holds) {
+        if !self.single_face_tree.all_meeting(region, work, &mut holds) {
             return false;
         }
-        self.bounds.all_boxes_meeting(&region.bounds, |fan| {
-            let fan = &self.fans[fan as usize];
-            work.spend(1) && fan.all_meeting(&region.shape, work, &mut holds)
-        })
+        self.bounds
+            .all_meeting_boxes_satisfy(&region.bounds, |fan| {
+                let fan = &self.fans[fan as usize];
+                work.spend(1) && fan.all_meeting(&region.shape, work, &mut holds)
+            })
     }
 
     /// Returns an upper bound, up to rounding, of the largest distance from `point` to any point of the triangles.
     pub(crate) fn farthest_distance(&self, point: DVec3) -> f64 {
-        let single = self.single.bounds();
+        let single = self.single_face_tree.bounds();
         let all = self.fans.iter().map(Fan::bounds).chain(single);
         let far = all.map(|b| (point - b.lo).abs().max((b.hi - point).abs()).length());
         far.fold(0.0, greater)

@@ -101,7 +101,7 @@ impl BodySource {
     ///
     /// # Errors
     /// Those of [`BodySource::load`].
-    pub fn load_in(&self, unit: Unit, detail: Detail) -> Result<PreparedBody, BodyError> {
+    pub fn load_in_unit(&self, unit: Unit, detail: Detail) -> Result<PreparedBody, BodyError> {
         self.load_adjusted(&Adjustments::NONE.converted_to(unit), detail)
     }
 
@@ -140,8 +140,8 @@ impl BodySource {
                 &SolidOfRevolution::cone(radius, half_height)?,
                 excess,
             )?,
-            BodySource::Stored(ref path) if adjustments.apply_to_meshes_only() => {
-                return Err(SourceError::Prepared { file: path.clone() }.into());
+            BodySource::Stored(ref path) if adjustments.are_for_meshes_only() => {
+                return Err(SourceError::AdjustedStoredBody { file: path.clone() }.into());
             }
             BodySource::Stored(ref path) => {
                 with_file_path(path, Model::load(path)?.into_prepared_body())?
@@ -174,7 +174,7 @@ impl BodySource {
     ///
     /// # Errors
     /// [`BodyError::Mesh`] if a glTF cannot be read.
-    pub fn files(&self) -> Result<Vec<PathBuf>, BodyError> {
+    pub fn file_paths(&self) -> Result<Vec<PathBuf>, BodyError> {
         Ok(match self {
             BodySource::Stored(path) => vec![path.clone()],
             BodySource::Mesh(source) => source_paths(&source.file)?,
@@ -184,7 +184,7 @@ impl BodySource {
 }
 
 fn with_file_path<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
-    made.map_err(|error| BodyError::InFile {
+    made.map_err(|error| BodyError::FileContent {
         file: path.into(),
         error,
     })
@@ -219,7 +219,7 @@ impl FromStr for BodySource {
                 } else if source.adjustments == Adjustments::NONE {
                     Ok(BodySource::Stored(source.file))
                 } else {
-                    Err(SourceError::Prepared { file: source.file })
+                    Err(SourceError::AdjustedStoredBody { file: source.file })
                 }
             }
         }

@@ -35,7 +35,7 @@ mod gltf {
     /// A glTF under construction: its JSON, and the bytes of its buffer.
     pub(crate) struct Gltf {
         pub(crate) json: Value,
-        pub(crate) binary: Vec<u8>,
+        pub(crate) buffer: Vec<u8>,
     }
 
     impl Gltf {
@@ -51,7 +51,10 @@ mod gltf {
                 "buffers": [],
             });
             let binary = Vec::new();
-            Gltf { json, binary }
+            Gltf {
+                json,
+                buffer: binary,
+            }
         }
 
         /// Creates a glTF with one node and a mesh of one triangle, which has a corner at the origin.
@@ -59,7 +62,7 @@ mod gltf {
             let mut gltf = Gltf::new();
             let position =
                 gltf.add_vec3_accessor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-            gltf.primitive(json!({"attributes": {"POSITION": position}}));
+            gltf.add_primitive(json!({"attributes": {"POSITION": position}}));
             gltf
         }
 
@@ -74,18 +77,18 @@ mod gltf {
             list.len() - 1
         }
 
-        pub(crate) fn primitive(&mut self, value: Value) {
+        pub(crate) fn add_primitive(&mut self, value: Value) {
             let list = self.json["meshes"][0]["primitives"].as_array_mut();
             list.expect("a list").push(value);
         }
 
         /// Appends bytes to the buffer as a buffer view, and returns the view's index.
-        pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
-            while !self.binary.len().is_multiple_of(4) {
-                self.binary.push(0);
+        pub(crate) fn add_view(&mut self, bytes: &[u8]) -> usize {
+            while !self.buffer.len().is_multiple_of(4) {
+                self.buffer.push(0);
             }
-            let offset = self.binary.len();
-            self.binary.extend(bytes);
+            let offset = self.buffer.len();
+            self.buffer.extend(bytes);
             let view = json!({"buffer": 0, "byteOffset": offset, "byteLength": bytes.len()});
             self.push("bufferViews", view)
         }
@@ -96,14 +99,14 @@ mod gltf {
                 .flatten()
                 .flat_map(|x| x.to_le_bytes())
                 .collect();
-            let view = self.view(&bytes);
+            let view = self.add_view(&bytes);
             let about = json!({"bufferView": view, "componentType": 5126, "count": points.len(), "type": "VEC3"});
             self.push("accessors", about)
         }
 
         pub(crate) fn indices(&mut self, numbers: &[u16]) -> usize {
             let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
-            let view = self.view(&bytes);
+            let view = self.add_view(&bytes);
             let about = json!({"bufferView": view, "componentType": 5123, "count": numbers.len(), "type": "SCALAR"});
             self.push("accessors", about)
         }
@@ -112,11 +115,11 @@ mod gltf {
         pub(crate) fn glb(&self) -> Vec<u8> {
             let mut json = self.json.clone();
             if json["buffers"] == json!([]) {
-                json["buffers"] = json!([{"byteLength": self.binary.len()}]);
+                json["buffers"] = json!([{"byteLength": self.buffer.len()}]);
             }
             let mut text = json.to_string().into_bytes();
             text.resize(text.len().next_multiple_of(4), b' ');
-            let mut binary = self.binary.clone();
+            let mut binary = self.buffer.clone();
             binary.resize(binary.len().next_multiple_of(4), 0);
             let mut bytes = b"glTF\x02\0\0\0".to_vec();
             bytes.extend((28 + text.len() as u32 + binary.len() as u32).to_le_bytes());
@@ -131,13 +134,13 @@ mod gltf {
         /// Returns the file in the text form, with the buffer at a URI.
         pub(crate) fn text_with_buffer_uri(&self, uri: &str) -> Vec<u8> {
             let mut json = self.json.clone();
-            json["buffers"] = json!([{"byteLength": self.binary.len(), "uri": uri}]);
+            json["buffers"] = json!([{"byteLength": self.buffer.len(), "uri": uri}]);
             json.to_string().into_bytes()
         }
 
         /// Returns the file in the text form, with an embedded buffer.
         pub(crate) fn text(&self) -> Vec<u8> {
-            let data = STANDARD.encode(&self.binary);
+            let data = STANDARD.encode(&self.buffer);
             self.text_with_buffer_uri(&format!("data:application/octet-stream;base64,{data}"))
         }
     }

@@ -55,7 +55,7 @@ pub(crate) fn cubes(cells: &[[i32; 3]]) -> TriangleMesh {
 }
 
 /// Returns the lowest corners of all unit cubes of a block.
-pub(crate) fn block([x, y, z]: [i32; 3]) -> Vec<[i32; 3]> {
+pub(crate) fn block_cells([x, y, z]: [i32; 3]) -> Vec<[i32; 3]> {
     let columns = (0..x).flat_map(move |i| (0..y).map(move |j| (i, j)));
     columns
         .flat_map(|(i, j)| (0..z).map(move |k| [i, j, k]))

@@ -70,11 +70,11 @@ pub(crate) const PLANES_PER_STEP: usize = 16;
 pub(crate) const MAX_EXCESS_BOXES: usize = 1 << 19;
 
 /// The search for a bound on the excess ends when the bound is at most this multiple of the largest distance found.
-pub(crate) const EXCESS_RATIO: f64 = 1.01;
+pub(crate) const SUFFICIENT_EXCESS_RATIO: f64 = 1.01;
 
 /// The search for a bound on the excess ends when the bound exceeds the largest distance found by at most this, in
-/// units of half the mesh's diagonal. Either this or [`EXCESS_RATIO`] suffices.
-pub(crate) const EXCESS_FLOOR: f64 = 1e-4;
+/// units of half the mesh's diagonal. Either this or [`SUFFICIENT_EXCESS_RATIO`] suffices.
+pub(crate) const EXCESS_ABSOLUTE_TOLERANCE: f64 = 1e-4;
 
 /// The maximum number of triangles near a box that are used to bound the excess within the box.
 pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;

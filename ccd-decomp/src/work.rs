@@ -5,7 +5,7 @@ use std::cell::Cell;
 /// A budget of remaining steps. A step costs about as much as an exact predicate.
 #[derive(Debug)]
 pub(crate) struct Work {
-    left: Cell<u64>,
+    remaining_steps: Cell<u64>,
 }
 
 impl Work {
@@ -17,20 +17,20 @@ impl Work {
     /// Creates a budget that is exhausted after `steps` steps.
     pub(crate) fn with_steps(steps: u64) -> Self {
         Work {
-            left: Cell::new(steps),
+            remaining_steps: Cell::new(steps),
         }
     }
 
     /// Spends steps from the budget, and returns whether any are left.
     pub(crate) fn spend(&self, steps: usize) -> bool {
-        let rest = self.left.get().checked_sub(steps as u64);
-        self.left.set(rest.unwrap_or(0));
+        let rest = self.remaining_steps.get().checked_sub(steps as u64);
+        self.remaining_steps.set(rest.unwrap_or(0));
         rest.is_some_and(|rest| rest > 0)
     }
 
     /// Returns the number of steps spent from a budget without a limit.
     pub(crate) fn steps_spent(&self) -> u64 {
-        u64::MAX - self.left.get()
+        u64::MAX - self.remaining_steps.get()
     }
 
     /// Returns an error if no steps are left.
@@ -38,7 +38,7 @@ impl Work {
     /// # Errors
     /// [`WorkBudgetExhausted`] if none are left.
     pub(crate) fn check(&self) -> Result<(), WorkBudgetExhausted> {
-        match self.left.get() {
+        match self.remaining_steps.get() {
             0 => Err(WorkBudgetExhausted),
             _ => Ok(()),
         }

@@ -11,7 +11,8 @@ use axis::SeparatingAxisCandidates;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Claim, Combination, DistanceOracle, GiveUpReason, Instructions, Piece, PiecePair, vectorize,
+    Claim, ConvexCombination, DistanceOracle, GiveUpReason, Instructions, Piece, PiecePair,
+    vectorize,
 };
 use nearest::{Corners, Nearest, nearest, support_gap};
 
@@ -130,8 +131,8 @@ fn corners(piece: &Piece<'_>) -> Option<Corners> {
 }
 
 #[inline]
-fn combination(weights: [f64; 3], points: usize) -> Combination {
-    let mut out = Combination::EMPTY;
+fn combination(weights: [f64; 3], points: usize) -> ConvexCombination {
+    let mut out = ConvexCombination::EMPTY;
     for (k, weight) in weights.into_iter().enumerate() {
         out.push(k.min(points - 1) as u32, weight);
     }

@@ -17,7 +17,7 @@ fn cases() -> u64 {
 }
 
 /// Checks a law for the scenes that `draw` makes from the seeds 0, 1, …
-fn over(draw: impl Fn(&mut Pcg64) -> Scene, law: impl Fn(&Scene)) {
+fn check_scenes(draw: impl Fn(&mut Pcg64) -> Scene, law: impl Fn(&Scene)) {
     for seed in 0..cases() {
         law(&draw(&mut Pcg64::seed_from_u64(seed)));
     }
@@ -36,7 +36,7 @@ macro_rules! obeys {
 
             #[test]
             fn intersecting_triangles() {
-                over(
+                check_scenes(
                     |rng| scene::intersecting_hulls(rng, 3, 3),
                     |scene| laws::finds_common_point::<$oracle>(scene, 1e-12),
                 );
@@ -54,12 +54,12 @@ macro_rules! obeys {
                 meeting: NearestFeatures,
                 #[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64,
             ) {
-                super::near_contact::<$oracle>(meeting, gap);
+                super::check_near_contact::<$oracle>(meeting, gap);
             }
 
             #[test]
             fn touching() {
-                over(scene::touching, laws::separates_touching_pieces::<$oracle>);
+                check_scenes(scene::touching, laws::separates_touching_pieces::<$oracle>);
             }
 
             #[test]
@@ -101,7 +101,7 @@ fn hulls_of_few_points_obey_all_laws(
 #[rstest]
 fn intersecting_hulls_have_a_common_point(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::intersecting_hulls(rng, a, b);
-    over(draw, |scene| {
+    check_scenes(draw, |scene| {
         laws::finds_common_point::<Gjk>(scene, 1e-12);
     });
 }
@@ -114,8 +114,8 @@ fn flattened_hulls_have_a_common_point(
     #[values(3, 4, 30)] b: usize,
 ) {
     let draw = |rng: &mut Pcg64| scene::flattened_hulls(rng, a, b);
-    over(draw, |scene| laws::finds_common_point::<Gjk>(scene, 1e-6));
-    over(draw, |scene| {
+    check_scenes(draw, |scene| laws::finds_common_point::<Gjk>(scene, 1e-6));
+    check_scenes(draw, |scene| {
         laws::finds_common_point::<Direct>(scene, 1e-6);
     });
 }
@@ -123,7 +123,7 @@ fn flattened_hulls_have_a_common_point(
 #[rstest]
 fn stacked_boxes_are_certified_at_their_gap(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
     let draw = |rng: &mut Pcg64| scene::stacked_boxes(rng, gap);
-    over(draw, |scene| {
+    check_scenes(draw, |scene| {
         check_certified_distance::<Gjk>(scene, gap, 1e-9);
     });
 }
@@ -136,7 +136,7 @@ fn balls_of_many_points_are_certified_apart(
     for seed in 0..100 {
         let scene = scene::balls(&mut Pcg64::seed_from_u64(seed), count, gap);
         laws::certifies_separation::<Gjk>(&scene);
-        laws::is_symmetric::<Gjk>(&scene);
+        laws::check_symmetry::<Gjk>(&scene);
     }
     check_history_independence::<Gjk>(count);
 }
@@ -147,7 +147,7 @@ fn check_random_hulls<O: DistanceOracle + Default>(a: usize, b: usize) {
     let apart = std::cell::Cell::new(0);
     let law = |scene: &Scene| {
         laws::accepts_finite_input::<O>(scene);
-        laws::is_symmetric::<O>(scene);
+        laws::check_symmetry::<O>(scene);
         let checked = laws::check(scene, &laws::claim_with_empty_cache::<O>(scene));
         if checked.distance > 1e-12 * scene.size {
             apart.set(apart.get() + 1);
@@ -155,14 +155,14 @@ fn check_random_hulls<O: DistanceOracle + Default>(a: usize, b: usize) {
             laws::agrees_with_brute_force::<O>(scene);
         }
     };
-    over(|rng| scene::random_hulls(rng, a, b), law);
+    check_scenes(|rng| scene::random_hulls(rng, a, b), law);
     let share = f64::from(apart.get()) / cases() as f64;
     assert!((0.3..=1.0).contains(&share), "{share} are apart");
     // A point or an edge hardly ever hits.
     assert!(a < 3 || share < 0.97, "{share} are apart");
 }
 
-fn near_contact<O: DistanceOracle + Default>(meeting: NearestFeatures, gap: f64) {
+fn check_near_contact<O: DistanceOracle + Default>(meeting: NearestFeatures, gap: f64) {
     // Tilted faces are nearest at a corner, which may be outside the other face's prism.
     let slack = match meeting {
         NearestFeatures::ParallelFaces => 1e-8,
@@ -172,7 +172,7 @@ fn near_contact<O: DistanceOracle + Default>(meeting: NearestFeatures, gap: f64)
         check_certified_distance::<O>(scene, gap, slack);
         laws::agrees_with_brute_force::<O>(scene);
     };
-    over(|rng| scene::near_contact(rng, meeting, gap), law);
+    check_scenes(|rng| scene::near_contact(rng, meeting, gap), law);
 }
 
 /// Checks that pieces are certified apart at the distance `gap`, or up to `slack` more.
@@ -187,14 +187,14 @@ fn check_certified_distance<O: DistanceOracle + Default>(scene: &Scene, gap: f64
 
 fn check_degenerate_hulls<O: DistanceOracle + Default>() {
     let law = |scene: &Scene| {
-        laws::is_symmetric::<O>(scene);
+        laws::check_symmetry::<O>(scene);
         laws::accepts_finite_input::<O>(scene);
         if laws::check(scene, &laws::claim_with_empty_cache::<O>(scene)).distance > 1e-6 {
             laws::certifies_separation::<O>(scene);
             laws::agrees_with_brute_force::<O>(scene);
         }
     };
-    over(scene::degenerate_pieces, law);
+    check_scenes(scene::degenerate_pieces, law);
 }
 
 /// Checks that pieces 1e6 from the origin get their distance of 1e-6 to within 2e-9, and an axis that certifies half of
@@ -214,7 +214,7 @@ fn far_from_the_origin<O: DistanceOracle + Default>() {
             "{checked:?} of {scene:?}"
         );
     };
-    over(draw, law);
+    check_scenes(draw, law);
 }
 
 fn check_hulls_of_any_scale<O: DistanceOracle + Default>() {
@@ -230,14 +230,14 @@ fn check_hulls_of_any_scale<O: DistanceOracle + Default>() {
     };
     let law = |scene: &Scene| {
         laws::accepts_finite_input::<O>(scene);
-        laws::is_symmetric::<O>(scene);
+        laws::check_symmetry::<O>(scene);
     };
-    over(draw, law);
+    check_scenes(draw, law);
     let draw = |rng: &mut Pcg64| {
         let scale = scene::magnitude(rng, -45.0, 15.0);
         scene::intersecting_hulls(rng, 3, 3).scaled(scale)
     };
-    over(draw, |scene| laws::finds_common_point::<O>(scene, 1e-12));
+    check_scenes(draw, |scene| laws::finds_common_point::<O>(scene, 1e-12));
 }
 
 fn check_history_independence<O: DistanceOracle + Default>(count: usize) {
@@ -262,7 +262,7 @@ fn ends<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
         if let Ok(claim) = oracle.separation(pair, &mut cache) {
             for (named, piece) in [(claim.a, &pair.a), (claim.b, &pair.b)] {
                 let known = |&k: &u32| (k as usize) < piece.points.len();
-                assert!(named.support().iter().all(known), "{claim:?}");
+                assert!(named.point_indices().iter().all(known), "{claim:?}");
             }
         }
     }

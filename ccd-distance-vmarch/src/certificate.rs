@@ -1,7 +1,7 @@
 //! Finds axes whose support gap certifies that two features are nearest, if the march ends in a tie.
 
 use crate::feature::{Feature, Pair};
-use crate::placed::{Placed, PlacedPair};
+use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::polytope::{Polytope, unit};
 use crate::tolerance::{CERTIFIED_EXCESS, MAX_AXIS_EDGES, RELATIVE_CERTIFIED_EXCESS};
 use crate::witness::{Witness, perpendicular_part};
@@ -115,7 +115,7 @@ struct FeatureDirections {
 }
 
 impl FeatureDirections {
-    fn new<P: Placed>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
+    fn new<P: PlacedPolytope>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
         let shape: &Polytope = polytope.shape();
         let mut edges = shape.edges_at(feature);
         let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(offset).abs();

@@ -8,7 +8,7 @@ use crate::neighbourhood;
 use crate::penetration;
 use crate::placed::PlacedPair;
 use crate::start::extremal;
-use crate::termination::End;
+use crate::termination::MarchEnd;
 use crate::tolerance::{CERTAIN_DISTANCE, MAX_CYCLE_PAIRS, MAX_RESTARTS, MAX_TIE_MOVES};
 use crate::touching;
 use crate::witness::Witness;
@@ -30,16 +30,16 @@ type Certified = (Pair, Claim);
 #[inline(never)]
 pub(crate) fn certify_march_end(
     placed: &PlacedPair<'_>,
-    first: End,
+    first: MarchEnd,
     counters: &mut Counters,
 ) -> Result<Certified, GiveUpReason> {
     let (mut end, mut restarts) = (first, 0);
     let mut why = GiveUpReason::Uncertified;
     for _ in 0..MAX_TIE_MOVES {
         why = match end {
-            End::Cycle(_) => GiveUpReason::Cycle,
-            End::StepLimit(_) => GiveUpReason::StepCap,
-            End::Nearest(..) | End::CommonPoint(..) | End::Unclear(_) => why,
+            MarchEnd::Cycle(_) => GiveUpReason::Cycle,
+            MarchEnd::StepLimit(_) => GiveUpReason::StepCap,
+            MarchEnd::Nearest(..) | MarchEnd::CommonPoint(..) | MarchEnd::Unclear(_) => why,
         };
         let from = match check(placed, end, counters) {
             CheckResult::Certified(answer) => return Ok(answer),
@@ -66,18 +66,18 @@ enum CheckResult {
     Uncertified(DVec3),
 }
 
-fn check(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> CheckResult {
+fn check(placed: &PlacedPair<'_>, end: MarchEnd, counters: &mut Counters) -> CheckResult {
     match end {
-        End::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
-        End::CommonPoint(pair, which, crossing) => {
+        MarchEnd::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
+        MarchEnd::CommonPoint(pair, which, crossing) => {
             counters.penetrations += 1;
             CheckResult::Certified((pair, touching::common(placed, which, &crossing)))
         }
-        End::Unclear(pair) => match search_common_point(placed, pair, counters) {
+        MarchEnd::Unclear(pair) => match search_common_point(placed, pair, counters) {
             Some(answer) => CheckResult::Certified(answer),
             None => check_cycle(placed, pair),
         },
-        End::Cycle(pair) | End::StepLimit(pair) => check_cycle(placed, pair),
+        MarchEnd::Cycle(pair) | MarchEnd::StepLimit(pair) => check_cycle(placed, pair),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Clips edges by the Voronoi planes of a face, and finds the overlap of parallel edges `[VCLIP98 §3.2]`.
 
-use crate::placed::{Line, Placed, clamp};
+use crate::placed::{Line, PlacedPolytope, clamp};
 use ccd_core::glam::DVec3;
 
 /// One end of a clipped edge.
@@ -14,7 +14,7 @@ pub(crate) struct ClipEnd {
 /// Clips an edge to the prism above and below a face, and returns both ends of the part inside; `None` if nothing is
 /// left.
 #[inline]
-pub(crate) fn clip_to_prism<Y: Placed>(
+pub(crate) fn clip_to_prism<Y: PlacedPolytope>(
     line: &Line,
     end: DVec3,
     y: &Y,

@@ -3,7 +3,7 @@
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
-use crate::placed::{Line, Placed, Scale, clamp};
+use crate::placed::{Line, PlacedPolytope, Scale, clamp};
 use crate::polytope::Edge;
 use crate::tolerance::{MAX_PARALLEL_SINE, PRODUCT_ERROR};
 use crate::vertex_edge::face_towards_point;
@@ -15,7 +15,13 @@ use ccd_core::glam::DVec3;
 /// The march goes on to a corner if a nearest point is an end, or to a face if the other edge's
 /// point is on its side.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> MarchStep {
+pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    e: u32,
+    y: &Y,
+    f: u32,
+    scale: Scale,
+) -> MarchStep {
     let (one, other) = (x.line(e), y.line(f));
     let (edge_x, edge_y) = (x.shape().edge(e), y.shape().edge(f));
     let near = nearest(&one, &other);
@@ -35,16 +41,17 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
         return MarchStep::Stop(Tied);
     }
     let facing = NearestVector::new(&near, offset, scale);
-    let slope_x = x.inward(edge_x, facing.axis);
+    let slope_x = x.inward_components(edge_x, facing.axis);
     if let Some(side) = facing.face_side(x, edge_x, slope_x) {
         return side.next_pair(Feature::Edge(f), points[1]);
     }
     let facing = facing.reversed();
-    let slope_y = y.inward(edge_y, facing.axis);
+    let slope_y = y.inward_components(edge_y, facing.axis);
     if let Some(side) = facing.face_side(y, edge_y, slope_y) {
         return side.next_pair(Feature::Edge(e), points[0]).swapped();
     }
-    let clear = edge_x.is_clear(slope_x, facing.slack) && edge_y.is_clear(slope_y, facing.slack);
+    let clear = edge_x.is_outside_face_planes(slope_x, facing.slack)
+        && edge_y.is_outside_face_planes(slope_y, facing.slack);
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
@@ -148,7 +155,7 @@ impl NearestVector {
     /// Returns the face of an edge towards which the other edge's nearest point lies; `None` if that point is in the
     /// edge's Voronoi region. Of two such faces, it is the face that the point is higher above.
     #[inline(always)]
-    fn face_side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
+    fn face_side<P: PlacedPolytope>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
         let inward = slopes.map(|slope| slope - self.slack);
         let face = face_towards_point(p, edge.faces, inward, self.offset)?;
         let is_above = || p.vector(p.shape().face(face).normal).dot(self.offset) > 0.0;

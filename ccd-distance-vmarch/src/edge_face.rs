@@ -4,7 +4,7 @@ use crate::clip;
 use crate::edge_edge;
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::penetration;
-use crate::placed::{Line, Placed, Scale};
+use crate::placed::{Line, PlacedPolytope, Scale};
 
 /// Computes the march's next step from an edge and a face, at the edge's lowest point within the face's prism. The step
 /// leads to the edge's end, or to the side of the face that clips the edge there. An edge outside the prism leads to
@@ -13,7 +13,13 @@ use crate::placed::{Line, Placed, Scale};
 /// An edge that has points on both sides of the plane goes through the face if exact signs say so
 /// ([`penetration`]); otherwise it passes by the nearest side, however close.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> MarchStep {
+pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    e: u32,
+    y: &Y,
+    f: u32,
+    scale: Scale,
+) -> MarchStep {
     let line = x.line(e);
     let ends = x.shape().edge(e).ends;
     let end = x.vertex(ends[1]);
@@ -56,7 +62,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
 }
 
 /// Returns the step to the side of the face that is nearest to the given edge.
-fn step_to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> MarchStep {
+fn step_to_nearest_side<Y: PlacedPolytope>(e: u32, line: &Line, y: &Y, f: u32) -> MarchStep {
     let sides = y.shape().sides_of(f);
     let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));
     for side in sides {

@@ -2,7 +2,7 @@
 
 use crate::feature::{Crossing, Feature, LocalMinimum};
 use crate::penetration;
-use crate::placed::{Placed, Scale};
+use crate::placed::{PlacedPolytope, Scale};
 use ccd_core::glam::DVec3;
 
 /// How the march continues from a local minimum.
@@ -17,7 +17,7 @@ pub(crate) enum Escape {
 }
 
 /// Returns the face of Y that a feature of X is farthest in front of, or a common point if it is behind all faces.
-pub(crate) fn escape_local_minimum<X: Placed, Y: Placed>(
+pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     minimum: LocalMinimum,
     y: &Y,
@@ -43,7 +43,7 @@ pub(crate) fn escape_local_minimum<X: Placed, Y: Placed>(
 }
 
 /// Returns the face whose plane the point is highest above, and the signed height; `None` for a polytope without faces.
-fn farthest<Y: Placed>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
+fn farthest<Y: PlacedPolytope>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
     let faces = 0..y.shape().faces.len() as u32;
     let heights = faces.filter_map(|f| {
         let start = y.shape().sides_of(f).first()?.start;

@@ -3,8 +3,8 @@
 use crate::counters::Counters;
 use crate::escape::{Escape, escape_local_minimum};
 use crate::feature::{Feature, LocalMinimum, MarchStep, Pair, WhichPolytope};
-use crate::placed::{Placed, PlacedPair};
-use crate::termination::{BrentCycleDetector, End};
+use crate::placed::{PlacedPair, PlacedPolytope};
+use crate::termination::{BrentCycleDetector, MarchEnd};
 use crate::tolerance::MAX_STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
@@ -12,7 +12,7 @@ use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 ///
 /// In exact arithmetic every step leads to features that are nearer, or as near and of a lower dimension, so that no
 /// pair occurs twice. In floating point one may, which [`BrentCycleDetector`] detects.
-pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counters) -> End {
+pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counters) -> MarchEnd {
     let features = placed.a.shape().feature_count() + placed.b.shape().feature_count();
     let mut pair = start;
     let mut brent = BrentCycleDetector::new(start);
@@ -20,27 +20,27 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
         counters.steps += 1;
         pair = match step(placed, pair) {
             MarchStep::Continue(a, b) => Pair { a, b },
-            MarchStep::Stop(certainty) => return End::Nearest(pair, certainty),
+            MarchStep::Stop(certainty) => return MarchEnd::Nearest(pair, certainty),
             MarchStep::CommonPoint(which, crossing) => {
-                return End::CommonPoint(pair, which, crossing);
+                return MarchEnd::CommonPoint(pair, which, crossing);
             }
             MarchStep::LocalMinimum(which, minimum) => {
                 counters.local_minima += 1;
                 match escape(placed, which, minimum) {
                     Escape::Face(face) => ordered_pair(which, minimum.feature, Feature::Face(face)),
                     Escape::CommonPoint(crossing) => {
-                        return End::CommonPoint(pair, which, crossing);
+                        return MarchEnd::CommonPoint(pair, which, crossing);
                     }
-                    Escape::Unclear => return End::Unclear(pair),
+                    Escape::Unclear => return MarchEnd::Unclear(pair),
                 }
             }
         };
         if brent.is_repeated(pair) {
             counters.cycles += 1;
-            return End::Cycle(pair);
+            return MarchEnd::Cycle(pair);
         }
     }
-    End::StepLimit(pair)
+    MarchEnd::StepLimit(pair)
 }
 
 /// Finds how the march continues from a local minimum; `which` is the polytope of its feature, X for A and Y for B.

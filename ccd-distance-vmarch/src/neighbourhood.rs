@@ -2,7 +2,7 @@
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
-use crate::placed::{Placed, PlacedPair};
+use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::tolerance::MAX_TIE_EDGE_PAIRS;
 use ccd_core::glam::DVec3;
 
@@ -89,7 +89,7 @@ struct SurroundingFeatures {
 }
 
 impl SurroundingFeatures {
-    fn new<P: Placed>(polytope: &P, feature: Feature) -> Self {
+    fn new<P: PlacedPolytope>(polytope: &P, feature: Feature) -> Self {
         let shape = polytope.shape();
         let own = shape.edges_at(feature);
         let faces = shape.faces_at(feature, &own);
@@ -112,13 +112,13 @@ impl SurroundingFeatures {
 }
 
 /// Returns the end vertex of an edge that is at a parameter, or the edge itself for a parameter between the ends.
-fn vertex_or_edge_at<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
+fn vertex_or_edge_at<P: PlacedPolytope>(polytope: &P, e: u32, parameter: f64) -> Feature {
     let end = edge_edge::end_vertex_at(polytope.shape().edge(e), parameter);
     end.map_or(Feature::Edge(e), Feature::Vertex)
 }
 
 /// Returns the height of a point above a face; infinite if the point is behind the face or does not project onto it.
-fn height_above_face<P: Placed>(point: DVec3, polytope: &P, f: u32) -> f64 {
+fn height_above_face<P: PlacedPolytope>(point: DVec3, polytope: &P, f: u32) -> f64 {
     let mut height = f64::INFINITY;
     let normal = polytope.vector(polytope.shape().face(f).normal);
     for side in polytope.shape().sides_of(f) {

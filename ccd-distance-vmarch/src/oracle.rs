@@ -7,7 +7,7 @@ use crate::march::march;
 use crate::placed::PlacedPair;
 use crate::polytope::Polytope;
 use crate::start::Cache;
-use crate::termination::End;
+use crate::termination::MarchEnd;
 use crate::witness::Witness;
 use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUpReason, Piece, PiecePair};
 
@@ -81,7 +81,7 @@ impl DistanceOracle for Vmarch {
         let b = prepared_polytope(&pair.b, &mut own_b)?;
         let placed = PlacedPair::new(a, b, &pair.b_to_a);
         let end = march(&placed, cache.start(&placed), &mut self.counters);
-        if let End::Nearest(nearest, Certainty::Sure) = end {
+        if let MarchEnd::Nearest(nearest, Certainty::Sure) = end {
             let claim = Witness::new(&placed, nearest).claim;
             cache.store(&placed, nearest, claim.axis);
             return Ok(claim);
@@ -146,7 +146,7 @@ fn prepared_polytope<'p>(
     piece: &Piece<'p>,
     own: &'p mut Option<Prepared>,
 ) -> Result<&'p Polytope, GiveUpReason> {
-    let prepared = match piece.cached(prepare) {
+    let prepared = match piece.cached_value(prepare) {
         Some(kept) => kept,
         None => own.insert(prepare(piece)),
     };

@@ -2,7 +2,7 @@
 
 use crate::double_double::volume;
 use crate::feature::{Crossing, WeightedCorners};
-use crate::placed::Placed;
+use crate::placed::PlacedPolytope;
 use crate::tolerance::MAX_TESTED_PAIRS;
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
@@ -12,7 +12,7 @@ use ccd_core::glam::DVec3;
 /// # Guarantee
 /// Signs are exact for the placed points, which are rounded. A crossing is returned only if the edge and one of the
 /// triangles spanned by the face's corners do have a common point.
-pub(crate) fn edge_face_crossing<X: Placed, Y: Placed>(
+pub(crate) fn edge_face_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     e: u32,
     y: &Y,
@@ -46,7 +46,7 @@ pub(crate) fn edge_face_crossing<X: Placed, Y: Placed>(
 ///
 /// # Guarantee
 /// Like [`edge_face_crossing`].
-pub(crate) fn inner_corner_crossing<X: Placed, Y: Placed>(
+pub(crate) fn inner_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     v: u32,
     y: &Y,
@@ -85,7 +85,10 @@ pub(crate) fn inner_corner_crossing<X: Placed, Y: Placed>(
 
 /// Searches for an edge of X that passes through a face of Y, or a corner of X inside Y, unless the polytopes are too
 /// large.
-pub(crate) fn search_crossing<X: Placed, Y: Placed>(x: &X, y: &Y) -> Option<Crossing> {
+pub(crate) fn search_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    y: &Y,
+) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
     if edges as usize * faces as usize > MAX_TESTED_PAIRS {
         return None;

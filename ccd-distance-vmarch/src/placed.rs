@@ -9,7 +9,7 @@ use ccd_core::order::{greater, lesser};
 /// A polytope in A's frame.
 ///
 /// Tests of features are generic, to serve both orders of the polytopes.
-pub(crate) trait Placed {
+pub(crate) trait PlacedPolytope {
     fn shape(&self) -> &Polytope;
     /// Transforms a point from the polytope's frame to A's.
     fn point(&self, local: DVec3) -> DVec3;
@@ -35,7 +35,7 @@ pub(crate) trait Placed {
 
     /// Returns the components of a vector along the two directions that point from an edge into its faces.
     #[inline(always)]
-    fn inward(&self, edge: &Edge, offset: DVec3) -> [f64; 2] {
+    fn inward_components(&self, edge: &Edge, offset: DVec3) -> [f64; 2] {
         edge.inward.map(|inward| self.vector(inward).dot(offset))
     }
 }
@@ -135,7 +135,7 @@ pub(crate) fn clamp(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)
 }
 
-impl Placed for PlacedA<'_> {
+impl PlacedPolytope for PlacedA<'_> {
     #[inline(always)]
     fn shape(&self) -> &Polytope {
         self.0
@@ -152,7 +152,7 @@ impl Placed for PlacedA<'_> {
     }
 }
 
-impl Placed for PlacedB<'_> {
+impl PlacedPolytope for PlacedB<'_> {
     #[inline(always)]
     fn shape(&self) -> &Polytope {
         self.shape

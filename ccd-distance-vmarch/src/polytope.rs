@@ -40,7 +40,7 @@ pub(crate) struct Polytope {
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
     /// A table of corners from which hill climbing starts; `None` for polytopes of few corners, which are scanned.
-    start_corners: Option<Box<DirectionTable>>,
+    direction_table: Option<Box<DirectionTable>>,
 }
 
 /// A corner of the polytope, and the range of its outgoing edges.
@@ -107,7 +107,7 @@ impl Edge {
     /// Returns whether a point is outside of both face-edge planes by more than `slack`, given its components along
     /// `inward`.
     #[inline(always)]
-    pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
+    pub(crate) fn is_outside_face_planes(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];
         alone || inward.iter().all(|&into| into < -slack)
     }

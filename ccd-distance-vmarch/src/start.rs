@@ -1,7 +1,7 @@
 //! Chooses the pair from which a march starts: the last pair of features, or extremal vertices `[SWIFT01]`.
 
 use crate::feature::{Feature, Pair};
-use crate::placed::{Placed, PlacedPair};
+use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 

@@ -4,7 +4,7 @@ use crate::feature::{Certainty, Crossing, Pair, WhichPolytope};
 
 /// Why and where a march ended.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum End {
+pub(crate) enum MarchEnd {
     /// The march reached the nearest features.
     Nearest(Pair, Certainty),
     /// The march found a common point of A's and B's features; `WhichPolytope` is the polytope of the edge.

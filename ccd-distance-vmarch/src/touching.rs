@@ -2,7 +2,7 @@
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
-use crate::placed::{Placed, PlacedPair, Scale};
+use crate::placed::{PlacedPair, PlacedPolytope, Scale};
 use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
 use ccd_core::Claim;
@@ -43,7 +43,7 @@ fn touching_features(
     found.map(|(a, b)| Pair { a, b })
 }
 
-fn features<X: Placed, Y: Placed>(
+fn features<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     y: &Y,
     crossing: &Crossing,

@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
-use crate::placed::{Line, Placed, Scale};
+use crate::placed::{Line, PlacedPolytope, Scale};
 use crate::tolerance::PRODUCT_ERROR;
 use ccd_core::glam::DVec3;
 
@@ -15,7 +15,13 @@ use ccd_core::glam::DVec3;
 /// tested with the foot, which needs no quotient and is exact up to rounding even if an edge meets
 /// a plane at a small angle.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Scale) -> MarchStep {
+pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    v: u32,
+    y: &Y,
+    e: u32,
+    scale: Scale,
+) -> MarchStep {
     let corner = x.vertex(v);
     let edge = y.shape().edge(e);
     let line = y.line(e);
@@ -32,7 +38,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     if offset.length_squared() <= rounding * rounding {
         return MarchStep::Stop(Tied);
     }
-    let inward = y.inward(edge, from_start);
+    let inward = y.inward_components(edge, from_start);
     if let Some(face) = face_towards_point(y, edge.faces, inward, from_start) {
         return MarchStep::Continue(Feature::Vertex(v), Feature::Face(face));
     }
@@ -40,14 +46,14 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     if approach.decrease > 0.0 {
         return MarchStep::Continue(Feature::Edge(approach.edge), Feature::Edge(e));
     }
-    let clear = edge.is_clear(inward, rounding) && !approach.is_tied;
+    let clear = edge.is_outside_face_planes(inward, rounding) && !approach.is_tied;
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
 /// Returns the face of an edge that a point projects towards; of two such faces, the one that the point is higher
 /// above. `None` if the point is outside of both face-edge planes.
 #[inline(always)]
-pub(crate) fn face_towards_point<Y: Placed>(
+pub(crate) fn face_towards_point<Y: PlacedPolytope>(
     y: &Y,
     faces: [u32; 2],
     inward: [f64; 2],
@@ -65,7 +71,7 @@ pub(crate) fn face_towards_point<Y: Placed>(
 }
 
 /// The edge at a corner along which the distance to a given line decreases most.
-struct SteepestEdge {
+struct ApproachingEdge {
     edge: u32,
     /// The distance times its rate of decrease along the edge, less an allowance for rounding.
     decrease: f64,
@@ -80,14 +86,14 @@ struct SteepestEdge {
 /// the line counts. It is small for nearly parallel edges, and the allowance for rounding has to be
 /// small as well; otherwise their slow approach would be missed.
 #[inline(always)]
-fn steepest_edge_towards<X: Placed>(
+fn steepest_edge_towards<X: PlacedPolytope>(
     x: &X,
     v: u32,
     line: &Line,
     offset: DVec3,
     scale: Scale,
-) -> SteepestEdge {
-    let mut out = SteepestEdge {
+) -> ApproachingEdge {
+    let mut out = ApproachingEdge {
         edge: 0,
         decrease: 0.0,
         is_tied: false,

@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
-use crate::placed::{Placed, Scale};
+use crate::placed::{PlacedPolytope, Scale};
 use crate::tolerance::PRODUCT_ERROR;
 use crate::vertex_vertex::steepest_edge;
 
@@ -11,7 +11,13 @@ use crate::vertex_vertex::steepest_edge;
 ///
 /// The nearest violated plane would be wrong: its edge need not be nearer.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Scale) -> MarchStep {
+pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    v: u32,
+    y: &Y,
+    f: u32,
+    scale: Scale,
+) -> MarchStep {
     let corner = x.vertex(v);
     let (mut least, mut outside) = (0.0, None);
     let mut height = 0.0;

@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
-use crate::placed::{Placed, Scale};
+use crate::placed::{PlacedPolytope, Scale};
 use ccd_core::glam::DVec3;
 
 /// Tests each corner against the other's vertex-edge planes, and continues with the edge behind the most violated
@@ -11,7 +11,13 @@ use ccd_core::glam::DVec3;
 /// No slack is needed: [`vertex_edge`](crate::vertex_edge) tests the same plane by the same product
 /// of the same numbers, so that no pair returns from there.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Scale) -> MarchStep {
+pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    v: u32,
+    y: &Y,
+    w: u32,
+    scale: Scale,
+) -> MarchStep {
     let offset = y.vertex(w) - x.vertex(v);
     let rounding = scale.rounding();
     if offset.length_squared() <= rounding * rounding {
@@ -37,7 +43,11 @@ pub(crate) struct SteepestEdge {
 
 /// Returns the edge at a corner whose unit direction has the largest scalar product with a vector.
 #[inline(always)]
-pub(crate) fn steepest_edge<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> SteepestEdge {
+pub(crate) fn steepest_edge<P: PlacedPolytope>(
+    polytope: &P,
+    v: u32,
+    offset: DVec3,
+) -> SteepestEdge {
     let mut best = SteepestEdge {
         edge: 0,
         slope: f64::NEG_INFINITY,

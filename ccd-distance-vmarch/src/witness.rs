@@ -2,10 +2,10 @@
 
 use crate::edge_edge;
 use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
-use crate::placed::{Line, Placed, PlacedPair, Scale, clamp};
+use crate::placed::{Line, PlacedPair, PlacedPolytope, Scale, clamp};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, Combination};
+use ccd_core::{Claim, ConvexCombination};
 
 /// The nearest points of two features, and the axis between the features.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +82,12 @@ pub(crate) fn common(placed: &PlacedPair<'_>, which: WhichPolytope, crossing: &C
 }
 
 #[inline]
-fn vertex_vertex_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness {
+fn vertex_vertex_witness<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    v: u32,
+    y: &Y,
+    w: u32,
+) -> Witness {
     let points = [x.vertex(v), y.vertex(w)];
     Witness {
         points,
@@ -95,7 +100,12 @@ fn vertex_vertex_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> 
 }
 
 #[inline]
-fn vertex_edge_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
+fn vertex_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    v: u32,
+    y: &Y,
+    e: u32,
+) -> Witness {
     let (point, line) = (x.vertex(v), y.line(e));
     let parameter = line.nearest(point);
     let foot = line.at(parameter);
@@ -111,7 +121,13 @@ fn vertex_edge_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Wi
 }
 
 #[inline]
-fn edge_edge_witness<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Witness {
+fn edge_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    e: u32,
+    y: &Y,
+    f: u32,
+    scale: Scale,
+) -> Witness {
     let (one, other) = (x.line(e), y.line(f));
     let near = edge_edge::nearest(&one, &other);
     let [s, t] = near.parameters;
@@ -130,10 +146,15 @@ fn edge_edge_witness<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: 
 }
 
 #[inline]
-fn vertex_face_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
+fn vertex_face_witness<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    v: u32,
+    y: &Y,
+    f: u32,
+) -> Witness {
     let point = x.vertex(v);
     let normal = y.vector(y.shape().face(f).normal);
-    let (foot, spot) = on_face(point, y, f, normal);
+    let (foot, spot) = project_onto_face(point, y, f, normal);
     Witness {
         points: [point, foot],
         claim: Claim {
@@ -165,8 +186,8 @@ fn combination<const N: usize>(
     shape: &Polytope,
     vertices: [u32; N],
     weights: [f64; N],
-) -> Combination {
-    let mut out = Combination::EMPTY;
+) -> ConvexCombination {
+    let mut out = ConvexCombination::EMPTY;
     for (v, weight) in vertices.into_iter().zip(weights) {
         out.push(shape.vertex(v).number, weight);
     }
@@ -174,21 +195,26 @@ fn combination<const N: usize>(
 }
 
 #[inline]
-fn corner<P: Placed>(polytope: &P, v: u32) -> Combination {
-    Combination::point(polytope.shape().vertex(v).number)
+fn corner<P: PlacedPolytope>(polytope: &P, v: u32) -> ConvexCombination {
+    ConvexCombination::point(polytope.shape().vertex(v).number)
 }
 
 #[inline]
-fn on_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Combination {
+fn on_edge<P: PlacedPolytope>(polytope: &P, e: u32, parameter: f64) -> ConvexCombination {
     let shape = polytope.shape();
     let edge = shape.edge(e);
     let numbers = edge.ends.map(|v| shape.vertex(v).number);
-    Combination::segment(numbers, parameter / edge.length)
+    ConvexCombination::segment(numbers, parameter / edge.length)
 }
 
 /// Projects a point onto a face, and returns the projection, clamped to a triangle of the face, with its weights.
 #[inline]
-fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Combination) {
+fn project_onto_face<Y: PlacedPolytope>(
+    point: DVec3,
+    y: &Y,
+    f: u32,
+    normal: DVec3,
+) -> (DVec3, ConvexCombination) {
     let sides = y.shape().sides_of(f);
     let at = |k: usize| y.vertex(sides[k].vertex);
     let first = at(0);

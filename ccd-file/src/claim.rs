@@ -61,7 +61,7 @@ impl Claim {
                     file,
                     path: partial,
                     target,
-                    is_kept: left > 0,
+                    is_kept_on_drop: left > 0,
                 };
                 return Ok(Claim {
                     temp_file: temporary,
@@ -78,7 +78,7 @@ impl Claim {
     }
 
     /// Returns the temporary path under which the file is written.
-    pub fn partial(&self) -> &Path {
+    pub fn partial_path(&self) -> &Path {
         &self.temp_file.path
     }
 
@@ -112,7 +112,11 @@ impl Claim {
     /// # Errors
     /// Errors of the operating system.
     pub fn cut(&mut self, bytes: u64) -> io::Result<()> {
-        let TempFile { file, is_kept, .. } = &mut self.temp_file;
+        let TempFile {
+            file,
+            is_kept_on_drop: is_kept,
+            ..
+        } = &mut self.temp_file;
         file.set_len(bytes)?;
         file.seek(SeekFrom::Start(bytes))?;
         *is_kept &= bytes > 0;
@@ -120,8 +124,8 @@ impl Claim {
     }
 
     /// Makes a dropped claim leave the file under its temporary name, instead of removing it.
-    pub fn keep(&mut self) {
-        self.temp_file.is_kept = true;
+    pub fn keep_on_drop(&mut self) {
+        self.temp_file.is_kept_on_drop = true;
     }
 
     /// Renames the complete file to its target.

@@ -14,7 +14,7 @@ pub(crate) struct TempFile {
     pub(crate) path: PathBuf,
     pub(crate) target: PathBuf,
     /// Whether the file stays on disk if this value is dropped before the file has its final name.
-    pub(crate) is_kept: bool,
+    pub(crate) is_kept_on_drop: bool,
 }
 
 impl TempFile {
@@ -33,7 +33,7 @@ impl TempFile {
                         file,
                         path,
                         target,
-                        is_kept: false,
+                        is_kept_on_drop: false,
                     });
                 }
             }
@@ -54,14 +54,14 @@ impl TempFile {
         // Some file systems report a full disk only here.
         self.file.sync_all()?;
         fs::rename(&self.path, &self.target)?;
-        self.is_kept = true;
+        self.is_kept_on_drop = true;
         Ok(())
     }
 }
 
 impl Drop for TempFile {
     fn drop(&mut self) {
-        if !self.is_kept && leads_to_file(&self.file, &self.path).unwrap_or(false) {
+        if !self.is_kept_on_drop && leads_to_file(&self.file, &self.path).unwrap_or(false) {
             // A file that stays behind does no harm.
             let _ = fs::remove_file(&self.path);
         }

@@ -86,7 +86,7 @@ fn a_claimed_file_is_given_to_one() {
     assert_eq!(folder.names(), ["table"]);
     let mut kept = claim(target.clone()).unwrap();
     kept.file().write_all(b"more rows").unwrap();
-    kept.keep();
+    kept.keep_on_drop();
     drop(kept);
     drop(claim(target.clone()).unwrap());
     let mut again = claim(target.clone()).unwrap();
@@ -119,9 +119,9 @@ fn a_replaced_file_is_not_placed() {
     let target = folder.path("table");
     for replaced in [false, true] {
         let claim = Claim::new(target.clone()).unwrap();
-        fs::remove_file(claim.partial()).unwrap();
+        fs::remove_file(claim.partial_path()).unwrap();
         if replaced {
-            fs::write(claim.partial(), "of another").unwrap();
+            fs::write(claim.partial_path(), "of another").unwrap();
         }
         let error = claim.place().unwrap_err();
         assert!(error.to_string().contains("removed or replaced"), "{error}");

@@ -47,7 +47,7 @@ impl Meshes {
             .map_or(DVec3::ZERO, |mesh| mesh.middle.into())
     }
 
-    pub(crate) fn json_meshes(&self) -> impl Serialize {
+    pub(crate) fn serializable(&self) -> impl Serialize {
         &self.0
     }
 }

@@ -67,7 +67,7 @@ impl Page<'_> {
                 format!("{}{VIEW_CSS}", include_str!("page/page.css")),
             ),
             ("view", VIEW_HTML.to_owned()),
-            ("views", data(&self.meshes, &self.groups)?),
+            ("views", views_json(&self.meshes, &self.groups)?),
             ("scripts", scripts()),
         ];
         Ok(fill_template(include_str!("page/page.html"), &parts))
@@ -107,13 +107,13 @@ fn elements(scripts: &[&str]) -> String {
 ///
 /// # Errors
 /// The value cannot be serialised.
-pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Error> {
+pub fn views_json(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Error> {
     #[derive(Serialize)]
     struct Data<'a, M> {
         meshes: M,
         groups: &'a [Group],
     }
-    let meshes = meshes.json_meshes();
+    let meshes = meshes.serializable();
     json(&Data { meshes, groups })
 }
 

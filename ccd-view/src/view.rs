@@ -31,7 +31,7 @@ pub struct View {
     /// The bodies of the query or the scene.
     pub bodies: Vec<ShownBody>,
     /// The times at which moving bodies are also drawn, translucent.
-    pub ghosts: Vec<f64>,
+    pub ghost_times: Vec<f64>,
     /// The distance between two bodies over time, if it is known.
     pub gap: Option<Gap>,
     /// The contacts, in order of time.
@@ -84,9 +84,9 @@ pub struct ShownContact {
     pub normal: Option<DVec3>,
     /// The corners of the first body's highlighted feature: one of a vertex, two of an edge, three of each triangle of
     /// a face.
-    pub lit_a: Vec<DVec3>,
-    /// The corners of the second body's highlighted feature, as in `lit_a`.
-    pub lit_b: Vec<DVec3>,
+    pub highlight_a: Vec<DVec3>,
+    /// The corners of the second body's highlighted feature, as in `highlight_a`.
+    pub highlight_b: Vec<DVec3>,
 }
 
 impl View {

@@ -68,9 +68,9 @@ impl Part {
             "coin" => Part::cuboid([0.1, 0.1, 0.006]),
             "rod" => Part::capsule(0.02, 0.3),
             "ball" => Part::capsule(0.12, 0.0),
-            "knot" => Part::of_mesh(shapes::knot(0.3, 0.05)?),
+            "knot" => Part::from_mesh(shapes::knot(0.3, 0.05)?),
             "sheet" => Part::cuboid([0.001, 0.4, 0.4]),
-            "slot" => Part::of_mesh(shapes::slot([0.02, 0.4, 0.45], [0.06, 0.36])?),
+            "slot" => Part::from_mesh(shapes::slot([0.02, 0.4, 0.45], [0.06, 0.36])?),
             "post" => Part::capsule(0.015, 0.45),
             _ => Err(WebError::UnknownPart(name.to_owned())),
         }
@@ -85,7 +85,7 @@ impl Part {
         let [low, high] = mesh.bounding_box();
         let scale = size / (high - low).length();
         let middle = 0.5 * low + 0.5 * high;
-        Part::of_mesh(mesh.transformed(AffineMap::scaled(scale, Pose::at(-middle * scale)?))?)
+        Part::from_mesh(mesh.transformed(AffineMap::scaled(scale, Pose::at(-middle * scale)?))?)
     }
 
     /// Returns the drawn vertices, three numbers each.
@@ -123,7 +123,7 @@ impl Part {
         Ok(Part { body, surface })
     }
 
-    fn of_mesh(surface: TriangleMesh) -> Result<Self, WebError> {
+    fn from_mesh(surface: TriangleMesh) -> Result<Self, WebError> {
         let body = body_from_mesh(&surface, Detail::Auto)?.body;
         Ok(Part { body, surface })
     }

@@ -46,7 +46,7 @@ impl Throw {
     ///
     /// # Errors
     /// [`WebError::WrongNumberCount`].
-    pub fn of_numbers(numbers: &[f64]) -> Result<Self, WebError> {
+    pub fn from_numbers(numbers: &[f64]) -> Result<Self, WebError> {
         let &[px, py, pz, vx, vy, vz, wx, wy, wz] = numbers else {
             return Err(WebError::WrongNumberCount(numbers.len()));
         };

@@ -1,7 +1,7 @@
 //! Converts a cast in double precision to a query of the engine.
 
 use crate::half_space::HalfSpace;
-use crate::horizon::{Horizon, MotionWithExtent, relative_displacement};
+use crate::horizon::{MotionWithExtent, QueryDuration, relative_displacement};
 use crate::interval::Interval;
 use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
@@ -96,7 +96,7 @@ impl Cast {
             bodies,
             motions: sides.map(|side| side.motion),
             frames,
-            horizon: Horizon::new(sides, within, self.interval.length()),
+            horizon: QueryDuration::new(sides, within, self.interval.length()),
             interval: self.interval,
             target: self.target,
             settings,
@@ -121,7 +121,8 @@ impl Cast {
         let within = self.settings(&[body], body.slack())?;
         let within = within.margin + within.tolerance;
         let wanted = self.interval.length();
-        let reach = |horizon: Horizon| plane.reach(of_plane, side, within, horizon.duration());
+        let reach =
+            |horizon: QueryDuration| plane.reach(of_plane, side, within, horizon.duration());
         let horizon = plane.horizon(of_plane, side, within, wanted);
         // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);

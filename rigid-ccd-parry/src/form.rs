@@ -6,8 +6,8 @@ use crate::tolerance::POSE_ROUNDING;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Body, Combination, Enclosure, Facet, FacetOrigin, Feature, InputError, Pieces, Polytope, Pose,
-    SolidOfRevolution, Volume,
+    Body, ConvexCombination, Enclosure, Facet, FacetOrigin, Feature, InputError, Pieces, Polytope,
+    Pose, SolidOfRevolution, Volume,
 };
 use std::borrow::Cow;
 use std::iter::repeat;
@@ -58,7 +58,11 @@ impl ShapeGeometry {
     };
 
     /// Returns the geometry of a cylinder or a cone, grown by a radius; its polytope is made later, with the body.
-    pub(crate) fn from_round(round: SolidOfRevolution, radius: f64, excess: Excess) -> Self {
+    pub(crate) fn from_solid_of_revolution(
+        round: SolidOfRevolution,
+        radius: f64,
+        excess: Excess,
+    ) -> Self {
         ShapeGeometry {
             round: Some((round, radius, excess)),
             ..ShapeGeometry::EMPTY
@@ -251,7 +255,7 @@ impl ShapeGeometry {
             }
             (parts, false) => self.body_of_parts(&self.parts_and_triangles(parts)),
         };
-        let body = made.map_err(|error| self.with_sub_shape(error))?;
+        let body = made.map_err(|error| self.shape_error(error))?;
         let numbers = (0..body.pieces().len()).map(|k| self.sub_shape_of_piece(&body, k));
         let numbers = numbers.collect();
         Ok((body, numbers))
@@ -299,14 +303,14 @@ impl ShapeGeometry {
 
     /// Returns the sub-shape index of a piece of the body.
     fn sub_shape_of_piece(&self, body: &Body, piece: usize) -> u32 {
-        let inside = if body.pieces().all_triangles() {
-            let mut inside = Combination::segment([0, 1], 0.5);
+        let inside = if body.pieces().are_all_triangles() {
+            let mut inside = ConvexCombination::segment([0, 1], 0.5);
             inside.push(2, 0.5);
             inside
         } else if self.parts.len() == 1 && self.triangles.is_empty() {
             return self.parts[0].number;
         } else {
-            Combination::point(0)
+            ConvexCombination::point(0)
         };
         match body.pieces().feature(piece, &inside) {
             Feature::Face(number) | Feature::Vertex(number) => number,
@@ -315,7 +319,7 @@ impl ShapeGeometry {
     }
 
     /// Converts an error of the engine, which has the index of a piece, to an error with the sub-shape index.
-    fn with_sub_shape(&self, error: InputError) -> ShapeError {
+    fn shape_error(&self, error: InputError) -> ShapeError {
         let piece = match error {
             InputError::BadPoint { piece, .. }
             | InputError::BadRadius { piece, .. }
@@ -342,7 +346,7 @@ impl ShapeGeometry {
 /// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
 fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
-        Excess::RadiusFraction => round.usual_excess(),
+        Excess::RadiusFraction => round.default_excess(),
         Excess::Length(length) => length,
         Excess::NotAllowed => return Err(ShapeError::Round),
     };

@@ -4,7 +4,7 @@
 //! part of the half-space in that ball, and hardly more, has the same contacts.
 
 use crate::form::ShapeGeometry;
-use crate::horizon::{Horizon, MotionWithExtent, repetition_time, rotation_period};
+use crate::horizon::{MotionWithExtent, QueryDuration, repetition_time, rotation_period};
 use crate::order::{greater, length, lesser};
 use crate::tolerance::{INTERVAL_END_ROUNDING_FACTOR, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
 use crate::{Prepared, ShapeError};
@@ -42,16 +42,16 @@ impl HalfSpace {
         body: MotionWithExtent,
         within: f64,
         wanted: f64,
-    ) -> Horizon {
+    ) -> QueryDuration {
         let needed = self.time_when_decided(plane, body, within);
         let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
-        let horizon = Horizon::for_duration([plane, body], needed);
+        let horizon = QueryDuration::for_duration([plane, body], needed);
         // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
         let size = body.reach + within + length(body.start_position() - plane.start_position());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
         let most = LARGEST_PLANE_EXTENT * size / speed;
         if speed > 0.0 && horizon.duration() > most {
-            Horizon::Part(most)
+            QueryDuration::Part(most)
         } else {
             horizon
         }

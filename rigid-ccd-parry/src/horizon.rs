@@ -34,18 +34,18 @@ impl MotionWithExtent {
 
 /// The duration of the query that stands for a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Horizon {
+pub(crate) enum QueryDuration {
     /// The duration decides the whole cast: bodies that stay apart for this duration stay apart for the whole requested
     /// time.
-    Whole(f64),
+    WholeCast(f64),
     /// The duration is a part of the cast: the longest that the engine accepts.
     Part(f64),
 }
 
-impl Horizon {
+impl QueryDuration {
     pub(crate) fn duration(self) -> f64 {
         match self {
-            Horizon::Whole(duration) | Horizon::Part(duration) => duration,
+            QueryDuration::WholeCast(duration) | QueryDuration::Part(duration) => duration,
         }
     }
 
@@ -53,16 +53,16 @@ impl Horizon {
     /// distance `within`.
     pub(crate) fn new(bodies: [MotionWithExtent; 2], within: f64, wanted: f64) -> Self {
         let needed = [time_when_passed(bodies, within), repetition_time(bodies)];
-        Horizon::for_duration(bodies, needed.into_iter().flatten().fold(wanted, lesser))
+        QueryDuration::for_duration(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
 
     /// Returns the duration of the engine's query for a cast that is known to be decided at the time `needed`.
     pub(crate) fn for_duration(bodies: [MotionWithExtent; 2], needed: f64) -> Self {
         let possible = longest_duration(bodies);
         if needed <= possible {
-            Horizon::Whole(needed)
+            QueryDuration::WholeCast(needed)
         } else {
-            Horizon::Part(possible)
+            QueryDuration::Part(possible)
         }
     }
 }

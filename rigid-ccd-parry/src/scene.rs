@@ -1,6 +1,6 @@
 //! The engine's query that stands for a cast, and the conversion of its answer to parry's terms.
 
-use crate::horizon::Horizon;
+use crate::horizon::QueryDuration;
 use crate::interval::Interval;
 use crate::order::lesser;
 use crate::tolerance::BUDGET_AT_LIMIT;
@@ -17,7 +17,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) motions: [Motion; 2],
     /// The full motions, with all rotations; the points and normals of a hit are in the frames that these motions move.
     pub(crate) frames: [Motion; 2],
-    pub(crate) horizon: Horizon,
+    pub(crate) horizon: QueryDuration,
     pub(crate) interval: Interval,
     /// The distance at which the bodies are in contact, in the scene's unit of length.
     pub(crate) target: f64,
@@ -76,7 +76,7 @@ impl Scene<'_> {
     fn hit(&self, answer: &Answer, solver: &mut Solver) -> Option<CastHit> {
         match answer.outcome {
             Outcome::Contact { time, contact } => {
-                Some(self.hit_of(time, &contact, CastStatus::Contact))
+                Some(self.hit_from_contact(time, &contact, CastStatus::Contact))
             }
             Outcome::Touching { contact } => {
                 let within = self.target > 0.0 && contact.separation.upper <= self.target;
@@ -85,25 +85,27 @@ impl Scene<'_> {
                 } else {
                     CastStatus::Contact
                 };
-                Some(self.hit_of(0.0, &contact, ending))
+                Some(self.hit_from_contact(0.0, &contact, ending))
             }
             Outcome::Overlapping { overlap, .. } => Some(match overlap {
-                Overlap::Pieces(contact) => self.hit_of(0.0, &contact, CastStatus::Overlap),
+                Overlap::Pieces(contact) => {
+                    self.hit_from_contact(0.0, &contact, CastStatus::Overlap)
+                }
                 Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
             }),
             Outcome::Unresolved(known) => Some(self.hit_at_limit(known.safe_until, solver)),
             // A first contact has no other outcomes.
             Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 match self.horizon {
-                    Horizon::Whole(_) => None,
-                    Horizon::Part(duration) => Some(self.hit_at_limit(duration, solver)),
+                    QueryDuration::WholeCast(_) => None,
+                    QueryDuration::Part(duration) => Some(self.hit_at_limit(duration, solver)),
                 }
             }
         }
     }
 
     /// Converts a contact at the time `after` the start to a hit, with points and normals in the bodies' frames.
-    fn hit_of(&self, after: f64, contact: &Contact, ending: CastStatus) -> CastHit {
+    fn hit_from_contact(&self, after: f64, contact: &Contact, ending: CastStatus) -> CastHit {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
         let normals = [separation.normal, -separation.normal];
@@ -127,7 +129,7 @@ impl Scene<'_> {
             .map(|pose| pose.inverse().transform_point(point));
         CastHit {
             witnesses,
-            ..CastHit::without_points(self.interval.start, CastStatus::Inside)
+            ..CastHit::hit_without_points(self.interval.start, CastStatus::Inside)
         }
     }
 
@@ -149,8 +151,8 @@ impl Scene<'_> {
             Err(_) => None,
         };
         match contact {
-            Some(contact) => self.hit_of(after, &contact, CastStatus::Limit),
-            None => CastHit::without_points(self.interval.time_after(after), CastStatus::Limit),
+            Some(contact) => self.hit_from_contact(after, &contact, CastStatus::Limit),
+            None => CastHit::hit_without_points(self.interval.time_after(after), CastStatus::Limit),
         }
     }
 
@@ -161,7 +163,7 @@ impl Scene<'_> {
 
 impl CastHit {
     /// Returns a hit without nearest points: parry's placeholders stand in their place.
-    fn without_points(time: f64, ending: CastStatus) -> Self {
+    fn hit_without_points(time: f64, ending: CastStatus) -> Self {
         CastHit {
             time,
             witnesses: [DVec3::ZERO; 2],

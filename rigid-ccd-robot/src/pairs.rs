@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkPairs {
-    skipped: BTreeMap<[usize; 2], SkipReason>,
+    skip_reasons: BTreeMap<[usize; 2], SkipReason>,
     /// The numbers of the links that have bodies.
     links: Vec<usize>,
 }
@@ -29,11 +29,11 @@ pub enum SkipReason {
 
 impl LinkPairs {
     /// Creates the pairs of a robot; adjacent links, and links that never move relative to each other, are not checked.
-    pub fn of_robot(robot: &Robot) -> Self {
+    pub fn from_robot(robot: &Robot) -> Self {
         let has_bodies = |&link: &usize| !robot.links()[link].bodies.is_empty();
         let links: Vec<usize> = (0..robot.links().len()).filter(has_bodies).collect();
         let mut pairs = LinkPairs {
-            skipped: BTreeMap::new(),
+            skip_reasons: BTreeMap::new(),
             links,
         };
         for [one, other] in pairs.all().collect::<Vec<_>>() {
@@ -45,7 +45,7 @@ impl LinkPairs {
                 is_rigid.then_some(SkipReason::NoMotion)
             };
             pairs
-                .skipped
+                .skip_reasons
                 .extend(reason.map(|reason| ([one, other], reason)));
         }
         pairs
@@ -53,22 +53,25 @@ impl LinkPairs {
 
     /// Excludes a pair from the check for a reason. A pair that is excluded already keeps its reason.
     pub fn skip(&mut self, one: usize, other: usize, reason: SkipReason) {
-        self.skipped.entry(ordered(one, other)).or_insert(reason);
+        self.skip_reasons
+            .entry(ordered_pair(one, other))
+            .or_insert(reason);
     }
 
     /// Includes a pair in the check again that was excluded before.
     pub fn check(&mut self, one: usize, other: usize) {
-        self.skipped.remove(&ordered(one, other));
+        self.skip_reasons.remove(&ordered_pair(one, other));
     }
 
     /// Iterates over the pairs that are checked, the lower number first.
     pub fn checked(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.all().filter(|pair| !self.skipped.contains_key(pair))
+        self.all()
+            .filter(|pair| !self.skip_reasons.contains_key(pair))
     }
 
     /// Returns the reason why a pair is not checked; `None` if it is checked.
     pub fn skip_reason(&self, one: usize, other: usize) -> Option<&SkipReason> {
-        self.skipped.get(&ordered(one, other))
+        self.skip_reasons.get(&ordered_pair(one, other))
     }
 
     /// Iterates over all pairs of links with bodies.
@@ -78,7 +81,7 @@ impl LinkPairs {
     }
 }
 
-fn ordered(one: usize, other: usize) -> [usize; 2] {
+fn ordered_pair(one: usize, other: usize) -> [usize; 2] {
     if one <= other {
         [one, other]
     } else {

@@ -22,7 +22,7 @@ pub struct Robot {
     joints: Vec<Joint>,
     tree: Tree,
     /// For each joint, the rule by which its position is computed from a configuration; `None` for a fixed joint.
-    sources: Vec<Option<Source>>,
+    position_sources: Vec<Option<Source>>,
     /// The numbers of the joints with a position of their own, in the order of a configuration.
     free_joints: Vec<usize>,
 }
@@ -115,7 +115,7 @@ impl Robot {
                 joint.joint = joint
                     .joint
                     .clone()
-                    .within(f64::NEG_INFINITY..=f64::INFINITY);
+                    .with_limits(f64::NEG_INFINITY..=f64::INFINITY);
             }
         }
         let tree = Tree::new(&links, &joints)?;
@@ -124,7 +124,7 @@ impl Robot {
             links,
             joints,
             tree,
-            sources,
+            position_sources: sources,
             free_joints,
         })
     }
@@ -185,7 +185,11 @@ impl Robot {
         let steps = self.tree.steps_between(from, to);
         let joints = steps.iter().map(|step| {
             let joint = self.joints[step.joint].joint.clone();
-            if step.is_up { joint.reversed() } else { joint }
+            if step.leads_to_parent {
+                joint.reversed()
+            } else {
+                joint
+            }
         });
         let chain = Chain::new(Pose::IDENTITY, joints.collect());
         ChainBetween::new(chain, steps.iter().map(|step| step.joint).collect())
@@ -194,7 +198,9 @@ impl Robot {
     /// Returns whether only fixed joints are between two links, so that neither moves in the frame of the other.
     pub(crate) fn is_rigid_between(&self, one: usize, other: usize) -> bool {
         let steps = self.tree.steps_between(one, other);
-        steps.iter().all(|step| self.sources[step.joint].is_none())
+        steps
+            .iter()
+            .all(|step| self.position_sources[step.joint].is_none())
     }
 
     /// Returns the number of a link's parent link; `None` for the base.
@@ -224,7 +230,7 @@ impl Robot {
 
     /// Returns the position of a joint in a configuration; 0 for a fixed joint.
     fn position(&self, joint: usize, configuration: &[f64]) -> f64 {
-        self.sources[joint].map_or(0.0, |source| {
+        self.position_sources[joint].map_or(0.0, |source| {
             source.multiplier * configuration[source.number] + source.offset
         })
     }
@@ -252,7 +258,7 @@ fn sources(joints: &[Joint]) -> Result<(Vec<Option<Source>>, Vec<usize>), RobotE
                                 offset,
                             })
                         })
-                        .ok_or_else(|| follows_nothing(joint, &at.name));
+                        .ok_or_else(|| follows_nothing_error(joint, &at.name));
                 }
                 Position::Follows {
                     joint: followed,
@@ -262,16 +268,16 @@ fn sources(joints: &[Joint]) -> Result<(Vec<Option<Source>>, Vec<usize>), RobotE
                     offset += multiplier * shift;
                     multiplier *= factor;
                     let found = joints.iter().find(|other| other.name == *followed);
-                    at = found.ok_or_else(|| follows_nothing(joint, followed))?;
+                    at = found.ok_or_else(|| follows_nothing_error(joint, followed))?;
                 }
             }
         }
-        Err(follows_nothing(joint, &at.name))
+        Err(follows_nothing_error(joint, &at.name))
     });
     Ok((sources.collect::<Result<_, _>>()?, free_joints))
 }
 
-fn follows_nothing(joint: &Joint, followed: &str) -> RobotError {
+fn follows_nothing_error(joint: &Joint, followed: &str) -> RobotError {
     RobotError::FollowsNothing {
         joint: joint.name.clone(),
         followed: followed.to_owned(),

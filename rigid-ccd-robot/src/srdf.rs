@@ -7,7 +7,7 @@ use serde::Deserialize;
 #[derive(Debug, Deserialize)]
 struct Document {
     #[serde(rename = "disable_collisions", default)]
-    disabled: Vec<DisabledPair>,
+    pairs: Vec<DisabledPair>,
 }
 
 /// A pair of links that is not checked, by their names.
@@ -24,7 +24,7 @@ pub(crate) struct DisabledPair {
 
 /// Reads the pairs that are not checked from the text of an SRDF file.
 pub(crate) fn disabled_pairs(text: &str) -> Result<Vec<DisabledPair>, quick_xml::DeError> {
-    Ok(from_str::<Document>(text)?.disabled)
+    Ok(from_str::<Document>(text)?.pairs)
 }
 
 #[cfg(test)]

@@ -70,7 +70,7 @@ impl Urdf {
     /// Adds a folder that is searched first for `package://` names. The folder is a package, or holds packages.
     #[must_use]
     pub fn with_packages(mut self, folder: impl Into<PathBuf>) -> Self {
-        self.packages.look_first_in(folder.into());
+        self.packages.prepend_folder(folder.into());
         self
     }
 
@@ -82,7 +82,7 @@ impl Urdf {
 
     /// Sets whether a mesh becomes exact pieces or its convex hull.
     #[must_use]
-    pub fn with_meshes(self, meshes: MeshModel) -> Self {
+    pub fn with_mesh_model(self, meshes: MeshModel) -> Self {
         Urdf { meshes, ..self }
     }
 
@@ -104,7 +104,7 @@ impl Urdf {
         let joints = urdf
             .joints
             .iter()
-            .map(|joint| joint_of(joint).map_err(|error| error.of_joint(&joint.name)));
+            .map(|joint| convert_joint(joint).map_err(|error| error.with_joint_name(&joint.name)));
         let (links, joints) = (
             links.collect::<Result<_, _>>()?,
             joints.collect::<Result<_, _>>()?,
@@ -118,7 +118,7 @@ impl Urdf {
     /// # Errors
     /// [`UrdfError`] if the file cannot be read, or names a link that the robot does not have.
     pub fn link_pairs(&self, robot: &Robot, srdf: Option<&Path>) -> Result<LinkPairs, UrdfError> {
-        let mut pairs = LinkPairs::of_robot(robot);
+        let mut pairs = LinkPairs::from_robot(robot);
         if let Some(file) = srdf {
             let disabled = disabled_pairs(&read(file)?).map_err(|error| UrdfError::Syntax {
                 file: file.to_owned(),
@@ -152,7 +152,7 @@ impl Urdf {
         let bodies: Result<_, UrdfError> = elements.into_iter().map(body).collect();
         Ok(Link {
             name: link.name.clone(),
-            bodies: bodies.map_err(|error| error.of_link(&link.name))?,
+            bodies: bodies.map_err(|error| error.with_link_name(&link.name))?,
         })
     }
 }
@@ -164,15 +164,15 @@ fn read(file: &Path) -> Result<String, UrdfError> {
     })
 }
 
-fn joint_of(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
+fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
     let origin = pose_of(&joint.origin)?;
     let axis = joint.axis.xyz.0;
     let limits = joint.limit.lower..=joint.limit.upper;
     let moved = match joint.joint_type {
         JointType::Fixed => trajectory::Joint::fixed(origin),
         JointType::Continuous => trajectory::Joint::revolute(origin, axis)?,
-        JointType::Revolute => trajectory::Joint::revolute(origin, axis)?.within(limits),
-        JointType::Prismatic => trajectory::Joint::prismatic(origin, axis)?.within(limits),
+        JointType::Revolute => trajectory::Joint::revolute(origin, axis)?.with_limits(limits),
+        JointType::Prismatic => trajectory::Joint::prismatic(origin, axis)?.with_limits(limits),
         JointType::Floating | JointType::Planar | JointType::Spherical => {
             return Err(UrdfError::JointType {
                 kind: format!("{:?}", joint.joint_type).to_lowercase(),

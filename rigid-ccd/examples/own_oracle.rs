@@ -2,7 +2,7 @@
 //!
 //! The engine checks each result: with a wrong backend, a query is slow or unresolved, never late.
 
-use rigid_ccd::body::Combination;
+use rigid_ccd::body::ConvexCombination;
 use rigid_ccd::oracle::{Claim, DistanceOracle, GiveUpReason, Gjk, PiecePair};
 use rigid_ccd::{Body, Motion, Pose, Solver};
 use std::error::Error;
@@ -29,8 +29,8 @@ impl DistanceOracle for SegmentOracle {
         }
         Ok(Claim {
             axis: (q + t * v) - (p + s * u),
-            a: Combination::segment([0, last[0] as u32], s),
-            b: Combination::segment([0, last[1] as u32], t),
+            a: ConvexCombination::segment([0, last[0] as u32], s),
+            b: ConvexCombination::segment([0, last[1] as u32], t),
         })
     }
 }

@@ -25,7 +25,7 @@ mod view;
 
 pub use bad_rows::BadRows;
 pub use files::{input_name, open_motions, refuse_overwriting, same_file};
-pub use output::CannotWrite;
+pub use output::OutputError;
 pub use progress::{Progress, Total};
 pub use size::Size;
 pub use table::Table;
@@ -112,13 +112,13 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,
         Ok(Exit::SomeRowsBad) => ExitCode::from(2),
         Ok(Exit::SomeRowsNotFree) => ExitCode::from(3),
-        Err(error) => match error.downcast_ref::<CannotWrite>() {
+        Err(error) => match error.downcast_ref::<OutputError>() {
             // The reader closed the pipe, which is not a failure.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             failed => {
                 print_error(&causes::message_with_causes(&error));
                 // Another run holds the output, so this run must not start.
-                let busy = |f: &CannotWrite| f.source.kind() == io::ErrorKind::ResourceBusy;
+                let busy = |f: &OutputError| f.source.kind() == io::ErrorKind::ResourceBusy;
                 ExitCode::from(if failed.is_none_or(busy) { 2 } else { 1 })
             }
         },

@@ -39,7 +39,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
 /// ```
 pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
     let source = BodySource::from_file(path.as_ref().into());
-    Ok(source.load_in(unit, Detail::Auto)?.body)
+    Ok(source.load_in_unit(unit, Detail::Auto)?.body)
 }
 
 /// Loads a body as [`load`] does, with adjustments of its mesh: unit, scale factor, mirror, or a closed mesh taken as a
@@ -81,10 +81,11 @@ pub fn load_parts(path: impl AsRef<Path>) -> Result<Vec<(String, Body)>, BodyErr
     let parts = MeshFile::read(path)?.into_parts()?.into_iter();
     let loaded = parts.enumerate().map(|(number, NamedMesh { name, mesh })| {
         let name = name.unwrap_or_else(|| number.to_string());
-        let prepared = body_from_mesh(&mesh, Detail::Auto).map_err(|error| BodyError::InFile {
-            file: format!("{}#{name}", path.display()).into(),
-            error,
-        })?;
+        let prepared =
+            body_from_mesh(&mesh, Detail::Auto).map_err(|error| BodyError::FileContent {
+                file: format!("{}#{name}", path.display()).into(),
+                error,
+            })?;
         Ok((name, prepared.body))
     });
     loaded.collect()

@@ -227,7 +227,7 @@ impl<S: Send> ParallelSolver<S> {
     ) -> Vec<R> {
         let panicked = CachePadded(AtomicBool::new(false));
         let work = |own: &mut CachePadded<S>| {
-            let _tells = SetOnPanic(&panicked.0);
+            let _tells = PanicGuard(&panicked.0);
             let mut results = Vec::new();
             while !panicked.0.load(Ordering::Relaxed)
                 && let Some((index, query)) = next()
@@ -255,9 +255,9 @@ impl<S: Send> ParallelSolver<S> {
 }
 
 /// Sets a flag when this thread panics, so that the other threads stop.
-struct SetOnPanic<'f>(&'f AtomicBool);
+struct PanicGuard<'f>(&'f AtomicBool);
 
-impl Drop for SetOnPanic<'_> {
+impl Drop for PanicGuard<'_> {
     fn drop(&mut self) {
         if thread::panicking() {
             self.0.store(true, Ordering::Relaxed);

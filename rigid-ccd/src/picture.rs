@@ -17,7 +17,7 @@ pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, gap};
 #[cfg(feature = "scenes")]
 pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
-pub use verdict::{Asked, Claim};
+pub use verdict::{QueryContext, TimeMeaning};
 
 use crate::Solver;
 use crate::batch::Bodies;
@@ -34,7 +34,7 @@ pub const BODY_COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 /// Makes views of a page from answers about two bodies.
 pub struct Painter<'a> {
     bodies: Bodies<'a>,
-    asked: Asked,
+    query_context: QueryContext,
     meshes: Meshes,
     numbers: [usize; 2],
     solver: Solver,
@@ -48,7 +48,7 @@ pub enum ViewError {
     Input(#[from] InputError),
     /// The bodies are farther apart than the row says, so the row is about other bodies or other motions.
     #[error(
-        "at {time} the bodies are at least {measured_distance} apart, but the row says at most {reported}: it is the answer about \
+        "at {time} the bodies are at least {measured_distance} apart, but the row says at most {reported_distance}: it is the answer about \
          other bodies, or other motions"
     )]
     BodiesMismatch {
@@ -57,18 +57,18 @@ pub enum ViewError {
         /// A lower bound of the distance of the given bodies at that time.
         measured_distance: f64,
         /// The upper bound of the distance according to the row.
-        reported: f64,
+        reported_distance: f64,
     },
 }
 
 impl<'a> Painter<'a> {
     /// Creates a painter for answers about two bodies; `asked` describes the query of the answers.
-    pub fn new(bodies: Bodies<'a>, asked: Asked) -> Self {
+    pub fn new(bodies: Bodies<'a>, asked: QueryContext) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn_mesh(body)));
         Painter {
             bodies,
-            asked,
+            query_context: asked,
             meshes,
             numbers,
             solver: Solver::new(),
@@ -94,13 +94,13 @@ impl<'a> Painter<'a> {
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
-        if self.asked.claim == Claim::TableTime {
+        if self.query_context.claim == TimeMeaning::TableTime {
             self.check_distance(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
-        let name = match (self.asked.claim, row.time) {
+        let name = match (self.query_context.claim, row.time) {
             // A path has one row for each of its poses.
-            (Claim::MeasurementTime, Some(time)) => {
+            (TimeMeaning::MeasurementTime, Some(time)) => {
                 format!(
                     "{} at {} ({})",
                     row.id,
@@ -113,17 +113,19 @@ impl<'a> Painter<'a> {
         let mut view = View::new(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
-            let floor = match (row.status, self.asked.claim) {
-                (Status::Free, Claim::First | Claim::Any) => self.asked.margin,
+            let floor = match (row.status, self.query_context.claim) {
+                (Status::Free, TimeMeaning::FirstContact | TimeMeaning::Any) => {
+                    self.query_context.margin
+                }
                 _ => 0.0,
             };
             let found = gap(&mut self.solver, self.bodies, query, floor)?;
-            view.ghosts = found.ghosts(duration);
+            view.ghost_times = found.ghosts(duration);
             proven = found.least();
             nearest = found.nearest();
             view.gap = Some(found.gap);
         }
-        view.verdict = verdict::verdict(row, self.asked, start + duration, proven);
+        view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
         let motions = course(query)?;
         let names = ["A", "B"];
         view.bodies = (names.iter().zip(self.numbers).zip(BODY_COLORS).zip(motions))
@@ -155,7 +157,7 @@ impl<'a> Painter<'a> {
             return Err(ViewError::BodiesMismatch {
                 time,
                 measured_distance: measured,
-                reported: told,
+                reported_distance: told,
             });
         }
         Ok(())
@@ -177,8 +179,8 @@ impl<'a> Painter<'a> {
             words: verdict::contact(row),
             witnesses: Some(witnesses),
             normal: point(row.normal),
-            lit_a: feature_corners(0, self.bodies.a, &row.feature_a),
-            lit_b: feature_corners(1, self.bodies.b, &row.feature_b),
+            highlight_a: feature_corners(0, self.bodies.a, &row.feature_a),
+            highlight_b: feature_corners(1, self.bodies.b, &row.feature_b),
         })
     }
 }

@@ -89,7 +89,7 @@ impl Remark {
 
     /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their
     /// [sizes](Remark::size). A point has none.
-    pub fn of_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
+    pub fn check_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
         let size = lesser(sizes[0], sizes[1]);
         let is_coarse = size > 0.0 && tolerance > COARSE_TOLERANCE_SHARE * size;
         is_coarse.then_some(Remark::CoarseTolerance { tolerance, size })
@@ -97,7 +97,7 @@ impl Remark {
 
     /// Returns a remark if an angular velocity rotates a body by many turns in the duration, and is a round number of
     /// degrees.
-    pub fn of_spin(spin: impl Into<[f64; 3]>, duration: f64) -> Option<Self> {
+    pub fn check_spin(spin: impl Into<[f64; 3]>, duration: f64) -> Option<Self> {
         let spin = DVec3::from_array(spin.into());
         let turn = length(spin) * duration;
         let is_round = [spin, spin * duration]
@@ -108,13 +108,13 @@ impl Remark {
     }
 
     /// Returns a remark if a joint's position is many turns and a round number of degrees.
-    pub fn of_joint(position: f64) -> Option<Self> {
+    pub fn check_joint(position: f64) -> Option<Self> {
         let is_odd = may_be_degrees(position.abs()) && is_round_degrees(position);
         is_odd.then_some(Remark::JointInDegrees { position })
     }
 
     /// Returns a remark if a quaternion w, x, y, z is far from unit length.
-    pub fn of_quaternion(parts: [f64; 4]) -> Option<Self> {
+    pub fn check_quaternion(parts: [f64; 4]) -> Option<Self> {
         let [w, x, y, z] = parts;
         let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
         let is_unit = (length - 1.0).abs() <= MAX_UNIT_LENGTH_DEVIATION;

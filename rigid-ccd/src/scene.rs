@@ -213,7 +213,7 @@ impl<'a> Scene<'a> {
     /// What is wrong with a pair, if there is no earlier contact: a limit is reached, or a motion or the duration
     /// is out of range.
     pub fn first_contact(&mut self, duration: f64) -> Result<Option<Impact>, PairError> {
-        let events = self.events(duration, &Goal::first());
+        let events = self.find_events(duration, &Goal::first());
         let first = events.iter().min_by(|a, b| a.order(b));
         first.map(Event::impact).transpose()
     }
@@ -226,7 +226,7 @@ impl<'a> Scene<'a> {
         &mut self,
         duration: f64,
     ) -> Vec<Result<Option<Impact>, PairError>> {
-        let mut events = self.events(duration, &Goal::first_of_each_body(self.len()));
+        let mut events = self.find_events(duration, &Goal::first_of_each_body(self.len()));
         events.sort_unstable_by(Event::order);
         let mut firsts: Vec<Option<&Event>> = vec![None; self.len()];
         for event in &events {
@@ -244,13 +244,13 @@ impl<'a> Scene<'a> {
     /// Each pair has a result of its own. A pair that is unresolved is in the place of the time until which it is
     /// known to be apart, and one that is refused comes at time 0.
     pub fn contacts(&mut self, duration: f64) -> Vec<Result<Impact, PairError>> {
-        let mut events = self.events(duration, &Goal::All);
+        let mut events = self.find_events(duration, &Goal::AllPairs);
         events.sort_unstable_by(Event::order);
         events.iter().map(Event::impact).collect()
     }
 
     /// Finds the contacts and errors of the pairs, as far as `goal` needs them, and returns them in arbitrary order.
-    fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
+    fn find_events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = TimeLimits::new(duration, &self.settings);
         let pairs = self.pairs(duration);
         self.run_pair_queue(&pairs, &clock, goal)

@@ -58,21 +58,29 @@ fn hits_are_the_engines_bit_for_bit() {
 #[test]
 fn contacts_at_the_start_are_hits_at_time_0() {
     let (a, b) = (cuboid(), cuboid());
-    let touching = first_contact((&a, Motion::still(shifted(1.0))), (&b, Motion::STILL), 1.0);
+    let touching = first_contact(
+        (&a, Motion::still(shifted_pose(1.0))),
+        (&b, Motion::STILL),
+        1.0,
+    );
     let touching = touching.unwrap().hit().unwrap().unwrap();
     assert_eq!(touching.time, 0.0);
     assert!(
         matches!(touching.kind, HitKind::Touching(_)),
         "{touching:?}"
     );
-    let across = first_contact((&a, Motion::still(shifted(0.3))), (&b, Motion::STILL), 1.0);
+    let across = first_contact(
+        (&a, Motion::still(shifted_pose(0.3))),
+        (&b, Motion::STILL),
+        1.0,
+    );
     let across = across.unwrap().hit().unwrap().unwrap();
     assert_eq!(across.time, 0.0);
     let pieces = HitKind::Overlapping(Overlap::Pieces(across.contact().unwrap()));
     assert_eq!(across.kind, pieces);
 }
 
-fn shifted(x: f64) -> Pose {
+fn shifted_pose(x: f64) -> Pose {
     Pose::at([x, 0.0, 0.0]).unwrap()
 }
 

@@ -115,7 +115,11 @@ fn shapes_name_the_bad_length() {
     for (name, shape) in shapes {
         for bad in negative.into_iter().chain(NON_FINITE_NUMBERS) {
             match shape(bad).map(drop) {
-                Err(InputError::OutOfRange { what, value, .. }) => {
+                Err(InputError::OutOfRange {
+                    quantity: what,
+                    value,
+                    ..
+                }) => {
                     assert_eq!((what, value.to_bits()), (name, bad.to_bits()));
                 }
                 other => panic!("{name} {bad}: {other:?}"),

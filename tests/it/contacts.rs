@@ -24,7 +24,7 @@ fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
 }
 
 /// Returns the contacts of the scene with a given name, for every kind of pieces.
-fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
+fn scene_contacts(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     let scenes = scenes_named(name);
     let query = &scenes[0].query;
     let bodies = query.all_bodies();
@@ -39,7 +39,7 @@ fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
 /// Tests that each upright edge of a peg in a square hole touches both rims of one wall of the hole.
 #[test]
 fn t12_a_peg_touches_four_walls_at_once() {
-    for (kinds, pairs) in contacts_of("T12 ") {
+    for (kinds, pairs) in scene_contacts("T12 ") {
         let mut rims: BTreeMap<Feature, BTreeSet<Feature>> = BTreeMap::new();
         for pair in &pairs {
             rims.entry(pair.feature_a)
@@ -71,7 +71,7 @@ fn t12_a_peg_touches_four_walls_at_once() {
 /// Tests that the four corners of every tooth of two combs touch the other comb's base.
 #[test]
 fn t19_all_tips_of_two_combs_touch() {
-    for (kinds, pairs) in contacts_of("T19 combs of 4") {
+    for (kinds, pairs) in scene_contacts("T19 combs of 4") {
         assert_eq!(pairs.len(), 2 * 4 * 4, "{kinds:?}: {pairs:?}");
         let tip = |feature| matches!(feature, Feature::Vertex(_));
         for pair in &pairs {
@@ -83,7 +83,7 @@ fn t19_all_tips_of_two_combs_touch() {
 
 #[test]
 fn t1_a_cube_rests_on_its_corners() {
-    for (kinds, pairs) in contacts_of("T1 ") {
+    for (kinds, pairs) in scene_contacts("T1 ") {
         assert_eq!(pairs.len(), 4, "{kinds:?}: {pairs:?}");
         for pair in &pairs {
             let standing = matches!(
@@ -98,7 +98,7 @@ fn t1_a_cube_rests_on_its_corners() {
 /// Tests that two equal plates of 512 triangles, one on the other, touch at each pair of coinciding vertices.
 #[test]
 fn plates_meet_vertex_by_vertex() {
-    for (kinds, pairs) in contacts_of("plates") {
+    for (kinds, pairs) in scene_contacts("plates") {
         assert_eq!(pairs.len(), 17 * 17, "{kinds:?}");
         for FeaturePair {
             feature_a,

@@ -13,7 +13,7 @@ use rigid_ccd::Solver;
 use std::f64::consts::PI;
 
 /// Half of the ground's length and width, in units of length.
-const HALF: f64 = 8.0;
+const GROUND_HALF_LENGTH: f64 = 8.0;
 
 /// The time by which a contact may be early, because a search after a start in contact uses the least tolerance instead
 /// of the given one.
@@ -29,8 +29,10 @@ fn settings_with_leave() -> Settings {
 /// Returns flat ground at height 0, cut along `cuts` random lines in x and in y, with a diagonal in each cell.
 fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
     let mut lines = || {
-        let mut lines: Vec<f64> = (0..cuts).map(|_| rng.random_range(-HALF..HALF)).collect();
-        lines.extend([-HALF, HALF]);
+        let mut lines: Vec<f64> = (0..cuts)
+            .map(|_| rng.random_range(-GROUND_HALF_LENGTH..GROUND_HALF_LENGTH))
+            .collect();
+        lines.extend([-GROUND_HALF_LENGTH, GROUND_HALF_LENGTH]);
         lines.sort_unstable_by(f64::total_cmp);
         lines
     };

@@ -3,7 +3,7 @@
 use ccd_core::Unresolved;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Limit, Outcome, Settings};
-use ccd_tests::backends::{Backend, Oracle, ScheduleKind};
+use ccd_tests::backends::{Backend, OracleKind, ScheduleKind};
 use ccd_tests::case::Case;
 use ccd_tests::checks::{CheckResult, Judge};
 use ccd_tests::liars::{ContractBreach, FaultyOracle};
@@ -97,6 +97,6 @@ fn a_missing_oracle_is_reported() {
 fn best_first() -> Backend {
     Backend {
         order: ScheduleKind::BestFirst,
-        oracle: Oracle::Direct,
+        oracle: OracleKind::Direct,
     }
 }

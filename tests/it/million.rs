@@ -2,8 +2,8 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Outcome, Settings};
-use ccd_tests::analytic::{Expect, combs, screw_in_nut};
-use ccd_tests::backends::{Backend, Oracle, ScheduleKind};
+use ccd_tests::analytic::{ExpectedOutcome, combs, screw_in_nut};
+use ccd_tests::backends::{Backend, OracleKind, ScheduleKind};
 use ccd_tests::models::{PITCH, parallel_plate};
 use ccd_tests::query::{MovingShape, Query};
 
@@ -36,7 +36,7 @@ fn check(answer: &Answer) {
 fn a_million_pairs_kept_at_once() {
     let naive = Backend {
         order: ScheduleKind::Naive,
-        oracle: Oracle::ClosedForm,
+        oracle: OracleKind::ClosedForm,
     };
     let answer = falling_plate_answer(23, naive, 1e-3);
     assert!(answer.stats.peak_front > 1_000_000, "{answer:?}");
@@ -56,7 +56,11 @@ fn sixty_million_pairs_touching_at_once() {
 fn combs_of_many_teeth() {
     let teeth = if is_slow_run() { 512 } else { 96 };
     let scene = combs(teeth);
-    let Expect::Hit { earliest, latest } = &scene.expected else {
+    let ExpectedOutcome::Hit {
+        earliest_time: earliest,
+        latest_time: latest,
+    } = &scene.expected
+    else {
         panic!("combs meet");
     };
     let bodies = scene.query.triangles();

@@ -56,7 +56,7 @@ fn contacts_of_patches_name_the_mesh() {
 enum NameKind {
     /// The name is that of the smallest feature that contains the witness: a vertex before an edge, an edge before a
     /// face.
-    Least,
+    SmallestFeature,
     /// The smallest feature at the witness is an edge, and the name is that of an adjacent face.
     LargerFeature,
     /// The name is no feature of the mesh, because no mesh feature contains the witness.
@@ -67,7 +67,7 @@ enum NameKind {
 fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NameKind> {
     match (feature, holding.first()) {
         (Feature::Piece(_), None) => Some(NameKind::None),
-        (named, Some(&least)) if named == least => Some(NameKind::Least),
+        (named, Some(&least)) if named == least => Some(NameKind::SmallestFeature),
         (Feature::Face(_), Some(Feature::Edge(..))) => holding
             .contains(&feature)
             .then_some(NameKind::LargerFeature),

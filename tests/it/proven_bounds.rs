@@ -27,7 +27,7 @@ struct Tally {
     unresolved: u64,
     /// The number of scenes in which one question reports a contact within the tolerance, and another question reports
     /// none.
-    grazes: u64,
+    grazing_scenes: u64,
 }
 
 /// A scene, the settings of its queries, and its known distances.
@@ -148,7 +148,7 @@ impl<'s> Case<'s> {
         let is_free = matches!(any, Outcome::Free { .. });
         let decided = !matches!(any, Outcome::Unresolved(_));
         if decided && !matches!(first, Outcome::Unresolved(_)) {
-            tally.grazes += u64::from(is_free != matches!(first, Outcome::Free { .. }));
+            tally.grazing_scenes += u64::from(is_free != matches!(first, Outcome::Free { .. }));
         }
         match *any {
             Outcome::Contact { time, contact } => self.check_contact(time, &contact, tolerance),
@@ -296,7 +296,7 @@ fn no_bound_is_above_a_sampled_distance() {
         start,
         measured,
         unresolved,
-        grazes,
+        grazing_scenes: grazes,
     } = tally;
     let many = count / 20;
     assert!(

@@ -35,9 +35,9 @@ fn check_every_question(case: &Case) -> CheckResult {
     for_each_answer_set(&query, &config, |bodies, asked, answers| {
         if law.is_ok() {
             law = (judge.check_any_contact(&answers.any, bodies))
-                .and_then(|()| judge.check_closest_approach(&answers.closest, bodies))
+                .and_then(|()| judge.check_closest_approach(&answers.closest_approach, bodies))
                 .and_then(|()| judge.check_clearance(&answers.clearance_check, bodies))
-                .and_then(|()| check_agreement(&first.outcome, &answers.closest.outcome))
+                .and_then(|()| check_agreement(&first.outcome, &answers.closest_approach.outcome))
                 .map_err(|why| format!("{why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }
     });

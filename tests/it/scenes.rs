@@ -2,7 +2,7 @@
 
 use ccd_core::order::lesser;
 use ccd_core::{Answer, Outcome, Settings};
-use ccd_tests::analytic::{Expect, Scene, scenes_named};
+use ccd_tests::analytic::{ExpectedOutcome, Scene, scenes_named};
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{CheckResult, Judge, check_contact};
 use ccd_tests::query::Bodies;
@@ -69,7 +69,7 @@ fn check_group(prefix: &str) {
         let swapped = Scene {
             name: format!("{}, swapped", scene.name),
             query: scene.query.swapped(),
-            expected: Expect::Unknown,
+            expected: ExpectedOutcome::Unknown,
         };
         // The effect of the order depends neither on the tolerance nor on the form of the motions.
         let judge = Judge::new(&swapped.query, &Settings::DEFAULT);
@@ -93,35 +93,49 @@ fn check_finding(
     judge: &Judge<'_>,
 ) {
     match (expect, judge.finding()) {
-        (Expect::Hit { earliest, latest }, Finding::Hit { lo, hi }) => {
+        (
+            ExpectedOutcome::Hit {
+                earliest_time: earliest,
+                latest_time: latest,
+            },
+            Finding::Hit { lo, hi },
+        ) => {
             assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
             let earliest = earliest(0.0);
             assert!(hi >= earliest - 1e-12, "{name}: {hi} < {earliest}");
             assert!(hi - lo <= 1e-4, "{name}: {lo} to {hi}");
         }
-        (Expect::Free { gap }, Finding::Free { gap: seen }) => {
+        (ExpectedOutcome::Free { gap }, Finding::Free { gap: seen }) => {
             assert!(seen >= gap - query.rounding(), "{name}: {seen} < {gap}");
         }
         // The distance is below that at which the referee can exclude touching.
-        (Expect::Free { gap }, Finding::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
+        (ExpectedOutcome::Free { gap }, Finding::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
         // Sliding at a small distance takes the referee more steps than its limit.
-        (Expect::Free { gap }, Finding::Undecided { .. }) => assert!(*gap < 2e-6, "{name}"),
+        (ExpectedOutcome::Free { gap }, Finding::Undecided { .. }) => {
+            assert!(*gap < 2e-6, "{name}");
+        }
         // The contact is so brief that no intersection is sampled.
-        (Expect::Hit { latest, .. }, Finding::Near { lo }) => {
+        (
+            ExpectedOutcome::Hit {
+                latest_time: latest,
+                ..
+            },
+            Finding::Near { lo },
+        ) => {
             assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
         }
         // A screw turns freely in its nut by its own pitch only.
-        (Expect::Unknown, finding) if name.starts_with("T18") => {
+        (ExpectedOutcome::Unknown, finding) if name.starts_with("T18") => {
             let free = matches!(finding, Finding::Free { .. });
             assert_eq!(free, name.contains("right"), "{name}: {finding:?}");
         }
-        (Expect::Overlap, Finding::Start) | (Expect::Unknown, _) => {}
-        (Expect::Overlap, finding) => assert!(judge.nested(), "{name}: {finding:?}"),
+        (ExpectedOutcome::Overlap, Finding::Start) | (ExpectedOutcome::Unknown, _) => {}
+        (ExpectedOutcome::Overlap, finding) => assert!(judge.nested(), "{name}: {finding:?}"),
         (_, finding) => panic!("{name}: {finding:?}"),
     }
 }
 
-fn check_setups(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
+fn check_setups(judge: &Judge<'_>, scene: &Scene, expect: &ExpectedOutcome) {
     for_each_setup(&scene.query, &judge.config(), |bodies, setup, answer| {
         if let Err(why) = check_answer(judge, scene, expect, (bodies, &answer)) {
             fail(scene, &setup, &answer, &why);
@@ -129,7 +143,7 @@ fn check_setups(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
     });
 }
 
-fn check_all_trajectories(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
+fn check_all_trajectories(judge: &Judge<'_>, scene: &Scene, expect: &ExpectedOutcome) {
     for_each_trajectory_answer_set(&scene.query, &judge.config(), |bodies, asked, answers| {
         if let Err(why) = check_trajectory_answers(judge, scene, expect, (bodies, &answers)) {
             fail(scene, &asked, &answers, &why);
@@ -145,7 +159,7 @@ fn fail(scene: &Scene, setup: &dyn Debug, answer: &dyn Debug, why: &str) -> ! {
 fn check_answer(
     judge: &Judge<'_>,
     scene: &Scene,
-    expect: &Expect,
+    expect: &ExpectedOutcome,
     (bodies, answer): (&Bodies, &Answer),
 ) -> CheckResult {
     let meshed = !scene.query.a.shape.mesh.faces.is_empty();
@@ -157,7 +171,13 @@ fn check_answer(
     }
     let (duration, rounding) = (scene.query.duration, scene.query.rounding());
     match (expect, &answer.outcome) {
-        (Expect::Hit { earliest, latest }, Outcome::Contact { time, .. }) => {
+        (
+            ExpectedOutcome::Hit {
+                earliest_time: earliest,
+                latest_time: latest,
+            },
+            Outcome::Contact { time, .. },
+        ) => {
             if *time > latest + CLOSED_FORM_LATENESS * duration {
                 return Err(format!("late: {time} > {latest}"));
             }
@@ -166,7 +186,7 @@ fn check_answer(
                 return Err(format!("loose: {time} < {earliest}"));
             }
         }
-        (Expect::Free { gap }, Outcome::Free { proven_gap }) => {
+        (ExpectedOutcome::Free { gap }, Outcome::Free { proven_gap }) => {
             if *proven_gap > gap + rounding {
                 return Err(format!(
                     "a proven gap of {proven_gap} at a distance of {gap}"
@@ -174,12 +194,19 @@ fn check_answer(
             }
         }
         // Contact is right at a distance below the tolerance.
-        (Expect::Free { gap }, Outcome::Contact { .. } | Outcome::Touching { .. })
+        (ExpectedOutcome::Free { gap }, Outcome::Contact { .. } | Outcome::Touching { .. })
             if *gap <= answer.tolerance + rounding => {}
-        (Expect::Overlap, Outcome::Overlapping { .. }) | (Expect::Unknown, _) => {}
-        (Expect::Hit { latest, .. }, _) => return Err(format!("there is a hit at {latest}")),
-        (Expect::Free { gap }, _) => return Err(format!("the bodies stay {gap} apart")),
-        (Expect::Overlap, _) => return Err("the bodies overlap".into()),
+        (ExpectedOutcome::Overlap, Outcome::Overlapping { .. }) | (ExpectedOutcome::Unknown, _) => {
+        }
+        (
+            ExpectedOutcome::Hit {
+                latest_time: latest,
+                ..
+            },
+            _,
+        ) => return Err(format!("there is a hit at {latest}")),
+        (ExpectedOutcome::Free { gap }, _) => return Err(format!("the bodies stay {gap} apart")),
+        (ExpectedOutcome::Overlap, _) => return Err("the bodies overlap".into()),
     }
     Ok(())
 }
@@ -188,7 +215,7 @@ fn check_answer(
 fn check_trajectory_answers(
     judge: &Judge<'_>,
     scene: &Scene,
-    expect: &Expect,
+    expect: &ExpectedOutcome,
     (bodies, answers): (&Bodies, &TrajectoryAnswers),
 ) -> CheckResult {
     check_answer(judge, scene, expect, (bodies, &answers.first))?;
@@ -206,9 +233,9 @@ fn check_trajectory_answers(
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     let rounding = scene.query.rounding();
     let (least, is_free) = match expect {
-        Expect::Hit { .. } | Expect::Overlap => (0.0, false),
-        Expect::Free { gap } => (*gap, *gap > any.tolerance),
-        Expect::Unknown => return Ok(()),
+        ExpectedOutcome::Hit { .. } | ExpectedOutcome::Overlap => (0.0, false),
+        ExpectedOutcome::Free { gap } => (*gap, *gap > any.tolerance),
+        ExpectedOutcome::Unknown => return Ok(()),
     };
     if lower > least + rounding || upper < least - rounding {
         return Err(format!(

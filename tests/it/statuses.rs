@@ -3,7 +3,7 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
 use ccd_tests::backends::{default_answer, for_each_setup};
-use ccd_tests::models::{Kind, Mesh, Shape, both, boulder, cuboid, hollow, icosphere, torus};
+use ccd_tests::models::{Kind, Mesh, Shape, boulder, cuboid, hollow, icosphere, torus, two_solids};
 use ccd_tests::query::{MovingShape, Query};
 use std::cell::Cell;
 
@@ -229,7 +229,7 @@ fn the_hole_of_a_torus_is_outside() {
 
 #[test]
 fn the_second_of_two_shells_is_found_inside() {
-    let two = both(&cube(0.2).moved(9.0 * DVec3::X), &cube(0.2));
+    let two = two_solids(&cube(0.2).moved(9.0 * DVec3::X), &cube(0.2));
     let big = Shape::closed(cube(1.0).mesh);
     check_outcomes_by_kind(&query(big, two, DVec3::ZERO), is_b_in_a);
 }

@@ -17,17 +17,17 @@ pub struct Scene {
     /// The bodies and their motions.
     pub query: Query,
     /// The known outcome of the query.
-    pub expected: Expect,
+    pub expected: ExpectedOutcome,
 }
 
 /// The known outcome of a scene.
-pub enum Expect {
+pub enum ExpectedOutcome {
     /// The bodies touch, at a known time or within known bounds.
     Hit {
         /// The first time at which the distance falls to a given value. It bounds the time of contact from below.
-        earliest: Distance,
+        earliest_time: Distance,
         /// An upper bound of the time of contact.
-        latest: f64,
+        latest_time: f64,
     },
     /// The bodies stay apart, and their least distance is known.
     Free {
@@ -65,7 +65,7 @@ pub fn scenes_named(prefix: &str) -> Vec<Scene> {
 }
 
 impl Scene {
-    fn new(name: impl Into<String>, actors: [MovingShape; 2], expect: Expect) -> Self {
+    fn new(name: impl Into<String>, actors: [MovingShape; 2], expect: ExpectedOutcome) -> Self {
         let [a, b] = actors;
         Scene {
             name: name.into(),
@@ -75,13 +75,13 @@ impl Scene {
     }
 }
 
-impl Expect {
+impl ExpectedOutcome {
     /// Returns the outcome of a contact at an exactly known time. `distance` returns the first time at which the bodies
     /// are within a given distance.
-    fn hit_at(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
-        Expect::Hit {
-            latest: distance(0.0),
-            earliest: Box::new(distance),
+    fn exact_hit(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+        ExpectedOutcome::Hit {
+            latest_time: distance(0.0),
+            earliest_time: Box::new(distance),
         }
     }
 }

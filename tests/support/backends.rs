@@ -20,7 +20,7 @@ pub enum ScheduleKind {
 
 /// The algorithm by which a backend computes the distance of two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Oracle {
+pub enum OracleKind {
     /// Uses closed forms, for pieces of at most three points.
     ClosedForm,
     /// Uses GJK in f64.
@@ -31,11 +31,11 @@ pub enum Oracle {
     Vmarch,
 }
 
-impl Oracle {
+impl OracleKind {
     /// Returns true if the oracle supports all pieces of both bodies.
     pub fn supports(self, bodies: &Bodies) -> bool {
         let small = |body: &Body| body.pieces().iter().all(|piece| piece.points.len() <= 3);
-        self != Oracle::ClosedForm || small(bodies.a()) && small(bodies.b())
+        self != OracleKind::ClosedForm || small(bodies.a()) && small(bodies.b())
     }
 }
 
@@ -45,7 +45,7 @@ pub struct Backend {
     /// The schedule, which orders the pairs of pieces.
     pub order: ScheduleKind,
     /// The oracle, which computes the distances of pieces.
-    pub oracle: Oracle,
+    pub oracle: OracleKind,
 }
 
 /// The backend and the kinds of pieces that gave an answer. It is printed if an assertion fails.
@@ -64,12 +64,12 @@ impl Backend {
     /// The backend that the engine uses by default.
     pub const DEFAULT: Backend = Backend {
         order: ScheduleKind::BestFirst,
-        oracle: Oracle::Direct,
+        oracle: OracleKind::Direct,
     };
 
     /// Returns every combination of a schedule and an oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
-        use Oracle::{ClosedForm, Direct, Gjk, Vmarch};
+        use OracleKind::{ClosedForm, Direct, Gjk, Vmarch};
         let oracles = [ClosedForm, Gjk, Direct, Vmarch];
         let orders = [
             ScheduleKind::BestFirst,
@@ -97,10 +97,10 @@ impl Backend {
     /// Answers a query with a fresh schedule and a fresh oracle.
     pub fn solve(self, problem: &ccd_core::Query<'_>) -> Answer {
         match self.oracle {
-            Oracle::ClosedForm => self.solve_with(problem, &mut ClosedForm::default()),
-            Oracle::Gjk => self.solve_with(problem, &mut Gjk),
-            Oracle::Direct => self.solve_with(problem, &mut Direct::default()),
-            Oracle::Vmarch => self.solve_with(problem, &mut Vmarch::default().or_else(Gjk)),
+            OracleKind::ClosedForm => self.solve_with(problem, &mut ClosedForm::default()),
+            OracleKind::Gjk => self.solve_with(problem, &mut Gjk),
+            OracleKind::Direct => self.solve_with(problem, &mut Direct::default()),
+            OracleKind::Vmarch => self.solve_with(problem, &mut Vmarch::default().or_else(Gjk)),
         }
     }
 

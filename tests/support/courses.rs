@@ -205,7 +205,7 @@ impl SmoothTrajectory for Oscillation {
         let square = self.rate * self.rate * (1.0 + 1e-9);
         AccelerationBounds {
             linear: self.along.length() * square,
-            angular: self.turn * square,
+            angular_acceleration: self.turn * square,
         }
     }
 }

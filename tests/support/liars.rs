@@ -1,7 +1,7 @@
 //! Oracles that break their contract, each in a way of its own. None of them may make an answer late.
 
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, Combination, DistanceOracle, GiveUpReason, PiecePair};
+use ccd_core::{Claim, ConvexCombination, DistanceOracle, GiveUpReason, PiecePair};
 
 /// A way in which an oracle breaks its contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,20 +76,23 @@ impl DistanceOracle for FaultyOracle {
         let (count_a, count_b) = (pair.a.points.len(), pair.b.points.len());
         let mut claim = Claim {
             axis: self.vector(),
-            a: Combination::point(self.index(count_a)),
-            b: Combination::point(self.index(count_b)),
+            a: ConvexCombination::point(self.index(count_a)),
+            b: ConvexCombination::point(self.index(count_b)),
         };
         match self.breach {
             ContractBreach::Random => {}
             ContractBreach::NanAxis => claim.axis.y = f64::NAN,
             ContractBreach::Nothing => {
-                (claim.axis, claim.a, claim.b) =
-                    (DVec3::ZERO, Combination::EMPTY, Combination::EMPTY);
+                (claim.axis, claim.a, claim.b) = (
+                    DVec3::ZERO,
+                    ConvexCombination::EMPTY,
+                    ConvexCombination::EMPTY,
+                );
             }
             ContractBreach::InfiniteAxis => claim.axis = DVec3::splat(f64::INFINITY),
             ContractBreach::OutOfRange => {
-                claim.a = Combination::point(count_a as u32 + 7);
-                claim.b = Combination::segment([u32::MAX, 0], 0.5);
+                claim.a = ConvexCombination::point(count_a as u32 + 7);
+                claim.b = ConvexCombination::segment([u32::MAX, 0], 0.5);
             }
             ContractBreach::ReversedAxis => {
                 claim.axis = pair.a.points[0] - pair.b_to_a.point(pair.b.points[0]);

@@ -17,7 +17,7 @@ use ccd_core::order::greater;
 pub use cells::{
     divided_cube, gear, l_block, meshed_combs, perforated_plate, slotted_plate, terrain,
 };
-pub use lumps::{blob, both, boulder, dented_cube, hollow};
+pub use lumps::{blob, boulder, dented_cube, hollow, two_solids};
 pub use round::{icosphere, inradius, torus, torus_knot};
 pub use thread::{PITCH, nut, screw};
 pub use voxels::pile;

@@ -1,7 +1,7 @@
 //! Asks the questions other than the first contact, by every oracle and for every kind of piece. For user-defined
 //! trajectories, it asks all questions.
 
-use crate::backends::Oracle;
+use crate::backends::OracleKind;
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
 use ccd_core::Schedule;
@@ -32,7 +32,7 @@ impl SmoothTrajectory for UserTrajectory {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OracleSetup {
     /// The distance oracle that gave the answer.
-    pub oracle: Oracle,
+    pub oracle: OracleKind,
     /// The kinds of pieces of bodies A and B.
     pub kinds: [Kind; 2],
 }
@@ -43,7 +43,7 @@ pub struct Answers {
     /// The answer to whether the bodies touch at all.
     pub any: Answer,
     /// The answer about the least distance.
-    pub closest: Answer,
+    pub closest_approach: Answer,
     /// A required distance, and the answer to whether the bodies keep it.
     pub clearance_check: (f64, Answer),
 }
@@ -63,13 +63,13 @@ pub struct TrajectoryAnswers {
     pub interval: Answer,
 }
 
-impl Oracle {
+impl OracleKind {
     /// All distance oracles that are tested.
-    pub const ALL: [Oracle; 4] = [
-        Oracle::ClosedForm,
-        Oracle::Gjk,
-        Oracle::Direct,
-        Oracle::Vmarch,
+    pub const ALL: [OracleKind; 4] = [
+        OracleKind::ClosedForm,
+        OracleKind::Gjk,
+        OracleKind::Direct,
+        OracleKind::Vmarch,
     ];
 }
 
@@ -81,10 +81,10 @@ pub fn for_each_answer_set(
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
-            Oracle::ClosedForm => answers_of(query, bodies, config, ClosedForm::default()),
-            Oracle::Gjk => answers_of(query, bodies, config, Gjk),
-            Oracle::Direct => answers_of(query, bodies, config, Direct::default()),
-            Oracle::Vmarch => answers_of(query, bodies, config, Vmarch::default().or_else(Gjk)),
+            OracleKind::ClosedForm => answers_of(query, bodies, config, ClosedForm::default()),
+            OracleKind::Gjk => answers_of(query, bodies, config, Gjk),
+            OracleKind::Direct => answers_of(query, bodies, config, Direct::default()),
+            OracleKind::Vmarch => answers_of(query, bodies, config, Vmarch::default().or_else(Gjk)),
         };
         check(bodies, asked, answers);
     });
@@ -98,10 +98,12 @@ pub fn for_each_trajectory_answer_set(
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
-            Oracle::ClosedForm => trajectory_answers(query, bodies, config, ClosedForm::default()),
-            Oracle::Gjk => trajectory_answers(query, bodies, config, Gjk),
-            Oracle::Direct => trajectory_answers(query, bodies, config, Direct::default()),
-            Oracle::Vmarch => {
+            OracleKind::ClosedForm => {
+                trajectory_answers(query, bodies, config, ClosedForm::default())
+            }
+            OracleKind::Gjk => trajectory_answers(query, bodies, config, Gjk),
+            OracleKind::Direct => trajectory_answers(query, bodies, config, Direct::default()),
+            OracleKind::Vmarch => {
                 trajectory_answers(query, bodies, config, Vmarch::default().or_else(Gjk))
             }
         };
@@ -111,7 +113,7 @@ pub fn for_each_trajectory_answer_set(
 
 fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
     for bodies in query.all_bodies() {
-        for oracle in Oracle::ALL
+        for oracle in OracleKind::ALL
             .into_iter()
             .filter(|oracle| oracle.supports(&bodies))
         {
@@ -157,7 +159,7 @@ fn answers_of<O: DistanceOracle>(
         any: schedule
             .any_contact(&problem, &mut oracle)
             .expect(well_posed),
-        closest,
+        closest_approach: closest,
         clearance_check: (
             required,
             schedule

@@ -13,7 +13,7 @@ pub(crate) use triangles::{Face, distance_squared};
 pub use triangles::{contains, nearest_on_segment, nearest_on_triangle};
 
 use crate::query::Query;
-use crate::tolerance::{STEP_SHARE, TOUCHING_SHARE};
+use crate::tolerance::{STEP_FRACTION, TOUCHING_FRACTION};
 use ccd_core::glam::DVec3;
 use triangles::PosedMesh;
 
@@ -102,7 +102,7 @@ impl<'a> Referee<'a> {
     /// Searches for the first contact of the bodies.
     pub fn finding(&self) -> Finding {
         let speed = self.speed();
-        let close = TOUCHING_SHARE * self.size();
+        let close = TOUCHING_FRACTION * self.size();
         let (mut time, mut least) = (0.0, f64::INFINITY);
         for _ in 0..MAX_STEPS {
             let gap = self.gap(time) - self.margin;
@@ -111,7 +111,7 @@ impl<'a> Referee<'a> {
                 return self.find_contact(time, close / speed);
             }
             // The distance falls no faster than `speed`.
-            time += STEP_SHARE * gap / speed;
+            time += STEP_FRACTION * gap / speed;
             if time >= self.query.duration {
                 return Finding::Free {
                     gap: least + self.margin,

@@ -127,13 +127,13 @@ fn aimed_cases(
             a,
             b,
         };
-        share_velocity(&mut case, travel, drift);
+        assign_velocity(&mut case, travel, drift);
         case
     })
 }
 
 /// Gives the relative velocity to B, to A, or to B in addition to a common velocity along `drift`.
-fn share_velocity(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
+fn assign_velocity(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
     match drift {
         None => case.b.velocity = travel.into(),
         Some(drift) if drift.x > 0.0 => case.a.velocity = (-travel).into(),

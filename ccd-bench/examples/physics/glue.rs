@@ -27,7 +27,7 @@ pub(crate) fn step_to_first_contacts(
     }
     let stops = scene.stops(duration)?;
     for &(index, body) in moving {
-        if stops[index].by.is_some() {
+        if stops[index].stopped_by.is_some() {
             let pose = scene.movement(index).pose(stops[index].time)?;
             world.bodies[body].set_position(to_rapier_pose(pose), true);
         }

@@ -24,7 +24,7 @@ pub(crate) type StoppedMotion = (Motion, f64);
 
 impl Tally {
     /// Adds the passages, the penetration depths and the stops of one step of a world to the tally.
-    pub(crate) fn step(
+    pub(crate) fn record_step(
         &mut self,
         world: &World,
         moved: &[StoppedMotion],
@@ -43,23 +43,27 @@ impl Tally {
             !is_fixed && boxes[a].meets(&boxes[b]) && !world.joined_pairs.contains(&[a, b])
         });
         for pair in asked {
-            let pair = MovedPair { world, moved, pair };
+            let pair = BodyPair {
+                world,
+                motions: moved,
+                pair,
+            };
             self.max_penetration_depth =
                 greater(self.max_penetration_depth, pair.penetration_depth(duration));
-            self.tunneling_count += usize::from(pair.tunnels(duration));
+            self.tunneling_count += usize::from(pair.is_tunneling(duration));
         }
         Ok(())
     }
 }
 
 /// Two bodies of a world, given by their indices, with the motions of all bodies in a step.
-struct MovedPair<'w> {
+struct BodyPair<'w> {
     world: &'w World,
-    moved: &'w [StoppedMotion],
+    motions: &'w [StoppedMotion],
     pair: [usize; 2],
 }
 
-impl MovedPair<'_> {
+impl BodyPair<'_> {
     fn penetration_depth(&self, time: f64) -> f64 {
         let ([p, q], [a, b]) = (self.poses(time), self.shapes());
         let found = contact(&p, a, &q, b, 0.0).ok().flatten();
@@ -73,11 +77,11 @@ impl MovedPair<'_> {
 
     /// Returns true if the two bodies are apart at the start and at the end of a step, but overlap at a sampled time
     /// between. The samples are dense enough for the thinnest part, up to a limit of 20,000.
-    fn tunnels(&self, duration: f64) -> bool {
+    fn is_tunneling(&self, duration: f64) -> bool {
         if self.overlaps(0.0) || self.overlaps(duration) {
             return false;
         }
-        let [a, b] = self.pair.map(|k| self.moved[k].0);
+        let [a, b] = self.pair.map(|k| self.motions[k].0);
         let travel = (a.velocity() - b.velocity()).length() * duration;
         let turn = (a.spin().length() + b.spin().length()) * duration;
         let samples = 2.0 * (travel + turn) / self.world.min_thickness;
@@ -87,7 +91,7 @@ impl MovedPair<'_> {
 
     fn poses(&self, time: f64) -> [parry3d_f64::math::Pose; 2] {
         self.pair.map(|k| {
-            let (motion, stop) = &self.moved[k];
+            let (motion, stop) = &self.motions[k];
             to_rapier_pose(motion.pose(lesser(time, *stop)))
         })
     }

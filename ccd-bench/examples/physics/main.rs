@@ -117,7 +117,7 @@ fn simulate_world(
                 moved.collect::<Result<_>>()?
             }
         };
-        tally.step(&world, &moved, duration)?;
+        tally.record_step(&world, &moved, duration)?;
     }
     Ok((tally, moving.len() * steps as usize, time))
 }

@@ -40,9 +40,9 @@ type Make = fn(bool) -> Result<World>;
 
 /// The worlds to compare: the name of each in the table, and the function that creates it.
 pub(crate) const WORLDS: [(&str, Make); 3] = [
-    ("bullets and paper", bullets),
-    ("bunnies onto bunnies", bunnies),
-    ("chain through a slot", chain),
+    ("bullets and paper", create_bullet_world),
+    ("bunnies onto bunnies", create_bunny_world),
+    ("chain through a slot", create_chain_world),
 ];
 
 /// The distance that rapier keeps around each body, in metres. Bodies that rest on each other are farther apart than
@@ -99,7 +99,7 @@ impl World {
         Vector::from_array(std::array::from_fn(|_| self.rng.random_range(-1.0..1.0)))
     }
 
-    fn set(&mut self, index: usize, place: Pose, velocity: Vector, spin: Vector) {
+    fn set_state(&mut self, index: usize, place: Pose, velocity: Vector, spin: Vector) {
         let body = &mut self.physics.bodies[self.bodies[index].handle];
         body.set_position(place, true);
         body.set_linvel(velocity, true);
@@ -110,7 +110,7 @@ impl World {
     fn throw_body(&mut self, index: usize, place: Vector, velocity: Vector) {
         let (turn, spin) = (3.0 * self.random_vector(), 5.0 * self.random_vector());
         let place = Pose::from_parts(place, Rotation::from_scaled_axis(turn));
-        self.set(index, place, velocity, spin);
+        self.set_state(index, place, velocity, spin);
     }
 }
 
@@ -118,7 +118,7 @@ impl World {
 const SHEET_COUNT: usize = 5;
 
 /// Creates twelve bullets at 100 to 390 metres a second, aimed at five sheets of paper.
-fn bullets(ccd: bool) -> Result<World> {
+fn create_bullet_world(ccd: bool) -> Result<World> {
     let mut world = World::empty(ccd, 0.001, |world, step| {
         for index in SHEET_COUNT..world.bodies.len() {
             // One after the other.
@@ -145,13 +145,13 @@ fn bullets(ccd: bool) -> Result<World> {
 const BOX_SIDE_COUNT: usize = 5;
 
 /// Creates twelve bunnies in a box with thin walls, which are thrown towards one point at 40 metres a second.
-fn bunnies(ccd: bool) -> Result<World> {
+fn create_bunny_world(ccd: bool) -> Result<World> {
     let mut world = World::empty(ccd, 0.01, |world, step| {
         if step % STEPS_PER_ROUND != 0 {
             return;
         }
         for index in BOX_SIDE_COUNT..world.bodies.len() {
-            let place = place_of_bunny(index - BOX_SIDE_COUNT) + 0.05 * world.random_vector();
+            let place = bunny_position(index - BOX_SIDE_COUNT) + 0.05 * world.random_vector();
             let towards = (place - Vector::new(0.0, 0.0, 0.4)).normalize();
             let velocity = -40.0 * towards + 5.0 * world.random_vector();
             world.throw_body(index, place, velocity);
@@ -171,12 +171,12 @@ fn bunnies(ccd: bool) -> Result<World> {
     let shape = SharedShape::convex_decomposition(&vertices, mesh.faces());
     let body = body(&*shape, &Options::default())?.body().clone();
     for number in 0..12 {
-        world.add_dynamic_body(place_of_bunny(number), shape.clone(), body.clone());
+        world.add_dynamic_body(bunny_position(number), shape.clone(), body.clone());
     }
     Ok(world)
 }
 
-fn place_of_bunny(number: usize) -> Vector {
+fn bunny_position(number: usize) -> Vector {
     let [x, y] = [number % 3, number / 3].map(|k| 0.8 * k as f64);
     Vector::new(x - 0.8, y - 1.2, 1.5)
 }
@@ -187,7 +187,7 @@ const LINK_COUNT: usize = 14;
 const LINK_HALF_LENGTH: f64 = 0.06;
 
 /// Creates a chain of fourteen links that is drawn back and forth through a slot between two plates.
-fn chain(ccd: bool) -> Result<World> {
+fn create_chain_world(ccd: bool) -> Result<World> {
     let mut world = World::empty(ccd, 0.004, |world, step| {
         if step.is_multiple_of(4 * STEPS_PER_ROUND) {
             (0..LINK_COUNT).for_each(|link| world.reset_link(link));
@@ -226,6 +226,6 @@ impl World {
     fn reset_link(&mut self, link: usize) {
         let place = Vector::new(-0.2 - 2.5 * LINK_HALF_LENGTH * link as f64, 0.0, 0.0);
         let place = Pose::from_parts(place, Rotation::from_scaled_axis(FRAC_PI_2 * Vector::Y));
-        self.set(2 + link, place, Vector::ZERO, Vector::ZERO);
+        self.set_state(2 + link, place, Vector::ZERO, Vector::ZERO);
     }
 }

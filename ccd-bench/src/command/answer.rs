@@ -3,13 +3,13 @@
 
 use crate::method::solver::Solver;
 use crate::method::wire::{REFUSAL_PREFIX, serve_queries};
-use crate::method::{Method, Ours};
+use crate::method::{Method, ProjectSolver};
 use crate::run::contest::MAX_PAIRS_FOR_NAIVE;
 use anyhow::{Context, Result, anyhow};
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::batch::{Bodies, ScheduleKind};
-use rigid_ccd::command::{CannotWrite, Exit};
+use rigid_ccd::command::{Exit, OutputError};
 use std::io::{self, Write};
 #[cfg(unix)]
 use std::os::unix::process::parent_id;
@@ -44,7 +44,7 @@ pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
     let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
     let meshes = [read(&args.a)?, read(&args.b)?];
     if let Err(refusal) = answer_queries(method, &meshes, args)? {
-        writeln!(io::stdout(), "{REFUSAL_PREFIX}{refusal}").map_err(cannot_write_replies)?;
+        writeln!(io::stdout(), "{REFUSAL_PREFIX}{refusal}").map_err(reply_write_error)?;
     }
     Ok(Exit::AllAnswered)
 }
@@ -61,7 +61,7 @@ fn answer_queries(
     }
     match method {
         Method::ThisProject(kind, pieces) => {
-            let bodies = [a, b].map(|mesh| pieces.body_of(mesh));
+            let bodies = [a, b].map(|mesh| pieces.make_body(mesh));
             let [a, b] = match bodies {
                 [Ok(a), Ok(b)] => [a, b],
                 [Err(error), _] | [_, Err(error)] => return Ok(Err(error.to_string())),
@@ -71,7 +71,10 @@ fn answer_queries(
                 return Ok(Err(format!("{pairs} pairs are too many")));
             }
             let bodies = Bodies { a: &a, b: &b };
-            serve_standard_streams(&mut Ours::new(kind, bodies, args.margin), tolerance)?;
+            serve_standard_streams(
+                &mut ProjectSolver::new(kind, bodies, args.margin),
+                tolerance,
+            )?;
         }
         Method::Rival(kind) => serve_standard_streams(kind.solver(a, b).as_mut(), tolerance)?,
         Method::Peer(kind) => match kind.solver(a, b) {
@@ -90,12 +93,12 @@ fn serve_standard_streams(solver: &mut dyn Solver, tolerance: f64) -> Result<()>
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
             Err(error).context("standard input: no query")
         }
-        Err(source) => Err(cannot_write_replies(source).into()),
+        Err(source) => Err(reply_write_error(source).into()),
     }
 }
 
-fn cannot_write_replies(source: io::Error) -> CannotWrite {
-    CannotWrite {
+fn reply_write_error(source: io::Error) -> OutputError {
+    OutputError {
         place: "the replies".to_owned(),
         source,
     }

@@ -42,10 +42,10 @@ pub(super) struct ChartArgs {
     tolerances: Vec<f64>,
     /// Seconds for each method on each scene at each tolerance; after that, no more queries are started
     #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
-    cell: Option<Duration>,
+    cell_time: Option<Duration>,
     /// Seconds that a peer library may take for a query before it is stopped
     #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
-    patience: Option<Duration>,
+    query_time_limit: Option<Duration>,
     #[command(flatten)]
     programs: Programs,
     /// Draw the measurements that are already in the folder, and measure nothing
@@ -78,7 +78,7 @@ const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
     patience: Duration::from_secs(4),
     max_rows: usize::MAX,
     min_rows: 10,
-    preparation: Duration::from_secs(20),
+    preparation_limit: Duration::from_secs(20),
 };
 /// The limits of each measurement without `--full`, chosen so that a few queries of everything take about a minute.
 const QUICK_LIMITS: MeasurementLimits = MeasurementLimits {
@@ -86,7 +86,7 @@ const QUICK_LIMITS: MeasurementLimits = MeasurementLimits {
     patience: Duration::from_millis(200),
     max_rows: 40,
     min_rows: 3,
-    preparation: Duration::from_millis(400),
+    preparation_limit: Duration::from_millis(400),
 };
 
 pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
@@ -110,7 +110,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         return Ok(Exit::AllAnswered);
     }
     let evaluated = if args.redraw {
-        plan.load_measured()?
+        plan.load_measurements()?
     } else {
         plan.run()?
     };
@@ -144,8 +144,8 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
         limits: MeasurementLimits {
-            cell: args.cell.unwrap_or(allowance.cell),
-            patience: args.patience.unwrap_or(allowance.patience),
+            cell: args.cell_time.unwrap_or(allowance.cell),
+            patience: args.query_time_limit.unwrap_or(allowance.patience),
             ..allowance
         },
         programs: args.programs.clone(),

@@ -7,7 +7,9 @@ use crate::method::guarded::Programs;
 use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
 use crate::show::write;
-use crate::stability::{Findings, Survey, families, growth_map, limits, solved_range_map, summary};
+use crate::stability::{
+    Findings, Survey, families, first_failure_table, growth_map, solved_range_map, summary,
+};
 use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::command::Exit;
@@ -80,7 +82,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     );
     let reach = solved_range_map(&findings).draw()?;
     let growth = growth_map(&findings).draw()?;
-    let limits = format!("{}\n", limits(&findings));
+    let limits = format!("{}\n", first_failure_table(&findings));
     let files = [
         ("limits.md", &limits),
         ("stability.svg", &reach),

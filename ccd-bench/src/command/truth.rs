@@ -81,7 +81,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     let (a, b) = (surface("--a", &args.a)?, surface("--b", &args.b)?);
     let referee = Referee::new(&a, &b);
     let mut table = Table::create(&args.out, &TRUTH_COLUMNS)?;
-    let progress = Progress::of_rows(length, args.quiet);
+    let progress = Progress::for_rows(length, args.quiet);
     let mut bad_rows = BadRows::new(input_name(&args.motions));
     let (mut counts, mut widest) = (HashMap::new(), 0.0);
     let start = Instant::now();
@@ -91,7 +91,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
         if batch.is_empty() {
             break;
         }
-        progress.answering(batch.len(), rows.bytes());
+        progress.begin_batch(batch.len(), rows.bytes());
         let judge = |row: MotionRow| {
             let truth = row.map(|(_, query)| {
                 let truth = referee.first_contact(&query);

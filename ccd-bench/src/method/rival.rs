@@ -8,7 +8,7 @@
 //! | [`Contact`]: continuous OBB test, interval arithmetic, bisection | \[CONTACT02\] |
 //! | [`DynamicChecker`]: adaptive bisection by undirected bounds | \[DCC02\] |
 //! | [`C2a`]: controlled conservative advancement over swept spheres | \[C2A09\] |
-//! | [`Stepping`]: a static test at every step | the usual practice without continuous methods |
+//! | [`FixedTimeSteps`]: a static test at every step | the usual practice without continuous methods |
 
 mod c2a;
 mod contact;
@@ -35,4 +35,4 @@ pub use contact::Contact;
 pub use dynamic_checker::DynamicChecker;
 pub use motion::{Placement, RivalMotion};
 pub use screw::{are_screw_motions, to_screw_motions};
-pub use stepping::Stepping;
+pub use stepping::FixedTimeSteps;

@@ -55,7 +55,7 @@ pub struct MeasurementLimits {
     pub min_rows: usize,
     /// The time limit for preparing the pieces of a method that makes them on first use. Only queries that are prepared
     /// by then are asked.
-    pub preparation: Duration,
+    pub preparation_limit: Duration,
 }
 
 /// The maximum number of pairs of pieces on which the naive schedule is run, which processes all pairs in every step.
@@ -135,7 +135,8 @@ impl<'s> PreparedScene<'s> {
         let queries = &rows.queries;
         let order = self.row_order(allowance.max_rows);
         let asked_for = order.iter().map(|&row| &queries[row]);
-        let prepared = session.run_warm_up_queries(asked_for, tolerance, allowance.preparation);
+        let prepared =
+            session.run_warm_up_queries(asked_for, tolerance, allowance.preparation_limit);
         let mut asked: Vec<(usize, QueryOutcome)> = Vec::new();
         let start = Instant::now();
         for &row in &order[..prepared] {
@@ -195,7 +196,7 @@ pub fn summarise_trials(trials: &[Trial]) -> Cell {
     let errors: Vec<f64> = trials.iter().filter_map(|t| t.error).collect();
     let rows = trials.len();
     let first = trials.first();
-    let cut_off = count(Verdict::CutOff) + count(Verdict::Died);
+    let cut_off = count(Verdict::CutOff) + count(Verdict::Crashed);
     Cell {
         scene: first.map_or_else(String::new, |t| t.scene.clone()),
         method: first.map_or_else(String::new, |t| t.method.clone()),

@@ -3,7 +3,7 @@
 use crate::method::guarded::Programs;
 use crate::method::{Method, PAPER_TOLERANCE};
 use crate::run::contest::{Journal, MeasurementLimits, PreparedScene, Session, program_stamp};
-use crate::scene::{Listing, ModelCache, PieceKind, Scene, SceneBody};
+use crate::scene::{ModelCache, PieceKind, Scene, SceneBody, SceneEntry};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, Total};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The descriptions of the scenes on which the methods run.
-    pub listings: Vec<Listing>,
+    pub listings: Vec<SceneEntry>,
     /// The methods to measure on every scene.
     pub methods: Vec<Method>,
     /// The tolerances at which to measure each method.
@@ -44,7 +44,7 @@ impl Plan {
     ///
     /// # Errors
     /// If a scene cannot be made.
-    pub fn load_measured(&self) -> Result<Evaluation> {
+    pub fn load_measurements(&self) -> Result<Evaluation> {
         let mut models = ModelCache::new(self.models.clone());
         let scenes = self.listings.iter().map(|l| l.make_scene(&mut models));
         Ok(Evaluation {
@@ -118,7 +118,7 @@ impl Plan {
 
     fn scenes(&self, models: &mut ModelCache) -> Result<Vec<Scene>> {
         let progress = Progress::new(Total::Steps(self.listings.len()));
-        let make = |listing: &Listing| {
+        let make = |listing: &SceneEntry| {
             progress.set_message(&format!("making {}", listing.name));
             let scene = listing.make_scene(models);
             progress.step();
@@ -153,10 +153,9 @@ impl Plan {
     /// Returns the tolerances at which to measure a method: all, or only the paper's if its answers do not depend on
     /// the tolerance.
     fn tolerances_of(&self, method: Method) -> impl Iterator<Item = f64> {
-        self.tolerances
-            .iter()
-            .copied()
-            .filter(move |&tolerance| method.takes_tolerances() || tolerance == PAPER_TOLERANCE)
+        self.tolerances.iter().copied().filter(move |&tolerance| {
+            method.runs_at_all_tolerances() || tolerance == PAPER_TOLERANCE
+        })
     }
 
     /// Returns a text that identifies the build of this program, the models and the limits, which determine all

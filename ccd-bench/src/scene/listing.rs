@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The description of a scene, from which it can be made.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Listing {
+pub struct SceneEntry {
     /// The name of the scene in tables.
     pub name: String,
     a: String,
@@ -23,7 +23,7 @@ pub struct Listing {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ListingFile {
-    scene: Vec<Listing>,
+    scene: Vec<SceneEntry>,
 }
 
 const SCENES: &str = include_str!("../../scenes/scenes.toml");
@@ -49,12 +49,12 @@ pub(super) const MOTION_TABLES: [(&str, &str); 6] = [
 ///
 /// # Errors
 /// If the data file is invalid.
-pub fn listings() -> Result<Vec<Listing>> {
+pub fn listings() -> Result<Vec<SceneEntry>> {
     let file: ListingFile = toml::from_str(SCENES).context("scenes.toml")?;
     Ok(file.scene)
 }
 
-impl Listing {
+impl SceneEntry {
     /// Makes the scene from its models and its table of motions.
     ///
     /// # Errors

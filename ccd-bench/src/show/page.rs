@@ -22,7 +22,7 @@ pub fn page_html(
         ("tables", tables.iter().map(table_html).collect()),
         ("view_place", ccd_view::VIEW_HTML.to_owned()),
         ("view_style", ccd_view::VIEW_CSS.to_owned()),
-        ("views", ccd_view::data(&views.meshes, &views.groups)?),
+        ("views", ccd_view::views_json(&views.meshes, &views.groups)?),
         ("view_scripts", ccd_view::scripts()),
     ];
     Ok(fill_template(include_str!("page/page.html"), &parts))

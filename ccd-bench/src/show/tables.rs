@@ -125,13 +125,13 @@ pub fn time_ratio_table(
         };
         let base = of(reference);
         let mut row = vec![scene.to_owned()];
-        row.extend(others.iter().map(|other| ratio(&base, &of(other))));
+        row.extend(others.iter().map(|other| ratio_text(&base, &of(other))));
         table.rows.push(row);
     }
     table
 }
 
-fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String {
+fn ratio_text(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String {
     let mut ratios = Vec::new();
     let (mut ours, mut theirs) = (0.0, 0.0);
     for (id, trial) in other {

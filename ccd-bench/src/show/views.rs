@@ -6,7 +6,7 @@ use anyhow::Result;
 use ccd_core::{Instructions, Outcome, Settings};
 use ccd_view::{Group, Meshes, View};
 use rigid_ccd::batch::{Question, SolverKind};
-use rigid_ccd::picture::{Asked, Claim, Painter, drawn_mesh};
+use rigid_ccd::picture::{Painter, QueryContext, TimeMeaning, drawn_mesh};
 use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::results::ResultRow;
 
@@ -41,8 +41,8 @@ impl Views {
 
     fn views_of_scene(&mut self, scene: &Scene) -> Result<Vec<View>> {
         let bodies = scene.bodies();
-        let asked = Asked {
-            claim: Claim::First,
+        let asked = QueryContext {
+            claim: TimeMeaning::FirstContact,
             margin: Settings::DEFAULT.margin,
             clearance: None,
         };

@@ -75,7 +75,7 @@ fn rod_angle_at_wall(wall: f64) -> f64 {
 /// Returns the family step in which a rod rotates at the origin, next to a wall whose near side is at x = `wall`.
 fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyStep> {
     let step = FamilyStep::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
-    let beside = BodyMotion::resting_at((wall + 1.0) * DVec3::X);
+    let beside = BodyMotion::resting_motion((wall + 1.0) * DVec3::X);
     step.with_rotated_queries(turning, beside, expected)
 }
 

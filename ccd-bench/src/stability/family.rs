@@ -94,7 +94,7 @@ impl BodyMotion {
     };
 
     /// The motion of a body that falls from z = 3 to z = −1.
-    pub(super) const FALLING: BodyMotion = BodyMotion {
+    pub(super) const FALLING_MOTION: BodyMotion = BodyMotion {
         at: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
         ..BodyMotion::STILL
@@ -107,12 +107,12 @@ impl BodyMotion {
     };
 
     /// Returns the motion of a body that rests at a position.
-    pub(super) fn resting_at(at: DVec3) -> Self {
-        BodyMotion::straight(at, DVec3::ZERO)
+    pub(super) fn resting_motion(at: DVec3) -> Self {
+        BodyMotion::straight_motion(at, DVec3::ZERO)
     }
 
     /// Returns the motion of a body in a straight line, without rotation.
-    pub(super) fn straight(at: DVec3, velocity: DVec3) -> Self {
+    pub(super) fn straight_motion(at: DVec3, velocity: DVec3) -> Self {
         BodyMotion {
             at,
             velocity,

@@ -22,7 +22,7 @@ pub struct Findings<'j> {
 /// A step of a family to which a method gave a wrong answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FailedStep {
-    pub(super) value: f64,
+    pub(super) parameter_value: f64,
     /// The worst verdict on the method's answers at that step.
     pub(super) verdict: Verdict,
 }
@@ -33,7 +33,7 @@ pub(super) struct SolvedRange {
     /// The share of the family's steps, from the easiest, before the first wrong answer.
     pub(super) solved_fraction: f64,
     /// The easiest step with a wrong answer; `None` if all answers are right.
-    pub(super) first: Option<FailedStep>,
+    pub(super) first_failed_step: Option<FailedStep>,
     /// The easiest step that has the method's worst verdict in the family; `None` if all answers are right.
     pub(super) first_worst_step: Option<FailedStep>,
 }
@@ -72,7 +72,7 @@ impl<'j> Findings<'j> {
     }
 
     /// Returns how many steps of a family a method solves; `None` if the journal has no answers of the method there.
-    pub(super) fn reach(&self, family: &Family, method: &str) -> Option<SolvedRange> {
+    pub(super) fn solved_range(&self, family: &Family, method: &str) -> Option<SolvedRange> {
         let answer = |&value: &f64| {
             let step = step_name(family, value);
             Some((value, *self.worst_verdicts.get(&(step.as_str(), method))?))
@@ -82,11 +82,14 @@ impl<'j> Findings<'j> {
         let most = asked.iter().map(|&(_, verdict)| verdict).max()?;
         let is_right = |asked: &&(f64, Verdict)| asked.1 == Verdict::Right;
         let right = asked.iter().take_while(is_right).count();
-        let limit = |&(value, verdict): &(f64, Verdict)| FailedStep { value, verdict };
+        let limit = |&(value, verdict): &(f64, Verdict)| FailedStep {
+            parameter_value: value,
+            verdict,
+        };
         let worst = asked.iter().find(|step| step.1 == most && !is_right(step));
         Some(SolvedRange {
             solved_fraction: right as f64 / family.parameter_values.len() as f64,
-            first: asked.get(right).map(limit),
+            first_failed_step: asked.get(right).map(limit),
             first_worst_step: worst.map(limit),
         })
     }

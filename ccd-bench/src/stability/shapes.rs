@@ -106,11 +106,14 @@ pub(super) fn extrude_cells(
             quad([at(0, 1, 0), at(1, 1, 0), at(1, 1, 1), at(0, 1, 1)]);
         }
     }
-    with_used_vertices(&vertices, faces)
+    mesh_of_used_vertices(&vertices, faces)
 }
 
 /// Creates a mesh of the faces, without the vertices that no face uses.
-fn with_used_vertices(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
+fn mesh_of_used_vertices(
+    vertices: &[DVec3],
+    faces: Vec<[u32; 3]>,
+) -> Result<TriangleMesh, MeshError> {
     let mut numbers = vec![None; vertices.len()];
     let mut kept = Vec::new();
     let mut number = |v: u32| {

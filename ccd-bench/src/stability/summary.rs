@@ -36,17 +36,17 @@ pub fn summary(findings: &Findings<'_>) -> TextTable {
 
 /// Returns a table with the easiest parameter value at which each method fails in each family, and the worst verdict
 /// there.
-pub fn limits(findings: &Findings<'_>) -> TextTable {
+pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();
     let columns = ["family", "parameter"].map(str::to_owned);
     let columns = columns.into_iter().chain(methods.clone());
     let title = "The first value at which answers are not right, and how";
     let mut table = TextTable::new(title, columns);
     for family in &findings.families {
-        let limit = |method: &String| match findings.reach(family, method) {
+        let limit = |method: &String| match findings.solved_range(family, method) {
             None => "not asked".to_owned(),
-            Some(reach) => reach.first.map_or(String::new(), |limit| {
-                format!("{:e} {}", limit.value, limit.verdict)
+            Some(reach) => reach.first_failed_step.map_or(String::new(), |limit| {
+                format!("{:e} {}", limit.parameter_value, limit.verdict)
             }),
         };
         let mut row = vec![family.name.to_owned(), family.parameter.to_owned()];
@@ -58,13 +58,15 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
 
 /// Returns the heat map of the share of each family that each method solves before its first wrong answer.
 pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
-    map(findings, SOLVED_RANGE, |family, method| {
-        let reach = findings.reach(family, method)?;
+    make_heat_map(findings, SOLVED_RANGE, |family, method| {
+        let reach = findings.solved_range(family, method)?;
         let worst = reach.first_worst_step;
-        Some(HeatCell::reach(
+        Some(HeatCell::solved_range(
             worst.map_or(Verdict::Right, |limit| limit.verdict),
             reach.solved_fraction,
-            worst.map_or(String::new(), |limit| format!("{:e}", limit.value)),
+            worst.map_or(String::new(), |limit| {
+                format!("{:e}", limit.parameter_value)
+            }),
         ))
     })
 }
@@ -80,7 +82,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     let cells = findings.journal.cells().iter();
     let costs: HashMap<(String, String), f64> =
         cells.filter(|cell| cell.cut_off == 0).map(cost).collect();
-    map(findings, COST_GROWTH, |family, method| {
+    make_heat_map(findings, COST_GROWTH, |family, method| {
         let costs = family.parameter_values.iter().filter_map(|&value| {
             let key = (step_name(family, value), method.to_owned());
             costs.get(&key).copied()
@@ -96,7 +98,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
 }
 
 /// Makes a heat map with a row per family and a column per method, whose cells the function `cell` computes.
-fn map(
+fn make_heat_map(
     findings: &Findings<'_>,
     kind: &'static HeatMapKind,
     cell: impl Fn(&Family, &str) -> Option<HeatCell>,

@@ -57,7 +57,7 @@ impl Survey {
             self.programs.check_script_starts(method)?;
         }
         let journal = Mutex::new(Journal::open(&self.folder, &stamp())?);
-        let steps = self.families.iter().map(|f| self.values(f).len());
+        let steps = self.families.iter().map(|f| self.selected_values(f).len());
         let steps: usize = steps.sum();
         let progress = Progress::new(Total::Steps(steps * self.methods.len()));
         let families = self.families.par_iter();
@@ -67,7 +67,7 @@ impl Survey {
     }
 
     /// Returns the parameter values of a family that the survey uses.
-    fn values(&self, family: &Family) -> Vec<f64> {
+    fn selected_values(&self, family: &Family) -> Vec<f64> {
         let all = &family.parameter_values;
         if self.full {
             return all.clone();
@@ -84,7 +84,7 @@ impl Survey {
         progress: &Progress,
     ) -> Result<()> {
         let mut stopped = vec![0; self.methods.len()];
-        for value in self.values(family) {
+        for value in self.selected_values(family) {
             let name = step_name(family, value);
             let step = (family.make)(value).with_context(|| name.clone())?;
             let ready = PreparedStep {
@@ -100,7 +100,7 @@ impl Survey {
                 if *stopped >= STOPS_BEFORE_SKIPPING || known {
                     continue;
                 }
-                let trials = ready.ask(method, &self.programs);
+                let trials = ready.run_queries(method, &self.programs);
                 let trials = trials.with_context(|| method.to_string())?;
                 let cut_off = Verdict::CutOff.to_string();
                 if trials.iter().any(|trial| trial.verdict == cut_off) {
@@ -124,7 +124,7 @@ struct PreparedStep<'s> {
 
 impl PreparedStep<'_> {
     /// Runs a method on all queries of the step; stops after the first query that exceeds the time limit.
-    fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
+    fn run_queries(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
         let setting = GuardSettings {
             margin: step.margin,
@@ -186,7 +186,7 @@ fn judge_failed_start(error: io::Error) -> io::Result<Judgement> {
     Ok(Judgement::without_error(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
         io::ErrorKind::TimedOut => Verdict::CutOff,
-        io::ErrorKind::Other => Verdict::Died,
+        io::ErrorKind::Other => Verdict::Crashed,
         _ => return Err(error),
     }))
 }

@@ -175,7 +175,7 @@ const LARGEST_POLYNOMIAL_ARGUMENT: f64 = 1.6;
 const MAX_QUARTER_TURNS: f64 = 1_125_899_906_842_624.0;
 /// The factorial of 21, which is exact in f64: an odd number below 2⁵³ times 2¹⁸.
 const FACTORIAL_21: Interval = point_interval(51_090_942_171_709_440_000.0);
-const FACTORIAL_22_BY_21: Interval = point_interval(22.0);
+const FACTORIAL_22_OVER_21: Interval = point_interval(22.0);
 
 fn taylor_sin_cos(r: Interval) -> (Interval, Interval) {
     let square = r.sqr();
@@ -193,7 +193,7 @@ fn taylor_sin_cos(r: Interval) -> (Interval, Interval) {
         power = power * square;
     }
     let sine_rest = power / FACTORIAL_21;
-    let cosine_rest = sine_rest * r.abs() / FACTORIAL_22_BY_21;
+    let cosine_rest = sine_rest * r.abs() / FACTORIAL_22_OVER_21;
     (
         (r * sine + SINE_RANGE * sine_rest).intersection(SINE_RANGE),
         (cosine + SINE_RANGE * cosine_rest).intersection(SINE_RANGE),

@@ -50,7 +50,7 @@ const MAX_DISTANCE_FOR_EDGE_NORMALS: f64 = 1e-3;
 #[derive(Debug, PartialEq)]
 enum RemainingPairs {
     /// The pairs of nodes that may meet within the interval.
-    NotExcluded(Vec<Pair>),
+    MayMeet(Vec<Pair>),
     /// The budget of tests was used up before all pairs were tested.
     BudgetSpent,
 }
@@ -83,10 +83,10 @@ impl<'a> Search<'a> {
         if !(self.duration >= 0.0 && self.duration.is_finite()) {
             return Truth::Undecided { lo: 0.0 };
         }
-        match self.touch_at(roots, 0.0, Proof::NotApart) {
+        match self.test_touch_at(roots, 0.0, TouchCriterion::NotApart) {
             Touch::NotTouching => self.bisect_time(roots),
             Touch::Touching => Truth::ContactAtStart,
-            Touch::Spent => Truth::Undecided { lo: 0.0 },
+            Touch::BudgetSpent => Truth::Undecided { lo: 0.0 },
         }
     }
 
@@ -100,13 +100,13 @@ impl<'a> Search<'a> {
         let mut pending = vec![(whole, Rc::new(vec![roots]))];
         let mut undecided = UndecidedTimes::default();
         while let Some((span, pairs)) = pending.pop() {
-            let Some(span) = span.from(undecided.skipped_until) else {
+            let Some(span) = span.clipped_from(undecided.skipped_until) else {
                 continue;
             };
             let snapshot = self.snapshot(span);
             let left = match self.pairs_that_may_meet(&snapshot, &pairs) {
-                RemainingPairs::NotExcluded(left) if left.is_empty() => continue,
-                RemainingPairs::NotExcluded(left) => left,
+                RemainingPairs::MayMeet(left) if left.is_empty() => continue,
+                RemainingPairs::MayMeet(left) => left,
                 RemainingPairs::BudgetSpent => {
                     return Truth::Undecided {
                         lo: undecided.first.unwrap_or(span.start),
@@ -116,7 +116,7 @@ impl<'a> Search<'a> {
             let middle = span.start.midpoint(span.end);
             if span.end - span.start > shortest && span.start < middle && middle < span.end {
                 let left = Rc::new(left);
-                let [early, late] = span.at(middle);
+                let [early, late] = span.split_at(middle);
                 pending.push((late, Rc::clone(&left)));
                 pending.push((early, left));
                 continue;
@@ -145,7 +145,7 @@ impl<'a> Search<'a> {
     fn pairs_that_may_meet(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> RemainingPairs {
         let mut left = Vec::new();
         if snapshot.are_bodies_far_apart() {
-            return RemainingPairs::NotExcluded(left);
+            return RemainingPairs::MayMeet(left);
         }
         let mut stack = pairs.to_vec();
         while let Some(pair) = stack.pop() {
@@ -170,7 +170,7 @@ impl<'a> Search<'a> {
                 None => left.push(pair),
             }
         }
-        RemainingPairs::NotExcluded(left)
+        RemainingPairs::MayMeet(left)
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the interval.
@@ -214,7 +214,8 @@ impl<'a> Search<'a> {
             // is slow.
             let wider = doubling % DOUBLINGS_PER_FULL_TEST == DOUBLINGS_PER_FULL_TEST - 1
                 && (times_met == 0 || doubling == times_met);
-            if wider && self.touch_at(roots, time, Proof::Piercing) == Touch::Touching {
+            if wider && self.test_touch_at(roots, time, TouchCriterion::Piercing) == Touch::Touching
+            {
                 return Some(time);
             }
             if time >= self.duration {
@@ -234,7 +235,7 @@ impl<'a> Search<'a> {
     }
 
     /// Tests whether the surfaces touch at a time, by the evidence that `proof` requires.
-    fn touch_at(&mut self, roots: Pair, time: f64, proof: Proof) -> Touch {
+    fn test_touch_at(&mut self, roots: Pair, time: f64, proof: TouchCriterion) -> Touch {
         let span = Span {
             start: time,
             end: time,
@@ -245,7 +246,7 @@ impl<'a> Search<'a> {
         let mut stack = vec![roots];
         while let Some(pair) = stack.pop() {
             if self.budget == 0 {
-                return Touch::Spent;
+                return Touch::BudgetSpent;
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
@@ -260,7 +261,7 @@ impl<'a> Search<'a> {
             } else if !self.triangles_apart(&snapshot, pair) {
                 let triangles = self.triangles(pair);
                 let meet = |[a, b]: [&Triangle; 2]| instant.certainly_meet(a, b);
-                if proof == Proof::NotApart || triangles.is_some_and(meet) {
+                if proof == TouchCriterion::NotApart || triangles.is_some_and(meet) {
                     return Touch::Touching;
                 }
             }
@@ -313,7 +314,7 @@ pub(super) struct SplitPair {
 
 /// The evidence that makes two surfaces count as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Proof {
+enum TouchCriterion {
     /// Surfaces touch if they cannot be proven to be apart.
     NotApart,
     /// Surfaces touch only if an edge certainly passes through a triangle.
@@ -324,7 +325,7 @@ enum Proof {
 enum Touch {
     Touching,
     NotTouching,
-    Spent,
+    BudgetSpent,
 }
 
 /// The times at which neither a contact nor a gap between the surfaces could be proven.
@@ -350,12 +351,12 @@ impl UndecidedTimes {
 
 impl Span {
     /// Returns the part of the interval after `start`; `None` if it is empty.
-    fn from(self, start: f64) -> Option<Self> {
+    fn clipped_from(self, start: f64) -> Option<Self> {
         let start = greater(self.start, start);
         (start < self.end).then_some(Span { start, ..self })
     }
 
-    fn at(self, middle: f64) -> [Self; 2] {
+    fn split_at(self, middle: f64) -> [Self; 2] {
         let early = Span {
             end: middle,
             ..self

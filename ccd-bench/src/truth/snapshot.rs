@@ -33,9 +33,9 @@ pub(super) struct Snapshot {
     /// The map from A's body frame to the common frame, at the middle time.
     placement: Affine,
     /// The map from a point of A to its velocity, relative to B's centre.
-    rate_a: Affine,
+    velocity_map_a: Affine,
     /// The map from a point of B to its velocity, relative to B's centre.
-    rate_b: Affine,
+    velocity_map_b: Affine,
     /// Half the length of the interval.
     half_duration: f64,
     /// The computed gap above which bodies are certainly apart: it bounds the rounding, and the motion's deviation from
@@ -104,9 +104,9 @@ impl Snapshot {
                 b: larger_of_sum_and_difference(back, back * w_b),
             },
             placement,
-            rate_a,
-            rate_b,
-            centre_offset: centre(&exactly.centres),
+            velocity_map_a: rate_a,
+            velocity_map_b: rate_b,
+            centre_offset: centre(&exactly.centre_offset),
             centre_offset_rate: centre(&exactly.velocity),
             radius_sum: a.reach + b.reach,
         }
@@ -129,8 +129,8 @@ impl Snapshot {
     /// Tests whether one of the six face normals of two boxes separates them over the whole interval.
     pub(super) fn box_separation(&self, a: &Node, b: &Node) -> BoxSeparation {
         let apart = self.placement.apply(a.centre) - b.centre;
-        let moved =
-            self.half_duration * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
+        let moved = self.half_duration
+            * (self.velocity_map_a.apply(a.centre) - self.velocity_map_b.apply(b.centre));
         let gaps_b = self.extents_along_b.axis_gaps(apart, moved, a, b);
         if gaps_b.max_element() > self.slack {
             return BoxSeparation::Apart;
@@ -161,8 +161,8 @@ impl Snapshot {
 
     /// Returns the corners of two triangles in the common frame, at both ends of the interval.
     pub(super) fn triangles_at_ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
-        let moved_a = a.map(|p| self.half_duration * self.rate_a.apply(p));
-        let moved_b = b.map(|q| self.half_duration * self.rate_b.apply(q));
+        let moved_a = a.map(|p| self.half_duration * self.velocity_map_a.apply(p));
+        let moved_b = b.map(|q| self.half_duration * self.velocity_map_b.apply(q));
         let a = a.map(|p| self.placement.apply(p));
         let at = |end: f64, from: &Triangle, moved: &Triangle| {
             [0, 1, 2].map(|i| from[i] + end * moved[i])
@@ -188,7 +188,7 @@ impl Snapshot {
 impl Extents {
     /// Returns, for each axis, a lower bound of the gap of two boxes over the whole interval.
     fn axis_gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
-        apart.abs() - moved.abs() - self.a * a.half - self.b * b.half
+        apart.abs() - moved.abs() - self.a * a.half_extents - self.b * b.half_extents
     }
 }
 
@@ -251,7 +251,7 @@ pub(super) struct IntervalMaps {
     pub(super) placement: (IntervalMatrix, IntervalVector),
     rate_a: (IntervalMatrix, IntervalVector),
     rate_b: (IntervalMatrix, IntervalVector),
-    centres: IntervalVector,
+    centre_offset: IntervalVector,
     velocity: IntervalVector,
 }
 
@@ -272,7 +272,7 @@ impl IntervalMaps {
             placement: (rotation, offset),
             rate_a: (swirl_a, drift),
             rate_b: (swirl_b, IntervalVector([point_interval(0.0); 3])),
-            centres,
+            centre_offset: centres,
             velocity,
         }
     }

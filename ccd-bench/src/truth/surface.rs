@@ -20,7 +20,7 @@ pub(super) type Triangle = [DVec3; 3];
 pub(super) struct Node {
     pub(super) centre: DVec3,
     /// Half the extents of the box, rounded so that it contains all its triangles.
-    pub(super) half: DVec3,
+    pub(super) half_extents: DVec3,
     /// Half the diagonal of the box.
     pub(super) size: f64,
     pub(super) content: Content,
@@ -72,7 +72,10 @@ impl Surface {
 
     /// Returns the corners of the box around the whole body; none for a body without triangles.
     pub(super) fn corners(&self) -> impl Iterator<Item = DVec3> {
-        let root = self.nodes.first().map(|node| (node.centre, node.half));
+        let root = self
+            .nodes
+            .first()
+            .map(|node| (node.centre, node.half_extents));
         root.into_iter().flat_map(|(centre, half)| {
             (0..8).map(move |corner| {
                 let side = |bit| if corner & bit == 0 { -1.0 } else { 1.0 };
@@ -100,7 +103,7 @@ impl Surface {
             self.nodes[index].content = Content::Triangle(*triangle);
         } else {
             let middle = order.len() / 2;
-            let axis = node.half.max_position();
+            let axis = node.half_extents.max_position();
             let key = |&i: &u32| self.triangle(i).iter().map(|p| p[axis]).sum::<f64>();
             order.select_nth_unstable_by(middle, |i, j| key(i).total_cmp(&key(j)));
             let (left, right) = order.split_at_mut(middle);
@@ -121,7 +124,7 @@ impl Surface {
         let half = (high - centre).max(centre - low) * ROUND_UP_FACTOR;
         Node {
             centre,
-            half,
+            half_extents: half,
             size: half.length(),
             content: Content::Triangle(0),
         }

@@ -18,11 +18,11 @@ fn cuboid(x: f64, y: f64, z: f64) -> Surface {
     Surface::new(&model::cuboid(x, y, z).unwrap())
 }
 
-fn still(x: f64, y: f64, z: f64) -> Motion {
-    Motion::still(at(DVec3::new(x, y, z), DQuat::IDENTITY))
+fn still_motion(x: f64, y: f64, z: f64) -> Motion {
+    Motion::still(pose_at(DVec3::new(x, y, z), DQuat::IDENTITY))
 }
 
-fn at(position: DVec3, rotation: DQuat) -> Pose {
+fn pose_at(position: DVec3, rotation: DQuat) -> Pose {
     Pose::new(position, rotation).unwrap()
 }
 
@@ -56,5 +56,5 @@ fn triangle_soup(rng: &mut impl Rng, triangles: u32) -> TriangleMesh {
 fn random_motion(rng: &mut impl Rng, from: DVec3, velocity: DVec3, spin: f64) -> Motion {
     let turn = DQuat::from_scaled_axis(random_vector(rng, 3.0));
     let spin = random_vector(rng, spin);
-    Motion::about(at(from, turn), velocity, spin, random_vector(rng, 0.5)).unwrap()
+    Motion::about(pose_at(from, turn), velocity, spin, random_vector(rng, 0.5)).unwrap()
 }

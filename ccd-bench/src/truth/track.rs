@@ -21,7 +21,7 @@ pub(super) struct EnclosedMotion {
     /// The orientation R₀ at the start.
     orientation: IntervalMatrix,
     /// The position c₀ of the centre at the start, in the world frame.
-    from: IntervalVector,
+    start_centre: IntervalVector,
     /// An upper bound of the distance of the body's points from the centre c.
     pub(super) reach: f64,
     /// An upper bound |ω|²ρ of the acceleration of the point that is farthest from the axis, at distance ρ.
@@ -45,7 +45,7 @@ impl EnclosedMotion {
             velocity: IntervalVector::from(motion.velocity()),
             spin: IntervalVector::from(motion.spin()),
             spin_floats: motion.spin(),
-            from: IntervalVector::from(start.translation()) + &orientation * &centre,
+            start_centre: IntervalVector::from(start.translation()) + &orientation * &centre,
             orientation,
             reach: 0.0,
             max_acceleration: 0.0,
@@ -69,7 +69,7 @@ impl EnclosedMotion {
         Placement {
             rotation: &IntervalMatrix::from_angular_velocity(self.spin_floats, time)
                 * &self.orientation,
-            centre: self.from + self.velocity.scaled(point_interval(time)),
+            centre: self.start_centre + self.velocity.scaled(point_interval(time)),
         }
     }
 }

@@ -1,11 +1,11 @@
 //! Tests that `ccd-bench chart` measures methods and writes the chart page and its tables.
 
-use crate::command::{Run, Scene, parse, stderr};
+use crate::command::{CommandCall, Scene, parse, stderr};
 use std::fs;
 use std::path::Path;
 
 /// Runs `ccd-bench chart` on one scene with two methods, for a tenth of a second.
-fn chart(folder: &Path) -> Run {
+fn chart(folder: &Path) -> CommandCall {
     let options = [
         "chart",
         "--scenes",
@@ -17,7 +17,7 @@ fn chart(folder: &Path) -> Run {
         "--cell",
         "0.1",
     ];
-    Run::with_args(&options).args(&["--out", folder.to_str().unwrap()])
+    CommandCall::with_args(&options).args(&["--out", folder.to_str().unwrap()])
 }
 
 #[test]
@@ -76,13 +76,13 @@ fn exported_scenes_are_read_again() {
     let scene = Scene::new("chart-export");
     let folder = scene.directory.join("scenes");
     let options = ["chart", "--scenes", "knot216", "--export"];
-    let run = Run::with_args(&options).args(&[folder.to_str().unwrap()]);
+    let run = CommandCall::with_args(&options).args(&[folder.to_str().unwrap()]);
     let output = run.output();
     assert!(output.status.success(), "{}", stderr(&output));
     let at = |name: &str| folder.join("knot216").join(name).display().to_string();
     let (a, b, motions) = (at("a.obj"), at("b.obj"), at("motions.csv"));
-    let rows =
-        Run::with_args(&["truth", "--a", &a, "--b", &b, "--motions", &motions]).expect_rows();
+    let rows = CommandCall::with_args(&["truth", "--a", &a, "--b", &b, "--motions", &motions])
+        .expect_rows();
     assert_eq!(rows.len(), 25);
     let hits = rows.iter().filter(|r| r.text("status") == "hit").count();
     assert!((8..25).contains(&hits), "{hits}");
@@ -91,7 +91,7 @@ fn exported_scenes_are_read_again() {
 #[test]
 fn unknown_names_are_answered_with_the_known_ones() {
     for (option, name) in [("--scenes", "knot216"), ("--methods", "C2A")] {
-        let output = Run::with_args(&["chart", option, "atlantis"]).output();
+        let output = CommandCall::with_args(&["chart", option, "atlantis"]).output();
         assert_eq!(output.status.code(), Some(2));
         let output_text = stderr(&output);
         assert!(
@@ -99,6 +99,6 @@ fn unknown_names_are_answered_with_the_known_ones() {
             "{output_text}"
         );
     }
-    let output = Run::with_args(&["chart", "--tolerances", "-1"]).output();
+    let output = CommandCall::with_args(&["chart", "--tolerances", "-1"]).output();
     assert_eq!(output.status.code(), Some(2));
 }

@@ -8,7 +8,7 @@ mod peer;
 mod stability;
 mod truth;
 
-use command::{Run, stderr};
+use command::{CommandCall, stderr};
 
 /// The path of the `ccd-bench` program that the tests run.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd-bench");
@@ -18,7 +18,7 @@ const TETRAHEDRON: &str =
 
 #[test]
 fn models_need_a_directory_that_exists() {
-    let output = Run::with_args(&["chart", "--models", "no/such/models"])
+    let output = CommandCall::with_args(&["chart", "--models", "no/such/models"])
         .stdin("")
         .output();
     assert_eq!(output.status.code(), Some(2));

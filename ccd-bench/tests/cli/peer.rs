@@ -22,7 +22,7 @@ fn cube() -> TriangleMesh {
 }
 
 /// Returns a query in which a cube falls at speed 4 onto another cube across a gap of 2.
-fn drop() -> Motions {
+fn falling_cube_query() -> Motions {
     let above = Pose::at(3.0 * DVec3::Z).unwrap();
     Motions {
         id: "drop".into(),
@@ -69,7 +69,11 @@ fn every_method_answers_behind_a_guard() {
         .filter(|method| !is_script(method))
     {
         let mut guarded = guarded_method(GuardSettings::new(method, 1e-3));
-        assert_answered(guarded.run_query(&drop(), QUERY_TIME_LIMIT).unwrap());
+        assert_answered(
+            guarded
+                .run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
+                .unwrap(),
+        );
     }
 }
 
@@ -80,7 +84,7 @@ fn a_margin_is_kept_or_refused() {
             margin: 0.5,
             ..GuardSettings::new(method, 1e-3)
         });
-        guarded.run_query(&drop(), QUERY_TIME_LIMIT)
+        guarded.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
     };
     for method in Method::built_in_methods() {
         let outcome = ask(method);
@@ -114,7 +118,7 @@ fn a_hanging_peer_is_cut_off_and_restarted() {
     let start = Instant::now();
     for _ in 0..2 {
         let outcome = hanging
-            .run_query(&drop(), Duration::from_millis(50))
+            .run_query(&falling_cube_query(), Duration::from_millis(50))
             .unwrap();
         assert_eq!(outcome, QueryOutcome::CutOff);
     }
@@ -125,11 +129,18 @@ fn a_hanging_peer_is_cut_off_and_restarted() {
 fn the_query_after_a_cut_off_one_is_answered() {
     let mut peer = guarded_peer(PeerKind::ParryF64);
     assert_eq!(
-        peer.run_query(&drop(), Duration::ZERO).unwrap(),
+        peer.run_query(&falling_cube_query(), Duration::ZERO)
+            .unwrap(),
         QueryOutcome::CutOff
     );
-    assert_answered(peer.run_query(&drop(), QUERY_TIME_LIMIT).unwrap());
-    assert_answered(peer.run_query(&drop(), QUERY_TIME_LIMIT).unwrap());
+    assert_answered(
+        peer.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
+            .unwrap(),
+    );
+    assert_answered(
+        peer.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
+            .unwrap(),
+    );
 }
 
 #[cfg(unix)]
@@ -138,7 +149,9 @@ fn a_dying_peer_is_reported_and_restarted() {
     let mut dying = guarded_script("dying");
     for _ in 0..2 {
         assert_eq!(
-            dying.run_query(&drop(), QUERY_TIME_LIMIT).unwrap(),
+            dying
+                .run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
+                .unwrap(),
             QueryOutcome::Crashed
         );
     }
@@ -148,8 +161,9 @@ fn a_dying_peer_is_reported_and_restarted() {
 fn a_tolerance_is_passed_on() {
     let mut peer = guarded_peer(PeerKind::ParrySweepF64);
     peer.set_tolerance(1e-6);
-    let QueryOutcome::Answered(TimedReply { reply, .. }) =
-        peer.run_query(&drop(), QUERY_TIME_LIMIT).unwrap()
+    let QueryOutcome::Answered(TimedReply { reply, .. }) = peer
+        .run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
+        .unwrap()
     else {
         panic!("no answer");
     };
@@ -164,5 +178,8 @@ fn a_program_that_is_no_peer_does_not_start() {
     let missing = "no/such/program".into();
     let setting = GuardSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
     let mut peer = GuardedMethod::with_program(missing, setting, [&cube(), &cube()]).unwrap();
-    assert!(peer.run_query(&drop(), QUERY_TIME_LIMIT).is_err());
+    assert!(
+        peer.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
+            .is_err()
+    );
 }

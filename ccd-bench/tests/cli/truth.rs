@@ -1,7 +1,7 @@
 //! Tests that `ccd-bench truth` writes a bracket of the first contact for each row of motions, and reports bad rows.
 
 use crate::TETRAHEDRON;
-use crate::command::{Run, Scene, parse, stderr};
+use crate::command::{CommandCall, Scene, parse, stderr};
 
 const MOTIONS: &str = "id,a_px,a_py,a_pz,a_vx,duration\n\
                        hit,3,-.2,-.3,-4,1\nfree,3,-.2,-.3,-4,.1\ninitial,.1,-.2,-.3,0,1\n";
@@ -14,7 +14,7 @@ fn brackets_hold_the_exact_first_contact() {
     let truth = scene.directory.join("truth.csv");
     let motions = scene.file("motions.csv", MOTIONS);
     let options = ["--motions", motions.to_str().unwrap()];
-    let run = Run::with_args(&["truth", "--a", mesh, "--b", mesh])
+    let run = CommandCall::with_args(&["truth", "--a", mesh, "--b", mesh])
         .args(&options)
         .args(&["--out", truth.to_str().unwrap()]);
     let output = run.output();
@@ -43,7 +43,7 @@ fn good_rows_are_judged_and_bad_ones_reported() {
     let scene = Scene::new("truth-bad");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let mesh = mesh.to_str().unwrap();
-    let run = Run::with_args(&[
+    let run = CommandCall::with_args(&[
         "truth",
         "--a",
         mesh,
@@ -79,7 +79,9 @@ fn impossible_requests_are_refused() {
     let nowhere = scene.directory.join("none").join("truth.csv");
     let run = |a: &str, out: &str| {
         let arguments = ["truth", "--a", a, "--b", mesh, "--motions", motions];
-        Run::with_args(&arguments).args(&["--out", out]).output()
+        CommandCall::with_args(&arguments)
+            .args(&["--out", out])
+            .output()
     };
     assert_eq!(run("missing.obj", "-").status.code(), Some(2));
     assert_eq!(run(mesh, motions).status.code(), Some(2));

@@ -32,7 +32,7 @@ impl<V: Copy + Default> AdjacencyLists<V> {
 
     /// Returns the list with number `k`; empty if there is no such list.
     #[inline]
-    pub(crate) fn of(&self, k: usize) -> &[V] {
+    pub(crate) fn list(&self, k: usize) -> &[V] {
         if k < self.ends.len() {
             &self.values[range_from_ends(&self.ends, k)]
         } else {

@@ -41,7 +41,7 @@ impl Body {
 pub(crate) struct Excess(f64);
 
 impl Excess {
-    pub(crate) fn of_bodies(a: &Body, b: &Body) -> Self {
+    pub(crate) fn sum_of_bodies(a: &Body, b: &Body) -> Self {
         Excess(match (a.excess, b.excess) {
             (0.0, other) | (other, 0.0) => other,
             (one, other) => (one + other).next_up(),

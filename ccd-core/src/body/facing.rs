@@ -66,7 +66,7 @@ impl Body {
         if self.volume() == Volume::Surface || !of.is_flat() {
             return None;
         }
-        of.cached(|_| self.compute_facing(piece))
+        of.cached_value(|_| self.compute_facing(piece))
     }
 
     fn compute_facing(&self, piece: u32) -> CachedFacing {

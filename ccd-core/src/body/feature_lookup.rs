@@ -2,7 +2,7 @@
 
 use super::adjacency::AdjacencyLists;
 use super::facets::edges_of;
-use super::piece::Combination;
+use super::piece::ConvexCombination;
 use super::piece::Piece;
 use super::polytope::FacetOrigin;
 use crate::math::order::greater;
@@ -23,8 +23,8 @@ pub(crate) enum MeshFeature {
 ///
 /// Even if no facet of the mesh contains all of the corners, the point may be on the mesh: a
 /// virtual facet may be within the surface, and so may a chord of two coplanar faces.
-pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
-    let (facets, support) = (piece.facets, point.support());
+pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &ConvexCombination) -> MeshFeature {
+    let (facets, support) = (piece.facets, point.point_indices());
     if !facets.is_empty() && !is_on_mesh(piece) {
         return MeshFeature::NoFeature;
     }
@@ -32,7 +32,7 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshF
         return MeshFeature::Vertex(v);
     }
     let near = match (FacetsByCorner::for_piece(piece), support.first()) {
-        (Some(by_corner), Some(&corner)) => Some(by_corner.facets.of(corner as usize)),
+        (Some(by_corner), Some(&corner)) => Some(by_corner.facets.list(corner as usize)),
         _ => None,
     };
     let count = near.map_or(facets.len(), <[u32]>::len);
@@ -80,7 +80,8 @@ impl FacetsByCorner {
     /// a piece with few facets, or a piece that belongs to no list.
     fn for_piece<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > MAX_SCANNED_POINTS;
-        let kept = many.then(|| piece.cached(|piece| Box::new(FacetsByCorner::new(piece))))?;
+        let kept =
+            many.then(|| piece.cached_value(|piece| Box::new(FacetsByCorner::new(piece))))?;
         kept.map(|kept| &**kept)
     }
 
@@ -95,7 +96,7 @@ impl FacetsByCorner {
 }
 
 /// Builds the table of facets by corner for a piece in advance, so that no query waits for it.
-pub(crate) fn prepare(piece: &Piece<'_>) {
+pub(crate) fn prepare_facets_by_corner(piece: &Piece<'_>) {
     FacetsByCorner::for_piece(piece);
 }
 

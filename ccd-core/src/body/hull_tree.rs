@@ -22,7 +22,7 @@ pub use loops::PolygonList;
 use super::adjacency::AdjacencyLists;
 use super::facets::range_from_ends;
 use super::hierarchy::{Hierarchy, HierarchyNode};
-use super::piece::Combination;
+use super::piece::ConvexCombination;
 use super::piece::Piece;
 use super::pieces::Pieces;
 use convex::support_of;
@@ -96,9 +96,9 @@ impl HullTree {
     ///
     /// # Panics
     /// When there is no such node.
-    pub fn class_of(&self, node: u32, point: &Combination) -> FacetClass {
+    pub fn class_of(&self, node: u32, point: &ConvexCombination) -> FacetClass {
         let at = node as usize;
-        let support = point.support();
+        let support = point.point_indices();
         if support.is_empty() || !self.hulls.has_uniform_radius[at] {
             return FacetClass::Free;
         }
@@ -166,7 +166,7 @@ impl Hulls {
         if !points.contains(&at) {
             return &[];
         }
-        self.facets_by_point.of(at)
+        self.facets_by_point.list(at)
     }
 
     fn bytes(&self) -> usize {

@@ -70,7 +70,10 @@ impl<'a> Piece<'a> {
     /// assert!(Piece::from_points(&corners).cached(middle).is_none());
     /// ```
     #[inline]
-    pub fn cached<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
+    pub fn cached_value<T: Any + Send + Sync>(
+        &self,
+        make: impl FnOnce(&Self) -> T,
+    ) -> Option<&'a T> {
         let slot = self.side_table_entry?;
         let entry = slot.side_table.entry(slot.len, slot.index);
         Some(entry.get_or_init(|| make(self)))
@@ -83,7 +86,7 @@ impl<'a> Piece<'a> {
         if self.points.len() <= MAX_SCANNED_POINTS || self.support_map.is_some() {
             return self;
         }
-        let support = self.cached(|piece| Box::new(make(piece)));
+        let support = self.cached_value(|piece| Box::new(make(piece)));
         Piece {
             support_map: support.map(|kept| &**kept),
             ..self
@@ -112,9 +115,9 @@ impl<'a> Piece<'a> {
     ///
     /// # Guarantee
     /// The guarantee of [`Support::extremal`].
-    pub fn extremal(&self, direction: DVec3) -> u32 {
+    pub fn extremal_point(&self, direction: DVec3) -> u32 {
         if let Some(support) = self.support_map {
-            return support.extremal(direction);
+            return support.extremal_point(direction);
         }
         let (mut found, mut highest) = (0, f64::NEG_INFINITY);
         for (k, point) in (0..).zip(self.points) {
@@ -127,8 +130,8 @@ impl<'a> Piece<'a> {
     }
 
     /// Returns the position of a point that is farthest along a direction.
-    pub(crate) fn farthest(&self, direction: DVec3) -> DVec3 {
-        self.points[self.extremal(direction) as usize]
+    pub(crate) fn extremal_position(&self, direction: DVec3) -> DVec3 {
+        self.points[self.extremal_point(direction) as usize]
     }
 
     /// Returns the centre and radius of a ball around the points; `None` if no search structure stores one.
@@ -163,15 +166,15 @@ impl<'a> Piece<'a> {
 
 /// A convex combination of up to four points of a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Combination {
+pub struct ConvexCombination {
     indices: [u32; 4],
     weights: [f64; 4],
     len: u8,
 }
 
-impl Combination {
+impl ConvexCombination {
     /// The empty combination, to which terms can be [added](Combination::push).
-    pub const EMPTY: Combination = Combination {
+    pub const EMPTY: ConvexCombination = ConvexCombination {
         indices: [0; 4],
         weights: [0.0; 4],
         len: 0,
@@ -210,7 +213,7 @@ impl Combination {
     }
 
     /// Returns the indices of the points in the combination.
-    pub fn support(&self) -> &[u32] {
+    pub fn point_indices(&self) -> &[u32] {
         &self.indices[..self.len as usize]
     }
 
@@ -219,8 +222,8 @@ impl Combination {
     /// Weights are divided by their sum, so that the result is in the hull up to rounding.
     pub fn position(&self, points: &[DVec3]) -> Option<DVec3> {
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
-        let first = *points.get(*self.support().first()? as usize)?;
-        for (&index, &weight) in self.support().iter().zip(&self.weights) {
+        let first = *points.get(*self.point_indices().first()? as usize)?;
+        for (&index, &weight) in self.point_indices().iter().zip(&self.weights) {
             // The sum is relative to the first point, so that its rounding is that of the piece's size.
             sum += weight * (*points.get(index as usize)? - first);
             total += weight;

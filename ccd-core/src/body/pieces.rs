@@ -8,7 +8,7 @@ mod unpack;
 use super::facets::{Facets, range_from_ends};
 use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
-use super::piece::Combination;
+use super::piece::ConvexCombination;
 use super::piece::{Piece, SideTableEntry};
 use super::polytope::{Face, FacetOrigin};
 use super::side_table::SideTable;
@@ -162,7 +162,7 @@ impl Pieces {
     }
 
     /// Returns whether every piece is a triangle with radius 0.
-    pub fn all_triangles(&self) -> bool {
+    pub fn are_all_triangles(&self) -> bool {
         matches!(self.shape, PieceShapes::Triangles { .. })
     }
 
@@ -213,7 +213,7 @@ impl Pieces {
 
     /// Returns the corners of the first mesh triangle on a piece, or of the piece if it is a triangle.
     pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
-        if self.all_triangles() {
+        if self.are_all_triangles() {
             Some(self.triangle(index))
         } else {
             self.get(index).mesh_triangles().next().map(|(_, t)| t)
@@ -261,9 +261,9 @@ impl Pieces {
     /// Returns the mesh's vertex, edge or face at a point of a piece. It has the combined corners, or else it is the
     /// face that contains the point. It is [`Feature::Piece`] for points inside, and if all facets of the piece are
     /// virtual.
-    pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
+    pub fn feature(&self, piece: usize, point: &ConvexCombination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
-        match (&self.shape, point.support()) {
+        match (&self.shape, point.point_indices()) {
             (_, []) => Feature::Piece(piece as u32),
             (PieceShapes::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
             (PieceShapes::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),

@@ -7,7 +7,7 @@ use super::{Body, Volume};
 use crate::error::{InputError, check, check_length};
 use crate::limits::{DEFAULT_EXCESS_SHARE, MAX_CIRCLE_CORNERS, MAX_COORDINATE};
 use crate::math::order::{greater, lesser};
-use crate::rounding::{LEAST_F64, OUTWARD_FACTOR};
+use crate::rounding::{LEAST_POSITIVE_F64, POLYGON_ENLARGEMENT};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -81,7 +81,7 @@ impl SolidOfRevolution {
     }
 
     /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] allow: [`DEFAULT_EXCESS_SHARE`] of the radius.
-    pub fn usual_excess(&self) -> f64 {
+    pub fn default_excess(&self) -> f64 {
         DEFAULT_EXCESS_SHARE * self.radius
     }
 
@@ -97,7 +97,7 @@ impl SolidOfRevolution {
     /// [`InputError::OutOfRange`] for an excess less than the [least](SolidOfRevolution::least_excess), or a radius whose polytope
     /// reaches beyond [`MAX_COORDINATE`].
     pub fn enclose(&self, excess: f64) -> Result<Enclosure, InputError> {
-        let ring = Ring::circumscribed(self.radius, excess)?;
+        let ring = Ring::circumscribe(self.radius, excess)?;
         let z = self.half_height;
         let count = ring.corners.len() as u32;
         let level = |z: f64| ring.corners.iter().map(move |[x, y]| DVec3::new(*x, *y, z));
@@ -187,7 +187,7 @@ struct Ring {
 }
 
 impl Ring {
-    fn circumscribed(radius: f64, excess: f64) -> Result<Self, InputError> {
+    fn circumscribe(radius: f64, excess: f64) -> Result<Self, InputError> {
         if radius == 0.0 {
             return Ok(Ring {
                 corners: vec![[0.0; 2]; 4],
@@ -197,7 +197,7 @@ impl Ring {
         let count = corner_count(radius, excess)?;
         let step = TAU / count;
         // This is the distance of the corners from the middle; the edges are at distance `radius`.
-        let reach = radius / (0.5 * step).cos() * OUTWARD_FACTOR + 4.0 * LEAST_F64;
+        let reach = radius / (0.5 * step).cos() * POLYGON_ENLARGEMENT + 4.0 * LEAST_POSITIVE_F64;
         let allowed = "less than 1e12, with the excess";
         check("radius", radius, reach <= MAX_COORDINATE, allowed)?;
         let corner = |k: usize| {
@@ -206,7 +206,7 @@ impl Ring {
         };
         Ok(Ring {
             corners: (0..count as usize).map(corner).collect(),
-            excess: greater(0.0, reach * OUTWARD_FACTOR - radius),
+            excess: greater(0.0, reach * POLYGON_ENLARGEMENT - radius),
         })
     }
 }
@@ -215,7 +215,7 @@ impl Ring {
 fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
     // A corner is at `radius / cos(π/n)`. The share of the excess is clamped to a range in which angles lose no
     // digits. The rounding of the corners is subtracted.
-    let share = lesser(asked / radius - 4.0 * (OUTWARD_FACTOR - 1.0), 1.0);
+    let share = lesser(asked / radius - 4.0 * (POLYGON_ENLARGEMENT - 1.0), 1.0);
     let half_angle = (share * (2.0 + share)).sqrt().atan();
     let count = 4.0 * greater(1.0, (PI / half_angle / 4.0).ceil());
     let allowed = asked >= 0.0 && share > 0.0 && count <= MAX_CIRCLE_CORNERS;
@@ -256,7 +256,7 @@ impl Body {
 
 impl SolidOfRevolution {
     fn default_enclosing_body(&self) -> Result<Body, InputError> {
-        self.enclose(self.usual_excess())?.body()
+        self.enclose(self.default_excess())?.body()
     }
 }
 

@@ -6,13 +6,13 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 /// The six extreme points of a connected part, along x, y, z, −x, −y and −z.
-pub(crate) type Shell = [DVec3; 6];
+pub(crate) type ExtremePoints = [DVec3; 6];
 
 /// Returns the six extreme points of every connected part of a body; pieces that share a point are connected.
 ///
 /// # Complexity
 /// Approximately linear in the number of points.
-pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
+pub(crate) fn shells(pieces: &Pieces) -> Vec<ExtremePoints> {
     let points = pieces.points();
     let (mut parts, distinct) = join_points_by_number(pieces);
     let mut count = distinct.len();
@@ -27,7 +27,7 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
         join_coincident_points(points, &distinct, &mut parts);
     }
     let mut shell_of = vec![u32::MAX; points.len()];
-    let mut shells: Vec<Shell> = Vec::new();
+    let mut shells: Vec<ExtremePoints> = Vec::new();
     for k in distinct {
         let point = points[k as usize];
         let shell = &mut shell_of[parts.root(k as usize)];

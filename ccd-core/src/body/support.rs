@@ -5,7 +5,7 @@ mod scan;
 mod table;
 mod tree;
 
-pub use directions::DIRECTIONS;
+pub use directions::TABLE_DIRECTION_COUNT;
 pub use scan::SupportScan;
 pub use table::SupportTable;
 pub use tree::SupportTree;
@@ -49,7 +49,7 @@ impl Support {
     }
 
     /// Builds a tree search for points whose facets are unknown.
-    pub(crate) fn of_points(points: &[DVec3]) -> Self {
+    pub(crate) fn from_points(points: &[DVec3]) -> Self {
         Support::Tree(Box::new(SupportTree::new(points)))
     }
 
@@ -60,11 +60,11 @@ impl Support {
     /// [`HEIGHT_ERROR_F64`](crate::rounding::HEIGHT_ERROR_F64) of the direction's 1-norm and the largest
     /// coordinate. A direction that is not finite gives some point.
     #[inline]
-    pub fn extremal(&self, direction: DVec3) -> u32 {
+    pub fn extremal_point(&self, direction: DVec3) -> u32 {
         match self {
-            Support::Scan(scan) => scan.extremal(direction),
-            Support::Climb(table) => table.extremal(direction),
-            Support::Tree(tree) => tree.extremal(direction),
+            Support::Scan(scan) => scan.extremal_point(direction),
+            Support::Climb(table) => table.extremal_point(direction),
+            Support::Tree(tree) => tree.extremal_point(direction),
         }
     }
 
@@ -72,8 +72,8 @@ impl Support {
     #[inline]
     pub(crate) fn extremal_point_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {
-            (Support::Climb(table), Some(corner)) => table.extremal_from(corner, direction),
-            _ => self.extremal(direction),
+            (Support::Climb(table), Some(corner)) => table.extremal_point_from(corner, direction),
+            _ => self.extremal_point(direction),
         }
     }
 

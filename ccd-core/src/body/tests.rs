@@ -48,7 +48,7 @@ fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
         .find(|&k| body.pieces().get(k).points.len() == 8)
         .unwrap();
     let mean = |corners: &[u32]| {
-        let mut mean = Combination::EMPTY;
+        let mut mean = ConvexCombination::EMPTY;
         corners.iter().for_each(|&corner| mean.push(corner, 1.0));
         mean
     };

@@ -30,11 +30,11 @@ use glam::DVec3;
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     nodes: Vec<Node>,
-    boxes: Vec<BoxGroup>,
-    triangles: Vec<StoredTriangleGroup>,
+    box_groups: Vec<BoxGroup>,
+    triangle_groups: Vec<StoredTriangleGroup>,
     /// The slabs around flat nodes, sorted by node.
     slabs: Vec<(NodeId, Slab)>,
-    whole: BodyBox,
+    body_box: BodyBox,
     /// The largest distance of a piece's points from the body's origin, plus the rounding radius.
     span: f64,
 }
@@ -69,7 +69,7 @@ impl Tree {
     pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
         match self.get(id) {
             NodeOrTriangle::Triangle(piece) => Some(piece),
-            NodeOrTriangle::Node(node) => match node.below {
+            NodeOrTriangle::Node(node) => match node.children {
                 NodeChildren::Piece(piece) => Some(piece),
                 _ => None,
             },
@@ -77,7 +77,7 @@ impl Tree {
     }
 
     pub(crate) fn box_group(&self, index: u32) -> &BoxGroup {
-        &self.boxes[index as usize]
+        &self.box_groups[index as usize]
     }
 
     /// Returns the slab around a flat node; `None` for other nodes.
@@ -89,15 +89,15 @@ impl Tree {
     /// Creates the group of triangles with this index, in the layout for vector instructions.
     #[inline(always)]
     pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
-        let row = &self.triangles[index as usize];
-        let first = row.members.first as usize - self.nodes.len();
-        let triangles = pieces.points_of(first..first + row.members.count as usize);
+        let row = &self.triangle_groups[index as usize];
+        let first = row.header.first as usize - self.nodes.len();
+        let triangles = pieces.points_of(first..first + row.header.count as usize);
         TriangleGroup::new(row, triangles.as_chunks().0)
     }
 
     /// Returns the origin, the reach and the children's ids of a group of triangles.
     pub(crate) fn triangle_group_header(&self, index: u32) -> &GroupHeader {
-        &self.triangles[index as usize].members
+        &self.triangle_groups[index as usize].header
     }
 
     /// Returns the largest distance of any point of the body from its origin, rounding radii included.
@@ -123,7 +123,7 @@ impl Tree {
 
     /// Returns the bounding box of the whole body, which is tighter than the root's box in f32.
     pub(crate) fn body_box(&self) -> &BodyBox {
-        &self.whole
+        &self.body_box
     }
 
     /// Returns the half extents of the root's box.
@@ -138,8 +138,8 @@ impl Tree {
 
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(self.nodes.as_slice())
-            + size_of_val(self.boxes.as_slice())
-            + size_of_val(self.triangles.as_slice())
+            + size_of_val(self.box_groups.as_slice())
+            + size_of_val(self.triangle_groups.as_slice())
             + size_of_val(self.slabs.as_slice())
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct FaceTrees {
 struct FaceBox {
     low: DVec3,
     high: DVec3,
-    below: FaceBoxContent,
+    content: FaceBoxContent,
 }
 
 #[derive(Clone, Copy)]
@@ -50,7 +50,7 @@ impl NearFacePairs {
                 continue;
             }
             self.budget = self.budget.checked_sub(1)?;
-            match (a.below, b.below) {
+            match (a.content, b.content) {
                 (FaceBoxContent::Face(face_a), FaceBoxContent::Face(face_b)) => {
                     self.pairs.push([face_a, face_b]);
                 }
@@ -84,14 +84,14 @@ impl FaceTrees {
         let point = FaceBox {
             low: at,
             high: at,
-            below: FaceBoxContent::Face(0),
+            content: FaceBoxContent::Face(0),
         };
         let mut near = Vec::new();
         let root = (!self.nodes.is_empty()).then_some(0);
         let mut stack = Vec::from_iter(root);
         while let Some(id) = stack.pop() {
             let node = self.get(id);
-            match node.below {
+            match node.content {
                 _ if node.is_farther_apart(&point, reach) => {}
                 FaceBoxContent::Face(face) => near.push(face),
                 FaceBoxContent::Inner(right) => stack.extend([right, id + 1]),
@@ -114,7 +114,7 @@ impl FaceTrees {
     /// Adds a tree over a range of faces, and returns its root; `None` if the range is empty.
     fn add_faces(&mut self, skin: &NearSurface<'_>, faces: Range<u32>) -> Option<u32> {
         let mut boxes: Vec<FaceBox> = faces.map(|face| FaceBox::new(skin, face)).collect();
-        self.add(&mut boxes)
+        self.add_subtree(&mut boxes)
     }
 
     fn get(&self, at: u32) -> &FaceBox {
@@ -123,14 +123,14 @@ impl FaceTrees {
 
     /// Adds the subtree over some faces, and returns its root; `None` without faces. The depth is the logarithm of the
     /// number of faces.
-    fn add(&mut self, faces: &mut [FaceBox]) -> Option<u32> {
+    fn add_subtree(&mut self, faces: &mut [FaceBox]) -> Option<u32> {
         let around = faces.iter().copied().reduce(FaceBox::union)?;
         let at = self.nodes.len();
         self.nodes.push(around);
         if faces.len() > 1 {
             let (left, right) = split_at_median(faces, around.high - around.low);
-            self.add(left)?;
-            self.nodes[at].below = FaceBoxContent::Inner(self.add(right)?);
+            self.add_subtree(left)?;
+            self.nodes[at].content = FaceBoxContent::Inner(self.add_subtree(right)?);
         }
         Some(at as u32)
     }
@@ -142,7 +142,7 @@ impl FaceBox {
         FaceBox {
             low: a.min(b).min(c) - radius,
             high: a.max(b).max(c) + radius,
-            below: FaceBoxContent::Face(face),
+            content: FaceBoxContent::Face(face),
         }
     }
 
@@ -151,7 +151,7 @@ impl FaceBox {
         FaceBox {
             low: self.low.min(other.low),
             high: self.high.max(other.high),
-            below: self.below,
+            content: self.content,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::candidate::Candidate;
 use super::closest::{TrianglePart, nearest_point_on_triangle, nearest_points_on_crossing_edges};
 use super::feature_pair::FeaturePair;
-use super::measure::measure;
+use super::measure::measure_feature_pair;
 use super::skin::{NearSurface, SurfacePart, triangle_edge};
 use super::surface::Surface;
 use crate::motion::pose::Frame;
@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct ContactManifold<'a> {
     problem: &'a Problem<'a>,
     near_surfaces: [&'a NearSurface<'a>; 2],
-    found: HashMap<[SurfacePart; 2], Candidate>,
+    found_pairs: HashMap<[SurfacePart; 2], Candidate>,
 }
 
 impl<'a> ContactManifold<'a> {
@@ -24,13 +24,13 @@ impl<'a> ContactManifold<'a> {
         ContactManifold {
             problem,
             near_surfaces: skins,
-            found: HashMap::new(),
+            found_pairs: HashMap::new(),
         }
     }
 
     /// Returns the number of pairs found so far.
     pub(super) fn len(&self) -> usize {
-        self.found.len()
+        self.found_pairs.len()
     }
 
     /// Adds the contacts between the corners, edges and interiors of a face of A and a face of B.
@@ -73,7 +73,7 @@ impl<'a> ContactManifold<'a> {
             radii: radius(0) + radius(1),
         };
         if candidate.gap() - rounding <= margin + tolerance {
-            keep_nearest(&mut self.found, spots, candidate);
+            insert_if_nearer(&mut self.found_pairs, spots, candidate);
         }
     }
 
@@ -81,21 +81,21 @@ impl<'a> ContactManifold<'a> {
     pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
         let covered = self.implied_pairs();
         let mut told = HashMap::new();
-        for (mut spots, mut candidate) in sorted_pairs(&self.found) {
+        for (mut spots, mut candidate) in sorted_pairs(&self.found_pairs) {
             if covered.contains(&spots) || self.is_due_to_cut(spots, &candidate) {
                 continue;
             }
             for (k, skin) in self.near_surfaces.iter().enumerate() {
                 (spots[k], candidate.faces[k]) = skin.reported_part(spots[k], candidate.faces[k]);
             }
-            keep_nearest(&mut told, spots, candidate);
+            insert_if_nearer(&mut told, spots, candidate);
         }
         let surfaces = LazyCell::new(|| self.near_surfaces.map(Surface::new));
         let common_normals =
             |points| Surface::common_normals(&surfaces, points, self.problem.rounding);
         let told = sorted_pairs(&told);
         let measured = told.iter().map(|found| {
-            measure(
+            measure_feature_pair(
                 self.problem,
                 self.near_surfaces,
                 a_to_world,
@@ -132,7 +132,7 @@ impl<'a> ContactManifold<'a> {
     fn implied_pairs(&self) -> HashSet<[SurfacePart; 2]> {
         let [a, b] = self.near_surfaces;
         let mut covered = HashSet::new();
-        for &[of_a, of_b] in self.found.keys() {
+        for &[of_a, of_b] in self.found_pairs.keys() {
             if let SurfacePart::Corner(_) = of_a {
                 covered.extend(b.boundary_parts(of_b).into_iter().map(|part| [of_a, part]));
             }
@@ -154,7 +154,7 @@ fn surface_part(skin: &NearSurface<'_>, face: u32, part: TrianglePart) -> Surfac
     }
 }
 
-fn keep_nearest(
+fn insert_if_nearer(
     pairs: &mut HashMap<[SurfacePart; 2], Candidate>,
     spots: [SurfacePart; 2],
     candidate: Candidate,

@@ -22,7 +22,7 @@ pub(super) type SurfaceParts = [SurfacePart; 2];
 /// # Guarantee
 /// `lower ≤ distance ≤ upper` for any points: the gap of the features' corners along any axis
 /// bounds their distance from below, any two points bound it from above.
-pub(super) fn measure(
+pub(super) fn measure_feature_pair(
     problem: &Problem<'_>,
     skins: [&NearSurface<'_>; 2],
     a_to_world: &Frame,
@@ -55,7 +55,7 @@ pub(super) fn measure(
         normal = common;
     }
     let way = unit(b - a).unwrap_or(normal);
-    let world = |x: DVec3| problem.world(a_to_world.point(x));
+    let world = |x: DVec3| problem.to_world_point(a_to_world.point(x));
     let name = |k: usize| skins[k].feature_of(spots[k], candidate.faces[k]);
     FeaturePair {
         feature_a: name(0),
@@ -93,7 +93,7 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     [
         normal(*a),
         normal(*b),
-        unit(vector::across(along(a), along(b))),
+        unit(vector::perpendicular_vector(along(a), along(b))),
     ]
 }
 

@@ -68,7 +68,7 @@ fn near_piece_pairs(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option
 fn children_of(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     let members = match tree.get(at) {
         NodeOrTriangle::Triangle(_) => return 0..0,
-        NodeOrTriangle::Node(node) => match node.below {
+        NodeOrTriangle::Node(node) => match node.children {
             NodeChildren::Boxes(group) => &tree.box_group(group).header,
             NodeChildren::Triangles(group) => tree.triangle_group_header(group),
             NodeChildren::Piece(_) => return 0..0,

@@ -5,7 +5,7 @@ mod unpack;
 use crate::body::Body;
 use crate::body::feature::Feature;
 use crate::math::order::greater;
-use crate::math::vector::{across, normal, unit};
+use crate::math::vector::{normal, perpendicular_vector, unit};
 use crate::motion::pose::Frame;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -87,7 +87,7 @@ impl<'a> NearSurface<'a> {
     /// all needed pieces are added. Heights up to `rounding` count as flat.
     pub(super) fn find_cut_edges(&mut self, rounding: f64) {
         self.propagate_mesh_numbers();
-        self.add_normals();
+        self.compute_corner_normals();
         let mut sides: HashMap<[u32; 2], EdgeFaces> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
             if let Feature::Face(_) = name {
@@ -270,7 +270,7 @@ impl<'a> NearSurface<'a> {
         self.coplanar_edges.get(&ends).map(|faces| faces[0])
     }
 
-    fn add_normals(&mut self) {
+    fn compute_corner_normals(&mut self) {
         let mut outward = vec![DVec3::ZERO; self.corners.len()];
         for face in 0..self.faces.len() as u32 {
             let normal = self.normal(face);
@@ -322,7 +322,7 @@ impl<'a> NearSurface<'a> {
             return false;
         };
         let [p, q] = [p, q].map(|tip| self.at(tip) - a);
-        let normals = [p, q].map(|tip| unit(across(b - a, tip)));
+        let normals = [p, q].map(|tip| unit(perpendicular_vector(b - a, tip)));
         let [Some(n), Some(m)] = normals else {
             return false;
         };

@@ -319,7 +319,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     };
     let problem = still(&body_a, &body_b, pose, &config);
     let pairs = problem.contacts_at(0.0).unwrap();
-    let placed = a.placed(&pose);
+    let placed = a.at_pose(&pose);
     let expected = twin::contacts(&placed, b, tolerance, problem.rounding);
     let reported: Vec<(String, f64)> = pairs
         .iter()

@@ -1,6 +1,6 @@
 //! Finds a common normal of two surfaces at a pair of nearest points.
 
-use crate::math::vector::{across, length, unit};
+use crate::math::vector::{length, perpendicular_vector, unit};
 use crate::rounding::LEAST_COMPONENT_LENGTH;
 use glam::DVec3;
 
@@ -96,7 +96,7 @@ impl CommonNormals {
         let before = || self.offsets.iter().copied().take(count);
         for (k, offset) in before().enumerate() {
             if self.violates(best, offset) {
-                let line = unit(across(level, offset))?;
+                let line = unit(perpendicular_vector(level, offset))?;
                 best = unit_of_component(line * line.dot(towards))?;
                 if before().take(k).any(|offset| self.violates(best, offset)) {
                     return None;

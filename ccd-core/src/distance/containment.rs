@@ -4,10 +4,10 @@ mod beside;
 
 use crate::answer::{Limit, Outcome, Overlap};
 use crate::body::Body;
-use crate::body::shell::Shell;
+use crate::body::shell::ExtremePoints;
 use crate::body::tree::point_query::is_far_from_surface;
 use crate::body::tree::ray::crossings;
-use crate::math::vector::{across, unit_or_any};
+use crate::math::vector::{perpendicular_vector, unit_or_any};
 use crate::motion::pose::Frame;
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::INSIDE_DISTANCE;
@@ -53,15 +53,15 @@ pub(crate) fn containment_at_start(
             let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
             search.test_body(pairs, pieces)
         } else {
-            ContainmentResult::Nothing
+            ContainmentResult::NotInside
         }
     };
     let result = [look(&b, &a, 0), look(&a, &b, 1)];
-    let inside = |overlap| Some(Outcome::overlapping(overlap));
+    let inside = |overlap| Some(Outcome::from_overlap(overlap));
     match result {
-        [ContainmentResult::Inside(p), _] => inside(Overlap::AInsideB(problem.world(p))),
-        [_, ContainmentResult::Inside(p)] => inside(Overlap::BInsideA(problem.world(p))),
-        [ContainmentResult::Nothing, ContainmentResult::Nothing] => None,
+        [ContainmentResult::Inside(p), _] => inside(Overlap::AInsideB(problem.to_world_point(p))),
+        [_, ContainmentResult::Inside(p)] => inside(Overlap::BInsideA(problem.to_world_point(p))),
+        [ContainmentResult::NotInside, ContainmentResult::NotInside] => None,
         _ => Some(Outcome::unresolved(0.0, Limit::Undecided)),
     }
 }
@@ -93,7 +93,7 @@ struct Search<'a> {
 #[derive(Clone, Copy)]
 enum ContainmentResult {
     Inside(DVec3),
-    Nothing,
+    NotInside,
     Undecided,
 }
 
@@ -115,7 +115,7 @@ impl Search<'_> {
         pieces.extend(touching.clone().map(|[inner, _]| inner));
         pieces.sort_unstable();
         pieces.dedup();
-        let mut result = ContainmentResult::Nothing;
+        let mut result = ContainmentResult::NotInside;
         let parts = self.inner_body.body.shells().iter();
         let of_parts = parts.map(|shell| self.test_part(shell, pieces));
         let of_pieces = pieces.iter().map(|&piece| self.test_piece(piece));
@@ -123,7 +123,7 @@ impl Search<'_> {
             match one {
                 ContainmentResult::Inside(_) => return one,
                 ContainmentResult::Undecided => result = one,
-                ContainmentResult::Nothing => {}
+                ContainmentResult::NotInside => {}
             }
         }
         // Each piece is tested once: a hull of many facets may touch many pieces.
@@ -141,7 +141,7 @@ impl Search<'_> {
         let there = self.outer_body.frame.inverse_point(placed);
         match contains(self.outer_body.body, there, self.reach) {
             Some(true) => ContainmentResult::Inside(placed),
-            Some(false) => ContainmentResult::Nothing,
+            Some(false) => ContainmentResult::NotInside,
             None => ContainmentResult::Undecided,
         }
     }
@@ -155,13 +155,13 @@ impl Search<'_> {
 
     /// Tests whether an extreme point of a connected part of the inner body is inside the outer body. If all of them
     /// are on the outer surface, the touching pieces decide about the part.
-    fn test_part(&self, shell: &Shell, touching: &[u32]) -> ContainmentResult {
+    fn test_part(&self, shell: &ExtremePoints, touching: &[u32]) -> ContainmentResult {
         let result = self.test_points(*shell);
         let pieces = self.inner_body.body.pieces();
         let touches = |&piece: &u32| pieces.get(piece as usize).points.contains(&shell[0]);
         match result {
             ContainmentResult::Undecided if touching.iter().any(touches) => {
-                ContainmentResult::Nothing
+                ContainmentResult::NotInside
             }
             _ => result,
         }
@@ -184,7 +184,7 @@ impl Search<'_> {
             Some(point) => self.test_points([point]),
             // A point of a surface that is on the other's surface is not inside.
             None => match self.test_point(body.centroid(piece)) {
-                ContainmentResult::Undecided => ContainmentResult::Nothing,
+                ContainmentResult::Undecided => ContainmentResult::NotInside,
                 result => result,
             },
         }
@@ -203,7 +203,10 @@ impl Search<'_> {
         let piece = self.inner_body.body.pieces().get(piece as usize);
         let is_above = |corners: &[u32]| {
             let [a, b, c] = [0, 1, 2].map(|k| piece.points[corners[k] as usize]);
-            unit_or_any(across(b - a, c - a)).dot(a - middle).abs() > self.reach
+            unit_or_any(perpendicular_vector(b - a, c - a))
+                .dot(a - middle)
+                .abs()
+                > self.reach
         };
         piece.facets.len() > 2 && piece.facets.iter().all(is_above)
     }
@@ -222,7 +225,7 @@ impl Search<'_> {
         let mut result = points.map(|p| self.test_point(p));
         result
             .find(ContainmentResult::is_inside)
-            .unwrap_or(ContainmentResult::Nothing)
+            .unwrap_or(ContainmentResult::NotInside)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The interface of backends that compute the distance of two pieces.
 
 use crate::body::Body;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
 use crate::motion::pose::Frame;
 use glam::DVec3;
@@ -63,7 +63,7 @@ pub trait DistanceOracle {
     {
         OrElse {
             first: self,
-            second: other,
+            fallback_oracle: other,
             fallbacks: 0,
         }
     }
@@ -82,7 +82,7 @@ pub struct PiecePair<'a> {
 
 impl PiecePair<'_> {
     /// Returns the number of points that a search for an extremal point evaluates, summed over both pieces.
-    pub(crate) fn points(&self) -> u64 {
+    pub(crate) fn evaluations_per_search(&self) -> u64 {
         self.a.evaluations_per_search() + self.b.evaluations_per_search()
     }
 }
@@ -93,9 +93,9 @@ pub struct Claim {
     /// The claimed separating axis: a vector of any length that points from A's piece to B's piece.
     pub axis: DVec3,
     /// The claimed point of A's piece that is nearest to B's.
-    pub a: Combination,
+    pub a: ConvexCombination,
     /// The claimed point of B's piece that is nearest to A's.
-    pub b: Combination,
+    pub b: ConvexCombination,
 }
 
 /// Counters for the work of an oracle, over many calls.
@@ -155,7 +155,7 @@ pub enum GiveUpReason {
 #[derive(Clone, Debug, Default)]
 pub struct OrElse<First, Second> {
     first: First,
-    second: Second,
+    fallback_oracle: Second,
     fallbacks: u64,
 }
 
@@ -177,7 +177,7 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
     ) -> Result<Claim, GiveUpReason> {
         self.first.separation(pair, &mut cache.0).or_else(|_| {
             self.fallbacks += 1;
-            self.second
+            self.fallback_oracle
                 .separation(pair, cache.1.get_or_insert_default())
         })
     }
@@ -192,7 +192,7 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
             fallbacks: self.fallbacks,
             ..Effort::default()
         };
-        own + self.first.effort() + self.second.effort()
+        own + self.first.effort() + self.fallback_oracle.effort()
     }
 }
 

@@ -4,7 +4,7 @@
 use super::oracle::PiecePair;
 use super::separation::CheckedClaim;
 use crate::math::order::{greater, lesser};
-use crate::math::vector::across;
+use crate::math::vector::perpendicular_vector;
 use crate::math::vector::unit_or_any;
 use crate::tuning::MAX_INNER_POLYTOPE_CORNERS;
 use glam::DVec3;
@@ -69,8 +69,8 @@ pub(crate) fn intersects(
 
 /// Returns the point of the Minkowski difference `a − b` that is farthest along a direction, in A's frame.
 fn minkowski_support_point(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
-    let of_b = pair.b.farthest(-pair.b_to_a.inverse_vector(along));
-    pair.a.farthest(along) - pair.b_to_a.point(of_b)
+    let of_b = pair.b.extremal_position(-pair.b_to_a.inverse_vector(along));
+    pair.a.extremal_position(along) - pair.b_to_a.point(of_b)
 }
 
 /// A growing polytope inside the Minkowski difference of two pieces `[GJK88]`. If it contains the origin, the pieces
@@ -179,7 +179,7 @@ fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     let c = pick(around.as_flattened(), &|p| {
         (p - a - line * line.dot(p - a)).length()
     })?;
-    let normal = unit_or_any(across(b - a, c - a));
+    let normal = unit_or_any(perpendicular_vector(b - a, c - a));
     let d = pick(&both(normal), &|p| normal.dot(p - a).abs())?;
     Some(if normal.dot(d - a) < 0.0 {
         [a, b, c, d]
@@ -200,7 +200,7 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
         }
     };
     let along = unit_or_any(edges.into_iter().fold(DVec3::ZERO, longest));
-    let normal = unit_or_any(across(edges[0], edges[1]));
+    let normal = unit_or_any(perpendicular_vector(edges[0], edges[1]));
     unit_or_any(normal - along * along.dot(normal))
 }
 

@@ -3,7 +3,7 @@
 pub(crate) mod sharp;
 
 use super::oracle::{Claim, PiecePair};
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit_or_any};
 use glam::DVec3;
@@ -40,7 +40,7 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     let radii = pair.a.radius + pair.b.radius;
 
     let mut axis = unit_or_any(claim.axis);
-    let near = [&a, &b].map(|claimed| claimed.support().first().copied());
+    let near = [&a, &b].map(|claimed| claimed.point_indices().first().copied());
     let mut gap = support_gap_near(pair, axis, on_a, near);
     // Written so that NaN tries the second axis.
     if !(gap > 0.5 * distance) {
@@ -101,10 +101,13 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
 }
 
 /// Returns a combination and its position; a combination with invalid indices is replaced by the first point.
-fn with_valid_indices(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
+fn with_valid_indices(
+    combination: ConvexCombination,
+    points: &[DVec3],
+) -> (ConvexCombination, DVec3) {
     match combination.position(points) {
         Some(point) => (combination, point),
-        None => (Combination::point(0), points[0]),
+        None => (ConvexCombination::point(0), points[0]),
     }
 }
 

@@ -5,7 +5,7 @@ use super::meter::Meter;
 use super::proven::ProvenFacts;
 use super::queue::Queue;
 use super::scratch::Scratch;
-use super::search::{AdvanceResult, Item, Question, Search};
+use super::search::{AdvanceResult, Question, Search, WaitingItem};
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -43,7 +43,7 @@ use std::ops::ControlFlow;
 /// ```
 #[derive(Debug)]
 pub struct BestFirst<O: DistanceOracle> {
-    pub(crate) queue: Queue<Item<O::Cache>>,
+    pub(crate) queue: Queue<WaitingItem<O::Cache>>,
     pub(crate) scratch: Scratch,
 }
 

@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 /// Pairs that may intersect have no lower bound of their distance, and therefore come first.
 pub(crate) struct NearestSearch<'p> {
     problem: &'p Problem<'p>,
-    common: NodeContext<'p>,
+    node_context: NodeContext<'p>,
     clock: f64,
     buffers: &'p mut SearchBuffers,
     /// The distance at and beyond which pairs are ignored.
@@ -51,7 +51,7 @@ impl<'p> NearestSearch<'p> {
     pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut SearchBuffers) -> Self {
         NearestSearch {
             problem,
-            common: NodeContext::new(problem),
+            node_context: NodeContext::new(problem),
             clock,
             buffers: lists,
             cutoff: f64::INFINITY,
@@ -93,7 +93,7 @@ impl<'p> NearestSearch<'p> {
             }
             match pair {
                 NextStep::Split(split) => {
-                    let expansion = measure(&self.common, &split, self.clock);
+                    let expansion = measure(&self.node_context, &split, self.clock);
                     self.enqueue(Siblings::new(&expansion, split, 0.0))?;
                 }
                 NextStep::MeasurePieces(a, b) => self.measure_pieces([a, b], oracle, meter)?,
@@ -127,7 +127,7 @@ impl<'p> NearestSearch<'p> {
             self.lower = lesser(self.lower, distance);
             return None;
         }
-        let next = siblings.take_least(self.problem, distance);
+        let next = siblings.take_least_pair(self.problem, distance);
         match siblings.clock() {
             distance if distance < upper => self.buffers.waiting_pairs.postpone(distance),
             _ => self.buffers.waiting_pairs.remove(),
@@ -148,7 +148,7 @@ impl<'p> NearestSearch<'p> {
         let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter) else {
             return ControlFlow::Break(SearchEnd::Limit(Limit::OracleGaveUp));
         };
-        let inner = &mut meter.scratch_memory().inner;
+        let inner = &mut meter.scratch_memory().inner_polytope;
         match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
                 return ControlFlow::Break(SearchEnd::Overlap(

@@ -2,7 +2,7 @@
 
 use super::meter::Meter;
 use super::pieces::pair::PairStep;
-use super::start::{overlap_outcome, touching};
+use super::start::{overlap_outcome, touching_outcome};
 use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
@@ -34,7 +34,7 @@ impl ProvenFacts {
         ControlFlow::Break(match step {
             PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
             PairStep::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
-            PairStep::Contact(contact) => touching(problem, oracle, meter, contact),
+            PairStep::Contact(contact) => touching_outcome(problem, oracle, meter, contact),
             PairStep::Overlap(contact) => overlap_outcome(contact),
             PairStep::Stalled => unresolved(Limit::Stalled),
             PairStep::GaveUp => unresolved(Limit::OracleGaveUp),

@@ -14,7 +14,7 @@ pub(crate) struct ScratchMemory {
     /// The lists of the search for the nearest pieces.
     pub(crate) nearest: SearchBuffers,
     /// The polytope of the test whether two pieces intersect.
-    pub(crate) inner: InnerPolytope,
+    pub(crate) inner_polytope: InnerPolytope,
     /// The common normals of the surfaces around two nearest points.
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.

@@ -14,16 +14,16 @@ use std::ops::ControlFlow;
 
 /// A waiting item: the children of a split node, or a pair of pieces.
 #[derive(Debug)]
-pub(crate) enum Item<C> {
+pub(crate) enum WaitingItem<C> {
     Siblings(Siblings),
     Pieces(Pair<C>),
 }
 
-impl<C> Item<C> {
+impl<C> WaitingItem<C> {
     fn rank(&self) -> Rank {
         match self {
-            Item::Siblings(_) => Rank::Siblings,
-            Item::Pieces(_) => Rank::PiecePair,
+            WaitingItem::Siblings(_) => Rank::Siblings,
+            WaitingItem::Pieces(_) => Rank::PiecePair,
         }
     }
 }
@@ -72,7 +72,7 @@ pub(crate) struct Search<'s, O, W> {
     pub(crate) meter: &'s mut Meter,
 }
 
-impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
+impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W> {
     #[inline]
     pub(crate) fn new(waiting: &'s mut W, oracle: &'s mut O, meter: &'s mut Meter) -> Self {
         Search {
@@ -101,7 +101,7 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
     }
 
     /// Continues until all pairs are proven apart up to a clock, and returns the clock of the next pair.
-    pub(crate) fn until<Q: Question<O>>(
+    pub(crate) fn run_until<Q: Question<O>>(
         &mut self,
         problem: &Problem<'_>,
         look: &mut TighterBounds,
@@ -121,8 +121,8 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
     /// Adds the pair of both roots to the waiting pairs.
     pub(crate) fn push_roots(&mut self, problem: &Problem<'_>) -> Result<(), QueueFull> {
         let item = match NextStep::roots(problem) {
-            NextStep::MeasurePieces(a, b) => Item::Pieces(Pair::new(a, b)),
-            NextStep::Split(split) => Item::Siblings(Siblings::roots(split.body)),
+            NextStep::MeasurePieces(a, b) => WaitingItem::Pieces(Pair::new(a, b)),
+            NextStep::Split(split) => WaitingItem::Siblings(Siblings::roots(split.body)),
         };
         self.worklist.push(0.0, item.rank(), item)
     }
@@ -149,7 +149,7 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
             return ControlFlow::Break(question.on_limit(problem, s, limit));
         }
         let (next, rest) = match item {
-            Item::Pieces(pair) => {
+            WaitingItem::Pieces(pair) => {
                 let advance = advance(problem, *oracle, meter, pair, s);
                 match question.on_advance(problem, *oracle, meter, advance)? {
                     clock if clock >= 1.0 => waiting.remove(),
@@ -157,14 +157,16 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
                 }
                 return ControlFlow::Continue(());
             }
-            Item::Siblings(siblings) => {
-                if let Some((clock, alone)) = look.remove_if_provable(problem, siblings, s) {
+            WaitingItem::Siblings(siblings) => {
+                if let Some((clock, alone)) =
+                    look.take_earliest_with_later_clock(problem, siblings, s)
+                {
                     let rest = siblings.clock();
-                    let waits = self.requeue(rest, (clock, Item::Siblings(alone)));
+                    let waits = self.requeue(rest, (clock, WaitingItem::Siblings(alone)));
                     return continue_unless_full(waits, problem, question, s);
                 }
                 // The remaining siblings wait for their own clocks.
-                (siblings.take_least(problem, s), siblings.clock())
+                (siblings.take_least_pair(problem, s), siblings.clock())
             }
         };
         let new = match next {
@@ -172,13 +174,13 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
                 let expansion = expand(common, &split, s);
                 let mut siblings = Siblings::new(&expansion, split, s);
                 look.finish_proven_pairs(problem, &split, s, &mut siblings, meter);
-                (siblings.clock(), Item::Siblings(siblings))
+                (siblings.clock(), WaitingItem::Siblings(siblings))
             }
             NextStep::MeasurePieces(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
                 let clock = question.on_advance(problem, *oracle, meter, advance)?;
-                (clock, Item::Pieces(pair))
+                (clock, WaitingItem::Pieces(pair))
             }
         };
         let waits = self.requeue(rest, new);
@@ -188,7 +190,11 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
     /// Puts the remaining siblings of the last pair, and its new item, back among the waiting items if their clocks are
     /// before the end.
     #[inline(always)]
-    fn requeue(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), QueueFull> {
+    fn requeue(
+        &mut self,
+        rest: f64,
+        (clock, new): (f64, WaitingItem<O::Cache>),
+    ) -> Result<(), QueueFull> {
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {

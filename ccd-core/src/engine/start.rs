@@ -16,7 +16,7 @@ use crate::problem::Problem;
 ///
 /// # Complexity
 /// One distance of the bodies, for any margin, and one visit for every pair of pieces that may intersect.
-pub(crate) fn touching<O: DistanceOracle>(
+pub(crate) fn touching_outcome<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -67,7 +67,7 @@ fn measure_at_start<O: DistanceOracle>(
 
 /// Returns the outcome for two pieces that overlap.
 pub(crate) fn overlap_outcome(contact: Contact) -> Outcome {
-    Outcome::overlapping(Overlap::Pieces(contact))
+    Outcome::from_overlap(Overlap::Pieces(contact))
 }
 
 fn unresolved_outcome(reason: Limit) -> Outcome {

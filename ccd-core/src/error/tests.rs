@@ -13,7 +13,7 @@ fn numbers_with_many_digits_are_printed_with_an_exponent() {
         (f64::NEG_INFINITY, "-inf"),
     ] {
         let error = InputError::OutOfRange {
-            what: "margin",
+            quantity: "margin",
             value,
             allowed: "small",
         };

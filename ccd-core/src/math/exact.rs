@@ -54,7 +54,7 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
 
 /// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_NONZERO_COORDINATE) for exact
 /// predicates.
-pub fn too_fine(points: &[DVec3]) -> Option<usize> {
+pub fn first_too_fine_point(points: &[DVec3]) -> Option<usize> {
     let fine = |x: f64| x != 0.0 && x.abs() < LEAST_NONZERO_COORDINATE;
     points
         .iter()

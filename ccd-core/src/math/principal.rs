@@ -1,6 +1,6 @@
 //! The principal axes of points: their directions of largest and smallest spread.
 
-use crate::rounding::SQUARES;
+use crate::rounding::SQUARED_LENGTH_RANGE;
 use crate::tuning::MIN_JACOBI_ANGLE;
 use glam::{DMat3, DVec3};
 
@@ -42,7 +42,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
 fn half_angle(y: f64, x: f64) -> (f64, f64) {
     let square = x * x + y * y;
     // Squares of small numbers have lost their digits.
-    if !SQUARES.contains(&square) {
+    if !SQUARED_LENGTH_RANGE.contains(&square) {
         return (0.5 * y.atan2(x)).sin_cos();
     }
     let length = square.sqrt();

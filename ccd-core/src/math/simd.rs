@@ -154,7 +154,7 @@ pub(crate) fn row(v: DVec3) -> Row {
 }
 
 /// Returns the columns of a matrix, each with an unused fourth number.
-pub(crate) fn rows(m: DMat3) -> [Row; 3] {
+pub(crate) fn padded_columns(m: DMat3) -> [Row; 3] {
     [row(m.x_axis), row(m.y_axis), row(m.z_axis)]
 }
 
@@ -170,7 +170,7 @@ impl<L: Simd> PackedVector<L> {
     }
 
     #[inline(always)]
-    pub(crate) fn unpacked(self) -> DVec3 {
+    pub(crate) fn to_dvec3(self) -> DVec3 {
         DVec3::new(self.0[0], self.0[1], self.0[2])
     }
 

@@ -5,7 +5,7 @@
 //! distance. Every proof along an axis uses the functions of this module for the axis.
 
 use super::order::{greater, lesser};
-use crate::rounding::{EXTREME_VECTOR_SCALE, SQUARES};
+use crate::rounding::{EXTREME_VECTOR_SCALE, SQUARED_LENGTH_RANGE};
 use glam::DVec3;
 
 /// Returns the unit vector along `v`; `None` for zero, and for a NaN or infinite component.
@@ -23,7 +23,7 @@ use glam::DVec3;
 #[inline]
 pub fn unit(v: DVec3) -> Option<DVec3> {
     let square = v.length_squared();
-    if SQUARES.contains(&square) {
+    if SQUARED_LENGTH_RANGE.contains(&square) {
         Some(v / square.sqrt())
     } else {
         unit_of_extreme_vector(v)
@@ -66,7 +66,7 @@ pub fn distance(a: DVec3, b: DVec3) -> f64 {
 /// The components of a cross product are products, which vanish for short vectors. Both vectors are
 /// therefore scaled to a length near 1 first.
 #[inline]
-pub fn across(a: DVec3, b: DVec3) -> DVec3 {
+pub fn perpendicular_vector(a: DVec3, b: DVec3) -> DVec3 {
     scaled(a).0.cross(scaled(b).0)
 }
 
@@ -77,10 +77,10 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let across_both = (b - a).cross(c - a);
     let square = across_both.length_squared();
     // Products that underflowed or overflowed leave a square outside of this range.
-    if SQUARES.contains(&square) {
+    if SQUARED_LENGTH_RANGE.contains(&square) {
         Some(across_both / square.sqrt())
     } else {
-        unit_of_extreme_vector(across(b - a, c - a))
+        unit_of_extreme_vector(perpendicular_vector(b - a, c - a))
     }
 }
 
@@ -96,9 +96,9 @@ fn scaled(v: DVec3) -> (DVec3, f64) {
 /// power. `square` is the computed square.
 #[inline]
 pub(crate) fn scale_of(square: f64) -> (f64, f64) {
-    if square < *SQUARES.start() {
+    if square < *SQUARED_LENGTH_RANGE.start() {
         (EXTREME_VECTOR_SCALE, EXTREME_VECTOR_SCALE.recip())
-    } else if square > *SQUARES.end() {
+    } else if square > *SQUARED_LENGTH_RANGE.end() {
         (EXTREME_VECTOR_SCALE.recip(), EXTREME_VECTOR_SCALE)
     } else {
         (1.0, 1.0)

@@ -12,7 +12,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Velocities {
     /// The velocity of the centre of rotation.
-    pub(crate) linear: DVec3,
+    pub(crate) linear_velocity: DVec3,
     /// The angular velocity about the centre, in radians per unit of time.
     pub(crate) spin: DVec3,
 }
@@ -39,7 +39,7 @@ pub(crate) fn published_bound(
     farthest: impl FnOnce(DVec3) -> DVec3,
 ) -> f64 {
     let c = n.cross(motion.spin);
-    greater(0.0, c.dot(farthest(c))) + motion.linear.dot(n).abs()
+    greater(0.0, c.dot(farthest(c))) + motion.linear_velocity.dot(n).abs()
 }
 
 /// Returns `v·n + |n×ω| ρ`, a signed upper bound of the velocity along `n` at any time. It holds for points no farther
@@ -48,7 +48,7 @@ pub(crate) fn published_bound(
 /// # Guarantee
 /// The bound holds over any interval, up to a few units in the last place.
 pub(crate) fn sound_bound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
-    motion.linear.dot(n) + length(n.cross(motion.spin)) * reach
+    motion.linear_velocity.dot(n) + length(n.cross(motion.spin)) * reach
 }
 
 #[cfg(test)]

@@ -149,7 +149,7 @@ impl Path {
     /// included.
     pub(crate) fn velocities(&self) -> Velocities {
         Velocities {
-            linear: self.velocity,
+            linear_velocity: self.velocity,
             spin: self.spin,
         }
     }

@@ -23,7 +23,7 @@ pub(crate) struct Period {
     pub(crate) length: f64,
     /// A bound of the change of any distance after one period; after `k` periods the bound is `k` times that. The
     /// rounding of the rates comes in addition, see [`place_rounding`](crate::rounding::place_rounding).
-    pub(crate) change: f64,
+    pub(crate) max_distance_change: f64,
 }
 
 /// A body's path, with the largest distance of its points from the centre of rotation.
@@ -51,7 +51,8 @@ impl Period {
                 let off = (slow.path.rate * length - TAU * of_slow).abs();
                 Period {
                     length,
-                    change: (off * slow.reach + speed * length) * (1.0 + RATE_ERROR_F64),
+                    max_distance_change: (off * slow.reach + speed * length)
+                        * (1.0 + RATE_ERROR_F64),
                 }
             })
             // Written so that NaN is no period.
@@ -66,17 +67,17 @@ impl Period {
 
 /// An iterator over the continued fraction convergents of a number from 0 to 1, as numerators and denominators.
 struct Convergents {
-    rest: f64,
+    remainder: f64,
     last: [f64; 2],
-    previous: [f64; 2],
+    previous_convergent: [f64; 2],
 }
 
 impl Convergents {
     fn new(number: f64) -> Self {
         Convergents {
-            rest: number,
+            remainder: number,
             last: [1.0, 0.0],
-            previous: [0.0, 1.0],
+            previous_convergent: [0.0, 1.0],
         }
     }
 }
@@ -85,14 +86,14 @@ impl Iterator for Convergents {
     type Item = [f64; 2];
 
     fn next(&mut self) -> Option<[f64; 2]> {
-        if !self.rest.is_finite() {
+        if !self.remainder.is_finite() {
             return None;
         }
-        let whole = self.rest.floor();
-        let [last, before] = [self.last, self.previous];
+        let whole = self.remainder.floor();
+        let [last, before] = [self.last, self.previous_convergent];
         let next = [0, 1].map(|k| whole * last[k] + before[k]);
-        (self.last, self.previous) = (next, last);
-        self.rest = (self.rest - whole).recip();
+        (self.last, self.previous_convergent) = (next, last);
+        self.remainder = (self.remainder - whole).recip();
         Some(next)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use super::track::sin_cos;
-use crate::math::simd::{PackedMatrix, PackedVector, Row, row, rows};
+use crate::math::simd::{PackedMatrix, PackedVector, Row, padded_columns, row};
 use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
@@ -12,7 +12,7 @@ use glam::{DMat3, DVec3};
 /// in the rotation of a single [`Path`].
 #[derive(Clone, Debug)]
 pub(crate) struct RelativePath {
-    seen: RelativeRotation,
+    relative_rotation: RelativeRotation,
     /// The centre of rotation of the seeing body, in that body's frame.
     centre: Row,
     other_centre: Row,
@@ -20,7 +20,7 @@ pub(crate) struct RelativePath {
 
 #[derive(Clone, Debug)]
 enum RelativeRotation {
-    OneTurns {
+    OneBodyTurns {
         rotation: RotatingQuantity<[Row; 3]>,
         /// The vector between the centres of rotation at `s = 0`, in the seeing body's frame over time.
         offset: RotatingQuantity<Row>,
@@ -89,7 +89,7 @@ impl RelativePath {
             )
         };
         RelativePath {
-            seen,
+            relative_rotation: seen,
             centre: row(own.centre),
             other_centre: row(other.centre),
         }
@@ -97,8 +97,8 @@ impl RelativePath {
 
     #[inline(always)]
     pub(crate) fn at<L: Simd>(&self, level: L, s: f64) -> RelativeState<L> {
-        match &self.seen {
-            RelativeRotation::OneTurns {
+        match &self.relative_rotation {
+            RelativeRotation::OneBodyTurns {
                 rotation,
                 offset,
                 change,
@@ -182,7 +182,7 @@ impl RelativeRotation {
             parts: inverse.map(|part| row(part * v)),
         };
         let [offset, change] = offset.map(seen);
-        RelativeRotation::OneTurns {
+        RelativeRotation::OneBodyTurns {
             rotation: RotatingQuantity::new(rate, rotation),
             offset,
             change,
@@ -196,7 +196,7 @@ impl RotatingQuantity<[Row; 3]> {
     fn new(rate: f64, parts: [DMat3; 3]) -> Self {
         RotatingQuantity {
             rate,
-            parts: parts.map(rows),
+            parts: parts.map(padded_columns),
         }
     }
 

@@ -111,7 +111,7 @@ fn motions_that_are_not_finite_are_refused() {
         assert!(matches!(
             between,
             Err(InputError::OutOfRange {
-                what: "duration",
+                quantity: "duration",
                 ..
             })
         ));
@@ -120,7 +120,7 @@ fn motions_that_are_not_finite_are_refused() {
     assert!(matches!(
         zero,
         Err(InputError::OutOfRange {
-            what: "duration",
+            quantity: "duration",
             ..
         })
     ));

@@ -268,7 +268,7 @@ pub struct AccelerationBounds {
     /// scene's unit of length.
     pub linear: f64,
     /// A bound of the angular acceleration in radians, which is the derivative of the angular velocity.
-    pub angular: f64,
+    pub angular_acceleration: f64,
 }
 
 /// The linear acceleration at a time, and a bound of its rate of change.
@@ -299,7 +299,7 @@ impl AccelerationBounds {
         };
         DeviationBound {
             shift: deviation(self.linear),
-            turn: deviation(self.angular),
+            turn: deviation(self.angular_acceleration),
         }
     }
 }

@@ -51,7 +51,7 @@ pub struct Fast<O: DistanceOracle> {
     bound: VelocityBound,
     front: Front<O::Cache>,
     axis_distances: AxisDistances,
-    without_trees: BestFirst<O>,
+    best_first: BestFirst<O>,
     scratch: Scratch,
 }
 
@@ -62,7 +62,7 @@ impl<O: DistanceOracle> Fast<O> {
             bound,
             front: Front::default(),
             axis_distances: AxisDistances::default(),
-            without_trees: BestFirst::default(),
+            best_first: BestFirst::default(),
             scratch: None,
         }
     }
@@ -84,8 +84,8 @@ impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
     }
 
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let Some(hulls) = HullTreePair::for_problem(problem) else {
-            return self.without_trees.solve(problem, oracle);
+        let Some(hulls) = HullTreePair::from_problem(problem) else {
+            return self.best_first.solve(problem, oracle);
         };
         self.axis_distances.invalidate();
         let mut scratch = self.scratch.take();
@@ -119,7 +119,7 @@ impl<O: DistanceOracle> Fast<O> {
                 hulls,
                 bound: self.bound,
                 front: &mut self.front,
-                reaches: &mut self.axis_distances,
+                axis_distances: &mut self.axis_distances,
                 proven_facts: &proven,
                 oracle,
                 meter,

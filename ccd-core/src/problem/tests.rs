@@ -15,7 +15,7 @@ fn problem_tolerance(motion: Motion, duration: f64, config: &Settings) -> Result
 
 fn assert_refused(result: Result<f64, InputError>) -> &'static str {
     match result {
-        Err(InputError::OutOfRange { what, .. }) => what,
+        Err(InputError::OutOfRange { quantity: what, .. }) => what,
         other => panic!("{other:?}"),
     }
 }

@@ -51,7 +51,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             });
         self.stack.clear();
         self.scratch = scratch;
-        start_contact_as_any(answer)
+        touching_as_contact(answer)
     }
 
     fn contact_outcome(
@@ -83,7 +83,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// Returns the answer with a contact at the start reported as a contact at time 0; other answers are unchanged.
-pub(crate) fn start_contact_as_any(answer: Answer) -> Answer {
+pub(crate) fn touching_as_contact(answer: Answer) -> Answer {
     let outcome = match answer.outcome {
         Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
         outcome => outcome,

@@ -24,7 +24,7 @@ use crate::shortcuts::bounding_volumes::least_distance;
 use crate::shortcuts::closer_look::TighterBounds;
 use crate::shortcuts::rounds::Sample;
 use guess::initial_estimate;
-use ladder::LowerBoundLadder;
+use ladder::LowerBoundAttempts;
 use nearing::LeastDistanceSearch;
 use required::RequiredClearance;
 use std::convert::Infallible;
@@ -58,13 +58,17 @@ impl<O: DistanceOracle> DepthFirst<O> {
     pub(crate) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
             Some(distance) => self.decide_clearance(problem, distance, oracle),
-            None => self.approach_of_bodies(problem, oracle),
+            None => self.least_distance_of_bodies(problem, oracle),
         };
         answer.widened_by_excess(problem.excess())
     }
 
     /// Computes bounds of the least distance of the bodies, without a correction for their excess over the shapes.
-    pub(crate) fn approach_of_bodies(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+    pub(crate) fn least_distance_of_bodies(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+    ) -> Answer {
         let answer = self.search_distances_below(problem, f64::INFINITY, oracle, found_or_overlap);
         let found = answer.found;
         Answer {
@@ -170,7 +174,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             beyond,
             proven: ProvenFacts::default(),
             first_failure: None,
-            ladder: LowerBoundLadder::new(least_distance(problem), problem.budget)
+            ladder: LowerBoundAttempts::new(least_distance(problem), problem.budget)
                 .with_early_start(problem.deadline.is_some() || problem.stop.is_some()),
         };
         let mut search = Search::new(&mut self.stack, oracle, meter);
@@ -190,7 +194,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             while nearing.upper() == upper {
                 if let Some(rung) = nearing
                     .ladder
-                    .next_rung_if_due(search.meter.stats.work(), upper)
+                    .next_attempt_if_due(search.meter.stats.work(), upper)
                 {
                     if let ControlFlow::Break(found) =
                         nearing.climb(problem, rung, search.oracle, search.meter)
@@ -297,7 +301,7 @@ pub(crate) fn meet_after_start(found: &Outcome, tolerance: f64) -> bool {
 
 /// The nearest two pieces found so far, with the clock at which they were measured.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BestPair {
+pub(crate) struct NearestPair {
     clock: f64,
     /// The indices of the two pieces in the problem.
     pieces: [u32; 2],

@@ -5,7 +5,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::capacity::empty;
 use crate::engine::queue::{QueueFull, Rank, Worklist};
 use crate::engine::scratch::Scratch;
-use crate::engine::search::Item;
+use crate::engine::search::WaitingItem;
 use crate::math::order::lesser;
 
 /// A schedule that searches depth first, for [any contact](DepthFirst::any_contact) and for the [closest
@@ -17,7 +17,7 @@ use crate::math::order::lesser;
 /// Keep the value between queries: it owns the memory.
 #[derive(Debug)]
 pub struct DepthFirst<O: DistanceOracle> {
-    pub(crate) stack: Stack<Item<O::Cache>>,
+    pub(crate) stack: Stack<WaitingItem<O::Cache>>,
     pub(crate) scratch: Scratch,
 }
 

@@ -43,16 +43,16 @@ use std::ops::ControlFlow;
 /// assert!(matches!(answer.outcome, Outcome::Contact { .. }));
 /// # Ok::<(), InputError>(())
 /// ```
-pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
+pub struct FirstContact<'a, O: DistanceOracle>(FirstContactKind<'a, O>);
 
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
-enum Kind<'a, O: DistanceOracle> {
+enum FirstContactKind<'a, O: DistanceOracle> {
     /// A search for bodies with constant velocities, which is done in steps.
-    InSteps(SteppedSearch<'a, O>),
+    Stepped(SteppedSearch<'a, O>),
     /// A search for bodies on trajectories, which is done to its end in the first step.
-    AtOnce {
+    Immediate {
         query: Query<'a>,
-        memory: BestFirst<O>,
+        schedule: BestFirst<O>,
         answer: Option<Answer>,
     },
 }
@@ -96,10 +96,10 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContact(match query.problem.take() {
-            Some(problem) => Kind::InSteps(SteppedSearch::new(problem, memory)),
-            None => Kind::AtOnce {
+            Some(problem) => FirstContactKind::Stepped(SteppedSearch::new(problem, memory)),
+            None => FirstContactKind::Immediate {
                 query,
-                memory,
+                schedule: memory,
                 answer: None,
             },
         })
@@ -108,8 +108,10 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// Returns the schedule with its memory, for another search.
     pub fn into_memory(self) -> BestFirst<O> {
         match self.0 {
-            Kind::InSteps(steps) => steps.into_memory(),
-            Kind::AtOnce { memory, .. } => memory,
+            FirstContactKind::Stepped(steps) => steps.into_memory(),
+            FirstContactKind::Immediate {
+                schedule: memory, ..
+            } => memory,
         }
     }
 
@@ -124,10 +126,10 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
     pub fn advance(&mut self, oracle: &mut O, until: f64) -> Result<Progress, InputError> {
         match &mut self.0 {
-            Kind::InSteps(steps) => Ok(steps.advance(oracle, until)),
-            Kind::AtOnce {
+            FirstContactKind::Stepped(steps) => Ok(steps.advance(oracle, until)),
+            FirstContactKind::Immediate {
                 query,
-                memory,
+                schedule: memory,
                 answer,
             } => {
                 if answer.is_none() {
@@ -204,7 +206,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
             self.state = None;
             let outcome = match &mut self.part {
                 None => outcome,
-                Some((rounds, part)) => match rounds.on_outcome(&outcome, &mut self.meter) {
+                Some((rounds, part)) => match rounds.process_outcome(&outcome, &mut self.meter) {
                     ControlFlow::Break(outcome) => outcome,
                     ControlFlow::Continue(()) => {
                         *part = rounds.between_clocks();
@@ -273,7 +275,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                 })
             }
         };
-        let reached = search.until(problem, look, proven, until);
+        let reached = search.run_until(problem, look, proven, until);
         reached.map_continue(|s| problem.time(s))
     }
 }

@@ -5,7 +5,7 @@ mod distances;
 mod worst;
 
 use super::distance_rounding;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::pieces::Pieces;
 use crate::distance::oracle::{Claim, PiecePair};
 use crate::distance::separation;
@@ -133,7 +133,7 @@ fn sample(
     s: f64,
     worst: &mut WorstErrorShares,
 ) {
-    let of = shares_of_comparison(rng, problem, motions, duration, s);
+    let of = error_shares(rng, problem, motions, duration, s);
     worst.place = greater(worst.place, of.place);
     worst.gap = greater(worst.gap, of.gap);
     worst.distance = greater(worst.distance, of.distance);
@@ -141,7 +141,7 @@ fn sample(
 
 /// The errors of a position, a gap and a distance in one comparison with exact values, as shares of their bound.
 #[derive(Clone, Copy, Debug, Default)]
-struct Shares {
+struct ErrorShares {
     place: f64,
     gap: f64,
     distance: f64,
@@ -149,14 +149,14 @@ struct Shares {
 
 /// Returns the errors of positions, a support gap and a distance at one clock, as shares of the bound
 /// [`distance_rounding`].
-fn shares_of_comparison(
+fn error_shares(
     rng: &mut impl RngExt,
     problem: &Problem<'_>,
     motions: &[Motion; 2],
     duration: f64,
     s: f64,
-) -> Shares {
-    let mut shares = Shares::default();
+) -> ErrorShares {
+    let mut shares = ErrorShares::default();
     let sides = [&problem.a, &problem.b];
     let frames = sides.map(|side| side.path.frame(s));
     let origin = Double3::from(motions[1].start().translation());
@@ -185,8 +185,8 @@ fn shares_of_comparison(
     let [i, j] = [0, 1].map(|_| rng.random_range(0..3u32));
     let claim = Claim {
         axis: direction(rng),
-        a: Combination::point(i),
-        b: Combination::point(j),
+        a: ConvexCombination::point(i),
+        b: ConvexCombination::point(j),
     };
     let checked = separation::check(&pair, &claim, problem.rounding);
     // A bound holds along any axis: the axis of this bound is the image of the claimed one in A's rounded frame.

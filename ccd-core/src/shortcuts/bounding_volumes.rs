@@ -16,8 +16,8 @@ use glam::DVec3;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
 pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
-    let by_balls = problem.uses(Shortcut::Balls) && balls_keep_apart(problem);
-    let is_free = by_balls || problem.uses(Shortcut::Boxes) && boxes_keep_apart(problem);
+    let by_balls = problem.uses_shortcut(Shortcut::Balls) && balls_keep_apart(problem);
+    let is_free = by_balls || problem.uses_shortcut(Shortcut::Boxes) && boxes_keep_apart(problem);
     is_free.then(|| Outcome::Free {
         proven_gap: problem.proven_gap(),
     })

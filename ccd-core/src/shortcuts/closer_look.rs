@@ -27,7 +27,7 @@ impl TighterBounds {
         let rounding =
             f64::from(GAP_ERROR_PER_RADIUS_F32) * (radius(&problem.a) + radius(&problem.b));
         TighterBounds {
-            is_f32_coarse: problem.uses(Shortcut::FlatNodes)
+            is_f32_coarse: problem.uses_shortcut(Shortcut::FlatNodes)
                 && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
             splits: 0,
             screw: None,
@@ -37,7 +37,7 @@ impl TighterBounds {
     /// Removes the pair with the least clock, `s`, from its siblings if a later clock can be proven for it. Returns the
     /// later clock and the pair, which then waits alone.
     #[inline(always)]
-    pub(crate) fn remove_if_provable(
+    pub(crate) fn take_earliest_with_later_clock(
         &self,
         problem: &Problem<'_>,
         siblings: &mut Siblings,
@@ -75,7 +75,7 @@ impl TighterBounds {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits == SPLITS_BEFORE_SCREW && problem.uses(Shortcut::Screw) {
+        if self.splits == SPLITS_BEFORE_SCREW && problem.uses_shortcut(Shortcut::Screw) {
             self.screw = Screw::for_problem(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.

@@ -55,7 +55,10 @@ impl FlatNode {
         let tree = side.body.tree();
         let (normal, half) = match tree.get(id) {
             NodeOrTriangle::Node(_) => {
-                let &Slab { normal, half } = tree.slab(id)?;
+                let &Slab {
+                    normal,
+                    half_thickness: half,
+                } = tree.slab(id)?;
                 (normal, Some(half))
             }
             NodeOrTriangle::Triangle(piece) => {

@@ -66,7 +66,7 @@ impl<'a> Rounds<'a> {
     ) -> Outcome {
         loop {
             let outcome = search(&self.between_clocks(), meter);
-            match self.on_outcome(&outcome, meter) {
+            match self.process_outcome(&outcome, meter) {
                 ControlFlow::Continue(()) => {}
                 ControlFlow::Break(outcome) => return outcome,
             }
@@ -75,7 +75,7 @@ impl<'a> Rounds<'a> {
 
     #[cold]
     fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
-        if !problem.uses(Shortcut::Rounds) {
+        if !problem.uses_shortcut(Shortcut::Rounds) {
             return None;
         }
         // Bodies that rest on each other are let go pair by pair, from the start on.
@@ -124,13 +124,13 @@ impl<'a> Rounds<'a> {
         };
         self.whole.between_clocks(
             [self.from, to],
-            self.raised_margin() + 0.5 * (tolerance - left),
+            self.margin_increase() + 0.5 * (tolerance - left),
             left,
         )
     }
 
     /// Processes the outcome of a round: starts the next round, or breaks with the outcome of the whole problem.
-    pub(crate) fn on_outcome(
+    pub(crate) fn process_outcome(
         &mut self,
         outcome: &Outcome,
         meter: &mut Meter,
@@ -162,7 +162,7 @@ impl<'a> Rounds<'a> {
 
     /// Records that the bodies keep a gap in the present round, and starts the next round or ends the search.
     fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
-        self.gap = lesser(self.gap, (gap - self.raised_margin()).next_down());
+        self.gap = lesser(self.gap, (gap - self.margin_increase()).next_down());
         self.from = self.end_clock();
         if self.from >= 1.0 {
             let proven_gap = greater(self.gap, self.whole.margin);
@@ -184,12 +184,12 @@ impl<'a> Rounds<'a> {
     /// Processes a contact in the present round: returns it if the bodies are in contact, or else shortens the round.
     fn process_contact(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
         let within = self.whole.contact_distance();
-        let contact = widened(contact, self.rounding);
+        let contact = widen_contact_by(contact, self.rounding);
         let Separation { upper, .. } = contact.separation;
         match self.round {
             Round::FirstPeriod(count) if !(upper <= within) => {
                 // More periods than this would give the same contact.
-                let fewer = (upper - within) / self.period.change;
+                let fewer = (upper - within) / self.period.max_distance_change;
                 match lesser(0.5 * count, fewer).floor() {
                     fewer if fewer >= 2.0 => self.start_round(fewer),
                     _ => self.round = Round::AllPeriods(self.patience),
@@ -225,13 +225,13 @@ impl<'a> Rounds<'a> {
     /// its other periods.
     fn distance_change(&self) -> f64 {
         match self.round {
-            Round::FirstPeriod(count) => count * self.period.change,
+            Round::FirstPeriod(count) => count * self.period.max_distance_change,
             Round::AllPeriods(_) => 0.0,
         }
     }
 
     /// Returns the distance that the bodies have to keep beyond the margin in the searched part of the round.
-    fn raised_margin(&self) -> f64 {
+    fn margin_increase(&self) -> f64 {
         self.distance_change() + self.rounding
     }
 }
@@ -280,12 +280,12 @@ impl<'a> Sample<'a> {
 
     /// Widens the bounds of a contact in the period so that they hold for the whole problem.
     pub(crate) fn widen_contact(&self, contact: Contact) -> Contact {
-        widened(contact, self.rounding)
+        widen_contact_by(contact, self.rounding)
     }
 }
 
 /// Widens the bounds of a contact's distance by `rounding` on either side.
-fn widened(contact: Contact, rounding: f64) -> Contact {
+fn widen_contact_by(contact: Contact, rounding: f64) -> Contact {
     let Separation { lower, upper, .. } = contact.separation;
     contact.with_bounds((lower - rounding).next_down(), (upper + rounding).next_up())
 }
@@ -301,7 +301,7 @@ fn path_with_radius<'p>(side: &'p BodyWithPath<'_>) -> PathWithRadius<'p> {
 /// `change`; `None` if no period saves enough time.
 fn period_with_least_work(bodies: [PathWithRadius<'_>; 2], change: f64) -> Option<Period> {
     let searched = |period: &Period| {
-        let rounds = greater(1.0, period.change / (period.length * change));
+        let rounds = greater(1.0, period.max_distance_change / (period.length * change));
         lesser(1.0, period.length * rounds)
     };
     Period::all(bodies)

@@ -161,7 +161,7 @@ impl BodyProfiles {
     ) -> Option<&Profile> {
         let place = &mut self.profile_indices[id as usize];
         if *place == UNKNOWN {
-            *place = match profile(side, id, axis) {
+            *place = match compute_profile(side, id, axis) {
                 Some(profile) if self.known.len() < NONE as usize => {
                     self.known.push(profile);
                     self.known.len() as u32 - 1
@@ -175,7 +175,7 @@ impl BodyProfiles {
 
 /// Computes the profile of a node in its pose at the start of the query; `None` if the node surrounds the axis, or
 /// nearly does. A profile of a few triangles is smaller than that of their box.
-fn profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
+fn compute_profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| PlacedNode::new(side, id, 0.0);
     match triangles(side, id) {
         Some(few) => Profile::union_of(few.map(place), axis),
@@ -188,7 +188,7 @@ fn triangles(side: &BodyWithPath<'_>, id: NodeId) -> Option<Range<NodeId>> {
     let tree = side.body.tree();
     match tree.get(id) {
         NodeOrTriangle::Triangle(_) => Some(id..id + 1),
-        NodeOrTriangle::Node(node) => match node.below {
+        NodeOrTriangle::Node(node) => match node.children {
             NodeChildren::Triangles(group) => {
                 let &GroupHeader { first, count, .. } = tree.triangle_group_header(group);
                 Some(first..first + count)

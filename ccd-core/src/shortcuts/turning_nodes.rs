@@ -18,7 +18,7 @@ use crate::tuning::MAX_TURNING_PLANE_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// The motion of a node relative to a plane that turns with the other body, for eight pairs of nodes at once.
-struct TurningNode<L: Simd> {
+struct NodePastTurningPlane<L: Simd> {
     /// An upper bound of the rate at which the node's points approach the plane. It is the rate `n·(v_S − v_O)` at the
     /// node's centre, with both velocities taken at that point, plus a bound for the points around it.
     rate: f32x8<L>,
@@ -33,7 +33,7 @@ struct TurningNode<L: Simd> {
 impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     /// Returns times for which planes that turn with the body of the split node certainly keep the eight pairs apart.
     #[inline(always)]
-    pub(crate) fn free_with_split(&self, axis: AxesX8<L>) -> f32x8<L> {
+    pub(crate) fn free_times_with_split_body(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, other) = (self.motion, self.other);
         let level = axis.n.level();
         let at = Vec3x8::splat(level, other.centre());
@@ -45,7 +45,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             axis,
             second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
-            &TurningNode {
+            &NodePastTurningPlane {
                 rate: axis.n.dot(velocity) + other.extent_along(own - across),
                 distance: motion.split.distances_from_centre(at) + other.radius(),
                 speed: self.other_speed,
@@ -56,7 +56,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
 
     /// Returns times for which planes that turn with the body of the unsplit node certainly keep the eight pairs apart.
     #[inline(always)]
-    pub(crate) fn free_with_other(&self, axis: AxesX8<L>) -> f32x8<L> {
+    pub(crate) fn free_times_with_other_body(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
         let level = axis.n.level();
         let at = children.centre(level);
@@ -68,7 +68,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             axis,
             second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
-            &TurningNode {
+            &NodePastTurningPlane {
                 rate: axis.n.dot(velocity) + children.extent_along(own - across),
                 distance: motion.other.distances_from_centre(at) + children.radius(level),
                 speed: self.speed,
@@ -83,7 +83,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         axis: AxesX8<L>,
         across: f32x8<L>,
         spin: f32,
-        sweep: &TurningNode<L>,
+        sweep: &NodePastTurningPlane<L>,
     ) -> f32x8<L> {
         let motion = self.motion;
         let change = match motion.acceleration {

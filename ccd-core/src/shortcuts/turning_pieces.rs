@@ -60,7 +60,7 @@ impl<'p> MovingPiece<'p> {
 }
 
 /// A piece of one body, as seen from a plane that turns with the other body.
-pub(crate) struct TurningPiece<'p> {
+pub(crate) struct PiecePastTurningPlane<'p> {
     /// The plane's normal `n`, which turns at `ω`.
     normal: RotatingVector,
     unit: DVec3,
@@ -98,7 +98,7 @@ struct HeightTerms {
     rate_axis: DVec3,
 }
 
-impl<'p> TurningPiece<'p> {
+impl<'p> PiecePastTurningPlane<'p> {
     /// Creates the description of the piece `other` relative to a plane that turns with the body of `holder`. The
     /// `normal` points from that body to the piece, and `rounding` is the problem's.
     pub(crate) fn new(
@@ -119,7 +119,7 @@ impl<'p> TurningPiece<'p> {
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
         let radius = other.piece.max_distance_from(reference);
-        TurningPiece {
+        PiecePastTurningPlane {
             normal: RotatingVector::new(path.axis, normal),
             unit: path.axis,
             angular_speed: path.rate,
@@ -194,7 +194,7 @@ impl<'p> TurningPiece<'p> {
     /// Returns the least height along a direction of the piece's points, measured from the reference point.
     fn least_height_along(&self, direction: DVec3) -> f64 {
         if self.piece.bounding_ball().is_some() {
-            let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
+            let lowest = self.piece.points[self.piece.extremal_point(-direction) as usize];
             return direction.dot(lowest - self.reference_point);
         }
         let heights = self.arms().map(|arm| direction.dot(arm));

@@ -82,7 +82,7 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
             }
         }
         assert!(swept.min.cmple(low).all() && swept.max.cmpge(high).all());
-        let span = 2.0 * body.span();
+        let span = 2.0 * body.bounding_radius();
         let excess = (swept.max - swept.min - (high - low)).max_element() / (span + 1.0);
         widest = greater(widest, excess);
     }
@@ -93,7 +93,7 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
 fn half_contact_distance_of(scene: &Scene, k: usize) -> f64 {
     let side = BodyWithPath {
         body: &scene.bodies[k],
-        given: None,
+        given_body: None,
         path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
     };
     half_contact_distance(&side, &scene.config.terms())

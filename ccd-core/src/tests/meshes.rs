@@ -53,7 +53,7 @@ fn turn(k: usize, n: usize) -> DVec2 {
 }
 
 /// Returns the triangles with reversed orientation, so that normals point inward.
-pub(crate) fn inside_out(triangles: &[Triangle]) -> Vec<Triangle> {
+pub(crate) fn reversed_triangles(triangles: &[Triangle]) -> Vec<Triangle> {
     triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
 }
 

@@ -10,7 +10,7 @@ pub(crate) type Triangle = [DVec3; 3];
 
 /// The nearest points of two triangles, by their barycentric coordinates, and their distance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest {
+pub(crate) struct NearestPoints {
     pub(crate) a: [f64; 3],
     pub(crate) b: [f64; 3],
     pub(crate) distance: f64,
@@ -20,8 +20,8 @@ pub(crate) struct Nearest {
 ///
 /// Every candidate is a pair of points of the two triangles, so that rounding can only make the
 /// distance too large.
-pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
-    let mut best = Nearest {
+pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
+    let mut best = NearestPoints {
         a: [1.0, 0.0, 0.0],
         b: [1.0, 0.0, 0.0],
         distance: f64::INFINITY,
@@ -29,7 +29,7 @@ pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
     let mut offer = |wa: [f64; 3], wb: [f64; 3]| {
         let distance = (point(b, wb) - point(a, wa)).length();
         if distance < best.distance {
-            best = Nearest {
+            best = NearestPoints {
                 a: wa,
                 b: wb,
                 distance,
@@ -39,7 +39,7 @@ pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
     for i in 0..3 {
         for j in 0..3 {
             let (s, t) = segments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
-            offer(on_edge(i, s), on_edge(j, t));
+            offer(edge_point_weights(i, s), edge_point_weights(j, t));
         }
         if let Some(weights) = foot(b, a[i]) {
             offer(corner(i), weights);
@@ -48,10 +48,10 @@ pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
             offer(weights, corner(i));
         }
         if let Some((s, weights)) = piercing_point(b, a[i], a[(i + 1) % 3]) {
-            offer(on_edge(i, s), weights);
+            offer(edge_point_weights(i, s), weights);
         }
         if let Some((s, weights)) = piercing_point(a, b[i], b[(i + 1) % 3]) {
-            offer(weights, on_edge(i, s));
+            offer(weights, edge_point_weights(i, s));
         }
     }
     best
@@ -63,10 +63,10 @@ pub(crate) fn point(t: &Triangle, weights: [f64; 3]) -> DVec3 {
 }
 
 fn corner(k: usize) -> [f64; 3] {
-    on_edge(k, 0.0)
+    edge_point_weights(k, 0.0)
 }
 
-fn on_edge(k: usize, t: f64) -> [f64; 3] {
+fn edge_point_weights(k: usize, t: f64) -> [f64; 3] {
     let mut weights = [0.0; 3];
     weights[k] = 1.0 - t;
     weights[(k + 1) % 3] += t;
@@ -98,7 +98,7 @@ fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     let way = from - t[0];
     let weights_u = way.cross(v).dot(normal) / square;
     let weights_v = u.cross(way).dot(normal) / square;
-    inside(weights_u, weights_v)
+    weights_if_inside(weights_u, weights_v)
 }
 
 /// Returns the point where a segment meets a triangle, by its parameter on the segment and its barycentric coordinates.
@@ -112,7 +112,7 @@ fn piercing_point(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
     Some((s, foot(t, p + s * (q - p))?))
 }
 
-fn inside(u: f64, v: f64) -> Option<[f64; 3]> {
+fn weights_if_inside(u: f64, v: f64) -> Option<[f64; 3]> {
     // Written so that NaN is outside.
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some([1.0 - u - v, u, v])
 }

@@ -1,7 +1,7 @@
 //! Oracles for tests: a slow one for pieces of up to three points, and one that returns false claims.
 
 use super::nearest::{Triangle, nearest, point};
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, DistanceOracle, GiveUpReason, PiecePair};
 use crate::distance::separation::support_gap;
 use glam::DVec3;
@@ -59,8 +59,8 @@ fn corners(points: &[DVec3]) -> Option<Triangle> {
     (points.len() <= 3).then(|| std::array::from_fn(|k| points[k.min(last)]))
 }
 
-fn combination(weights: [f64; 3], points: usize) -> Combination {
-    let mut out = Combination::EMPTY;
+fn combination(weights: [f64; 3], points: usize) -> ConvexCombination {
+    let mut out = ConvexCombination::EMPTY;
     for (k, weight) in weights.into_iter().enumerate() {
         out.push(k.min(points - 1) as u32, weight);
     }

@@ -202,7 +202,7 @@ impl Scene {
     pub(crate) fn problem(&self) -> Problem<'_> {
         let moving = |k: usize| (&self.bodies[k], self.motions[k]);
         let bodies = [moving(0), moving(1)];
-        Problem::accelerated(bodies, self.accelerations, 1.0, &self.config.terms()).unwrap()
+        Problem::with_accelerations(bodies, self.accelerations, 1.0, &self.config.terms()).unwrap()
     }
 
     /// Adds accelerations of both bodies with a probability of a third.
@@ -302,7 +302,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
             spin: DVec3::ZERO,
             centre: DVec3::ZERO,
         };
-        set_moving(rng, kind, &mut passage, k, way, &sizes);
+        draw_velocities(rng, kind, &mut passage, k, way, &sizes);
         velocities[k] = passage.velocity_of_middle();
         motions.push(passage.motion());
     }
@@ -328,7 +328,7 @@ fn offset(rng: &mut Pcg64, size: f64) -> f64 {
     }
 }
 
-fn set_moving(
+fn draw_velocities(
     rng: &mut Pcg64,
     kind: Kind,
     passage: &mut Passage,

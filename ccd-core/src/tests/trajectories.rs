@@ -62,7 +62,7 @@ impl SmoothTrajectory for SwingingTrajectory {
         let linear = |k: usize| self.along[k].length() * self.rates[k] * self.rates[k];
         AccelerationBounds {
             linear: linear(0) + linear(1),
-            angular: self.turn * self.rates[2] * self.rates[2],
+            angular_acceleration: self.turn * self.rates[2] * self.rates[2],
         }
     }
 

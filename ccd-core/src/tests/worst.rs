@@ -20,13 +20,13 @@ pub(crate) struct RandomCase {
 }
 
 /// A search for the case in which the error is the largest share of one bound.
-pub(crate) struct Worst {
+pub(crate) struct WorstCaseSearch {
     name: &'static str,
     cases: f64,
 }
 
 /// The largest error that a search found, relative to its bound.
-pub(crate) struct Found {
+pub(crate) struct LargestError {
     name: &'static str,
     /// The largest error, as a share of the bound.
     share: f64,
@@ -36,17 +36,17 @@ pub(crate) struct Found {
 
 /// The number of cases in a row without a larger error after which a search restarts: a base, and an addition for each
 /// word of the case.
-const PATIENCE: [u64; 2] = [200, 10];
+const RESTART_CASE_COUNTS: [u64; 2] = [200, 10];
 
 /// The number of random cases that are drawn when a search restarts; it continues from the worst of them.
-const RANDOM_CASE_COUNT: u64 = 24;
+const CASES_BEFORE_CLIMB: u64 = 24;
 
-impl Worst {
+impl WorstCaseSearch {
     /// Creates a search of `cases` cases, multiplied by the environment variable `CCD_TEST_CASES` if it is set.
     pub(crate) fn of(name: &'static str, cases: u32) -> Self {
         let given = std::env::var("CCD_TEST_CASES").ok();
         let times: f64 = given.and_then(|text| text.parse().ok()).unwrap_or(1.0);
-        Worst {
+        WorstCaseSearch {
             name,
             cases: f64::from(cases) * times,
         }
@@ -58,7 +58,10 @@ impl Worst {
     /// # Panics
     /// If a share is NaN, or if most cases give `None`.
     #[allow(clippy::print_stdout)]
-    pub(crate) fn search(self, mut judge: impl FnMut(&mut RandomCase) -> Option<f64>) -> Found {
+    pub(crate) fn search(
+        self,
+        mut judge: impl FnMut(&mut RandomCase) -> Option<f64>,
+    ) -> LargestError {
         let count = self.cases.ceil() as u64;
         let mut dice = SplitMix64(self.name.bytes().fold(7, |seed, byte| {
             mix_bits(seed ^ u64::from(byte)) // A seed of its own for every name.
@@ -67,7 +70,7 @@ impl Worst {
         let (mut here, mut worst, mut number) = (nothing(), nothing(), 0);
         let (mut drawn, mut stale, mut judged) = (0, 0, 0u64);
         for case in 1..=count {
-            let words = if drawn < RANDOM_CASE_COUNT {
+            let words = if drawn < CASES_BEFORE_CLIMB {
                 Vec::new()
             } else {
                 dice.mutated_words(&here.1)
@@ -92,11 +95,11 @@ impl Worst {
             if here.0 > worst.0 {
                 (worst, number) = (here.clone(), case);
             }
-            if stale > PATIENCE[0] + PATIENCE[1] * here.1.len() as u64 {
+            if stale > RESTART_CASE_COUNTS[0] + RESTART_CASE_COUNTS[1] * here.1.len() as u64 {
                 // Every other climb continues from the worst case of all.
                 let anew = dice.next() & 1 == 0;
                 here = if anew { nothing() } else { worst.clone() };
-                (drawn, stale) = (if anew { 0 } else { RANDOM_CASE_COUNT }, 0);
+                (drawn, stale) = (if anew { 0 } else { CASES_BEFORE_CLIMB }, 0);
             }
         }
         let (name, share) = (self.name, worst.0);
@@ -108,7 +111,7 @@ impl Worst {
         };
         println!("{name}: allowance / worst error = {ratio} at case {number} of {judged}");
         assert!(4 * judged > count, "{name}: {judged} of {count} are cases");
-        Found {
+        LargestError {
             name,
             share,
             whole: self.cases >= count as f64 && count > 1000,
@@ -116,9 +119,9 @@ impl Worst {
     }
 }
 
-impl Found {
+impl LargestError {
     /// Checks that no error exceeded its bound, and that the largest came within a factor `looseness` of it.
-    pub(crate) fn is_within(&self, looseness: f64) {
+    pub(crate) fn assert_within(&self, looseness: f64) {
         let (name, ratio) = (self.name, 1.0 / self.share);
         assert!(self.share <= 1.0, "{name}: only {ratio:e} of an error");
         // A search that examines nothing would prove nothing.
@@ -180,7 +183,7 @@ impl RandomCase {
     }
 
     /// Reads a number that differs from `x` by a relative amount of any magnitude, from 0 to about 1.
-    pub(crate) fn near(&mut self, x: f64) -> f64 {
+    pub(crate) fn number_near(&mut self, x: f64) -> f64 {
         x + x * self.any(-54..=0)
     }
 
@@ -190,7 +193,7 @@ impl RandomCase {
     }
 
     /// Reads a whole number from 0 to `count − 1`.
-    pub(crate) fn pick(&mut self, count: usize) -> usize {
+    pub(crate) fn index_below(&mut self, count: usize) -> usize {
         (self.word() % count as u64) as usize
     }
 }

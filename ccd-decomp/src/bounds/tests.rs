@@ -17,7 +17,7 @@ proptest! {
         // A point, and a box.
         for [p, q] in [[corners[0]; 2], [corners[0], corners[1]]] {
             let mut found = Vec::new();
-            let all = tree.all_boxes_meeting(&Bounds::enclosing([p, q]), |k| {
+            let all = tree.all_meeting_boxes_satisfy(&Bounds::enclosing([p, q]), |k| {
                 found.push(k);
                 true
             });

@@ -1,7 +1,7 @@
 //! Exact predicates for triangles given by vertex indices, and for projections to a coordinate plane `[SHE97]`. They
 //! extend [`ccd_core::exact`].
 
-pub(crate) use ccd_core::exact::{is_degenerate, line_side_along, side, too_fine};
+pub(crate) use ccd_core::exact::{first_too_fine_point, is_degenerate, line_side_along, side};
 
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;

@@ -53,7 +53,7 @@ impl Adjustments {
 
     /// Sets the unit of the numbers in the file. It takes precedence over a unit that the file states.
     #[must_use]
-    pub fn stated_in(self, unit: Unit) -> Self {
+    pub fn with_stated_unit(self, unit: Unit) -> Self {
         Adjustments {
             stated_unit: Some(unit),
             ..self
@@ -81,7 +81,7 @@ impl Adjustments {
             Ok(Adjustments { factors, ..self })
         } else {
             Err(InputError::OutOfRange {
-                what: "scale",
+                quantity: "scale",
                 value: factor,
                 allowed: "positive and finite",
             })
@@ -131,7 +131,7 @@ impl Adjustments {
     }
 
     /// Returns whether any adjustment is of a kind that applies to meshes only, and not to prepared bodies.
-    pub(crate) fn apply_to_meshes_only(&self) -> bool {
+    pub(crate) fn are_for_meshes_only(&self) -> bool {
         let others = Adjustments {
             target_unit: None,
             ..*self
@@ -165,7 +165,7 @@ impl Adjustments {
             "mirror=x" => Ok(self.mirrored(Axis::X)),
             "mirror=y" => Ok(self.mirrored(Axis::Y)),
             "mirror=z" => Ok(self.mirrored(Axis::Z)),
-            unit => Ok(self.stated_in(unit.parse().map_err(|_| unknown())?)),
+            unit => Ok(self.with_stated_unit(unit.parse().map_err(|_| unknown())?)),
         }
     }
 }

@@ -46,7 +46,7 @@ impl TriangleMesh {
             vertices,
             (faces, self.face_ids.clone()),
             self.face_count,
-            self.repairs.before_triangulation(),
+            self.repairs.without_zero_area_faces(),
         ))
     }
 
@@ -83,7 +83,7 @@ impl TriangleMesh {
         let (mut repairs, mut face_count) = (Repairs::default(), 0);
         for mesh in meshes {
             let first = vertices.len() as u32;
-            repairs.append(&mesh.repairs.before_triangulation(), first, face_count);
+            repairs.append(&mesh.repairs.without_zero_area_faces(), first, face_count);
             vertices.extend(&mesh.vertices);
             faces.extend(mesh.faces.iter().map(|face| face.map(|v| first + v)));
             ids.extend(mesh.face_ids.iter().map(|id| face_count + id));

@@ -35,7 +35,7 @@ pub enum MeshFault {
     },
     /// The file is a STEP file, but has the extension of a mesh format.
     #[error("is a STEP file, whatever its name says: {}", cad_advice("step"))]
-    Step,
+    StepFile,
     /// The format is known, but this build has no reader for it.
     #[error("is {format}, which this build cannot read; build it with the feature {feature:?}")]
     MissingFeature {

@@ -103,7 +103,7 @@ impl Format {
             return Err(MeshFault::LfsPointer);
         }
         if is_step_file(&unmarked) {
-            return Err(MeshFault::Step);
+            return Err(MeshFault::StepFile);
         }
         match self {
             Format::Obj => obj::parse(&text::utf8_with_line_feeds(bytes)),

@@ -135,7 +135,7 @@ impl MeshFile {
     /// # Ok::<(), ccd_decomp::MeshError>(())
     /// ```
     #[must_use]
-    pub fn in_unit(mut self, unit: Unit) -> Self {
+    pub fn converted_to_unit(mut self, unit: Unit) -> Self {
         self.conversion = match self.content.unit {
             Some(stated) => Conversion::new(stated, unit),
             None => Conversion::NONE,

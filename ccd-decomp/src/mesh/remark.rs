@@ -49,7 +49,13 @@ impl Remarks {
     }
 
     /// Adds `count` skipped elements to the remark about their kind and their name in the file.
-    pub(crate) fn add_named(&mut self, kind: &str, name: &str, count: usize, line: Option<usize>) {
+    pub(crate) fn add_skipped(
+        &mut self,
+        kind: &str,
+        name: &str,
+        count: usize,
+        line: Option<usize>,
+    ) {
         let what = format!("{kind} {:?} passed over", Quote(name));
         self.add(&what, count, line);
     }

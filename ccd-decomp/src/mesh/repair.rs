@@ -42,7 +42,7 @@ impl Repairs {
 
     /// Returns all repairs except the faces without area. Rebuilding the mesh from its triangles finds these faces
     /// again, but not the other repairs.
-    pub(crate) fn before_triangulation(&self) -> Self {
+    pub(crate) fn without_zero_area_faces(&self) -> Self {
         Repairs {
             zero_area_faces: Tally::default(),
             ..self.clone()

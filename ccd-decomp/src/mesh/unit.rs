@@ -48,11 +48,11 @@ impl Unit {
 
     /// Returns the symbol of the unit in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
     pub fn symbol(self) -> &'static str {
-        self.definition().0
+        self.symbol_and_micrometres().0
     }
 
     /// Returns the symbol of the unit, and its length in micrometres, a whole number for all units.
-    fn definition(self) -> (&'static str, u32) {
+    fn symbol_and_micrometres(self) -> (&'static str, u32) {
         match self {
             Unit::Micrometre => ("um", 1),
             Unit::Millimetre => ("mm", 1_000),
@@ -97,7 +97,7 @@ impl Conversion {
     };
 
     pub(crate) fn new(from: Unit, to: Unit) -> Self {
-        let [from, to] = [from, to].map(|unit| unit.definition().1);
+        let [from, to] = [from, to].map(|unit| unit.symbol_and_micrometres().1);
         let common = greatest_common_divisor(from, to);
         Conversion {
             numerator: f64::from(from / common),

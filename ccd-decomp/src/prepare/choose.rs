@@ -1,6 +1,6 @@
 //! Chooses the fewest exact pieces for `Detail::Auto`.
 
-use super::parts::Parts;
+use super::parts::PiecesByKind;
 use super::report::{PieceReason, QueryTimes};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
@@ -20,7 +20,7 @@ pub(super) fn choose(
     mesh: &TriangleMesh,
     topology: &Topology,
     work: &Work,
-) -> (Parts, PieceReason) {
+) -> (PiecesByKind, PieceReason) {
     let manifold = match Manifold::without_intersection_check(mesh, topology) {
         Ok(manifold) => manifold,
         Err(error) => return triangle_parts(error),
@@ -29,30 +29,33 @@ pub(super) fn choose(
     let mut merger = RegionMerger::merge_all_regions(&manifold);
     let estimate = merger.largest_planar_region().estimate_query_times();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
-        return (Parts::Triangles, PieceReason::TrianglesFaster(estimate));
+        return (
+            PiecesByKind::Triangles,
+            PieceReason::TrianglesFaster(estimate),
+        );
     }
     if let Err(error) = check_solid(&manifold, work) {
         return triangle_parts(error);
     }
     if let Ok(polytope) = convex {
-        return (Parts::Hull(Box::new(polytope)), PieceReason::Convex);
+        return (PiecesByKind::Hull(Box::new(polytope)), PieceReason::Convex);
     }
     let flats = merger.into_polygons();
     match decompose_polygons(&manifold, &flats, PatchOrder::default(), work) {
         Ok(decomposition) => (
-            Parts::Patches(decomposition),
+            PiecesByKind::Patches(decomposition),
             PieceReason::PatchesFaster(estimate),
         ),
         Err(error) => triangle_parts(error),
     }
 }
 
-fn triangle_parts(error: DecomposeError) -> (Parts, PieceReason) {
+fn triangle_parts(error: DecomposeError) -> (PiecesByKind, PieceReason) {
     let why = match error {
         DecomposeError::WorkBudgetExceeded => PieceReason::WorkBudgetExceeded,
         error => PieceReason::OnlyTrianglesExact(error),
     };
-    (Parts::Triangles, why)
+    (PiecesByKind::Triangles, why)
 }
 
 impl PlanarRegion {

@@ -118,7 +118,7 @@ impl PreparedBody {
         round: &SolidOfRevolution,
         excess: Option<f64>,
     ) -> Result<Self, InputError> {
-        let enclosure = round.enclose(excess.unwrap_or(round.usual_excess()))?;
+        let enclosure = round.enclose(excess.unwrap_or(round.default_excess()))?;
         let mut prepared = PreparedBody::from_primitive(enclosure.body()?);
         prepared.report.excess = enclosure.excess();
         Ok(prepared)

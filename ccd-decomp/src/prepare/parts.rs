@@ -11,7 +11,7 @@ use crate::tree::hierarchy::build_hierarchy;
 use ccd_core::{Hierarchy, Pieces, Polytope, Volume};
 
 /// The pieces that were made of a mesh. Each variant is one kind of pieces.
-pub(super) enum Parts {
+pub(super) enum PiecesByKind {
     Triangles,
     Patches(Decomposition),
     Hull(Box<Polytope>),
@@ -19,9 +19,9 @@ pub(super) enum Parts {
 }
 
 /// The kind of pieces chosen for a mesh, with the pieces and the mesh's topology.
-pub(super) struct Choice {
+pub(super) struct PiecesChoice {
     pub(super) volume: Volume,
-    pub(super) parts: Parts,
+    pub(super) parts: PiecesByKind,
     pub(super) reason: PieceReason,
     pub(super) topology: Topology,
     /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
@@ -31,7 +31,7 @@ pub(super) struct Choice {
 /// The pieces of a body, and a hierarchy over them.
 type PieceTree = (Pieces, Hierarchy);
 
-impl Choice {
+impl PiecesChoice {
     /// Creates the model from the chosen pieces. `triangles` are those of the mesh before any shell is reversed, if
     /// computed.
     pub(super) fn into_model(
@@ -46,18 +46,18 @@ impl Choice {
             (_, turned) => triangle_tree(turned.as_ref().unwrap_or(mesh)),
         };
         let ((pieces, hierarchy), surface) = match self.parts {
-            Parts::Triangles => (triangles()?, None),
-            Parts::Patches(Decomposition { patches }) => {
+            PiecesByKind::Triangles => (triangles()?, None),
+            PiecesByKind::Patches(Decomposition { patches }) => {
                 report.kind = PiecesKind::Patches;
-                report.virtual_facets = patches.iter().map(Patch::virtual_facets).sum();
+                report.virtual_facets = patches.iter().map(Patch::virtual_facet_count).sum();
                 let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
                 (polytope_tree(&polytopes)?, None)
             }
-            Parts::Hull(polytope) => {
+            PiecesByKind::Hull(polytope) => {
                 report.kind = PiecesKind::Hull;
                 (polytope_tree(&[*polytope])?, Some(triangles()?))
             }
-            Parts::OuterHull(hull) => {
+            PiecesByKind::OuterHull(hull) => {
                 report.kind = PiecesKind::OuterHull;
                 report.excess = hull.excess_bound;
                 report.virtual_facets = hull.polytope.facets.len();
@@ -83,14 +83,14 @@ impl Choice {
 /// Creates one piece for each triangle of a mesh, and their hierarchy.
 pub(super) fn triangle_tree(mesh: &TriangleMesh) -> Result<PieceTree, PrepareError> {
     let faces = mesh.welded_faces();
-    tree_over(Pieces::triangles(mesh.vertices(), &faces, mesh.face_ids())?)
+    piece_tree(Pieces::triangles(mesh.vertices(), &faces, mesh.face_ids())?)
 }
 
 fn polytope_tree(polytopes: &[Polytope]) -> Result<PieceTree, PrepareError> {
-    tree_over(Pieces::polytopes(polytopes)?)
+    piece_tree(Pieces::polytopes(polytopes)?)
 }
 
-fn tree_over(pieces: Pieces) -> Result<PieceTree, PrepareError> {
+fn piece_tree(pieces: Pieces) -> Result<PieceTree, PrepareError> {
     let hierarchy = build_hierarchy(&pieces)?;
     Ok((pieces, hierarchy))
 }

@@ -13,7 +13,7 @@ pub struct Report {
     /// The kind of the body's pieces, such as triangles or convex patches.
     pub kind: PiecesKind,
     /// The reason why the pieces are of this kind, such as speed or the caller's request.
-    pub why: PieceReason,
+    pub reason: PieceReason,
     /// The number of triangles of the mesh; 0 for a body without a mesh.
     pub triangles: usize,
     /// The number of pieces of the body.
@@ -82,7 +82,7 @@ impl Report {
     pub(super) fn new(kind: PiecesKind, why: PieceReason, volume: Volume) -> Self {
         Report {
             kind,
-            why,
+            reason: why,
             triangles: 0,
             pieces: 1,
             virtual_facets: 0,

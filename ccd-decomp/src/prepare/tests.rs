@@ -1,5 +1,5 @@
 use crate::{Detail, Format, TriangleMesh, body_from_mesh, prepare};
-use ccd_core::Combination;
+use ccd_core::ConvexCombination;
 use ccd_core::glam::dvec3;
 
 const TETRAHEDRON: &str =
@@ -43,7 +43,7 @@ fn features_carry_the_numbers_of_the_file() {
     let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
     let body = body_from_mesh(&mesh, Detail::Triangles).unwrap().body;
     let feature = |support: &[u32]| {
-        let mut point = Combination::EMPTY;
+        let mut point = ConvexCombination::EMPTY;
         support.iter().for_each(|&corner| point.push(corner, 1.0));
         body.pieces().feature(0, &point).to_string()
     };
@@ -56,8 +56,8 @@ fn features_carry_the_numbers_of_the_file() {
 /// coplanar.
 #[test]
 fn hull_trees_of_nearly_flat_meshes_are_proven() {
-    use crate::test_meshes::{block, cubes, placed};
-    let step = cubes(&block([4, 4, 2]));
+    use crate::test_meshes::{block_cells, cubes, placed};
+    let step = cubes(&block_cells([4, 4, 2]));
     let vertices = placed(&step, 0.1, dvec3(0.3, 0.1, 0.7)).vertices().to_vec();
     let tilt = ccd_core::glam::DQuat::from_axis_angle(dvec3(0.6, 0.0, 0.8), 0.4);
     let turned: Vec<_> = vertices.iter().map(|&p| tilt * p).collect();

@@ -21,7 +21,7 @@ pub(crate) struct BoxTree {
 
 struct Node {
     bounds: Bounds,
-    oriented: OrientedBox,
+    oriented_box: OrientedBox,
     /// The range of elements of a leaf; empty for an inner node.
     elements: Range<u32>,
     /// The number of nodes of the subtree, including this node.
@@ -29,11 +29,11 @@ struct Node {
 }
 
 /// The maximum number of elements of a leaf.
-const LEAF: usize = 2;
+const MAX_LEAF_ELEMENTS: usize = 2;
 
 impl BoxTree {
     /// Builds a tree over the faces with the numbers `some`, in O(n log n).
-    pub(crate) fn of_faces(
+    pub(crate) fn from_faces(
         points: &[DVec3],
         faces: &[[u32; 3]],
         some: impl IntoIterator<Item = u32>,
@@ -96,7 +96,7 @@ impl BoxTree {
             if !work.spend(1) {
                 return false;
             }
-            if is_far(&node.bounds, &node.oriented) {
+            if is_far(&node.bounds, &node.oriented_box) {
                 at += node.count as usize;
                 continue;
             }
@@ -125,7 +125,10 @@ impl BoxTree {
     /// Returns a lower bound, up to rounding, of the distance from a point to the elements below a node.
     pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
         let node = &self.nodes[at];
-        greater(node.bounds.distance(point), node.oriented.distance(point))
+        greater(
+            node.bounds.distance(point),
+            node.oriented_box.distance(point),
+        )
     }
 }
 
@@ -137,10 +140,10 @@ const MIN_PARALLEL_ELEMENTS: usize = 4096;
 ///
 /// Each level halves the count: the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
-    let oriented = OrientedBox::around_elements(elements);
+    let oriented = OrientedBox::enclosing_elements(elements);
     let at = nodes.len();
     let split = elements.len() / 2;
-    let is_leaf = elements.len() <= LEAF;
+    let is_leaf = elements.len() <= MAX_LEAF_ELEMENTS;
     nodes.push(Node {
         bounds: Bounds::enclosing(elements.iter().flat_map(|element| element.corners)),
         elements: if is_leaf {
@@ -148,11 +151,11 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
         } else {
             0..0
         },
-        oriented,
+        oriented_box: oriented,
         count: 1,
     });
     if !is_leaf {
-        let along = nodes[at].oriented.axis_of_largest_spread(elements);
+        let along = nodes[at].oriented_box.axis_of_largest_spread(elements);
         let height = |element: &Element| along.dot(element.centre());
         elements.select_nth_unstable_by(split, |a, b| {
             let order = height(a).total_cmp(&height(b));

@@ -108,7 +108,7 @@ impl Fan {
         }
         let planes = separating_planes(shape, self.hub);
         let is_far = |_: &Bounds, oriented: &OrientedBox| {
-            planes.iter().any(|plane| plane.has_in_front(oriented))
+            planes.iter().any(|plane| plane.has_box_in_front(oriented))
         };
         self.rim
             .all_near_elements(is_far, work, |element| holds(element.face))

@@ -21,7 +21,7 @@ pub(super) struct OrientedBox {
 impl OrientedBox {
     /// Creates a box around some elements. It is aligned with their longest side and the corner farthest from that
     /// side.
-    pub(super) fn around_elements(elements: &[Element]) -> Self {
+    pub(super) fn enclosing_elements(elements: &[Element]) -> Self {
         let corners = || elements.iter().flat_map(|element| element.corners);
         let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
         let longer = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());

@@ -28,13 +28,13 @@ impl Plane {
         }
     }
 
-    fn through_triangle([a, b, c]: [DVec3; 3]) -> Self {
+    fn from_triangle([a, b, c]: [DVec3; 3]) -> Self {
         Plane::new(a, [b - a, c - a])
     }
 
     /// Returns whether a box is certainly in front of the plane.
     #[inline]
-    pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
+    pub(super) fn has_box_in_front(&self, oriented: &OrientedBox) -> bool {
         let offset = oriented.centre - self.foot;
         let reach = oriented.reach + 2.0 * self.far;
         let height = self.normal.dot(offset) - oriented.support(self.normal);
@@ -52,16 +52,14 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         Shape::Segment([p, q]) => {
             vec![
-                Plane::through_triangle([hub, *p, *q]),
-                Plane::through_triangle([hub, *q, *p]),
+                Plane::from_triangle([hub, *p, *q]),
+                Plane::from_triangle([hub, *q, *p]),
             ]
         }
         Shape::Inside(Hull { facets, .. }) => {
             let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
-            facets
-                .map(|&facet| Plane::through_triangle(facet))
-                .collect()
+            facets.map(|&facet| Plane::from_triangle(facet)).collect()
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
@@ -80,7 +78,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
             let [p, q, r] = *corners;
             for facet in [[p, q, r], [q, p, r]] {
                 if side(facet, hub) != Ordering::Less {
-                    planes.push(Plane::through_triangle(facet));
+                    planes.push(Plane::from_triangle(facet));
                 }
             }
             planes
@@ -103,11 +101,7 @@ impl<'a> SeparationTests<'a> {
             Shape::Triangle(corners) => SeparationTests::Points(corners),
             Shape::Inside(Hull { facets, .. }) => {
                 let tested = facets.iter().take(MAX_TESTED_FACETS);
-                SeparationTests::Planes(
-                    tested
-                        .map(|&facet| Plane::through_triangle(facet))
-                        .collect(),
-                )
+                SeparationTests::Planes(tested.map(|&facet| Plane::from_triangle(facet)).collect())
             }
         }
     }
@@ -115,7 +109,9 @@ impl<'a> SeparationTests<'a> {
     pub(super) fn separates(&self, oriented: &OrientedBox) -> bool {
         match self {
             SeparationTests::Points(points) => oriented.is_separated_from(points),
-            SeparationTests::Planes(planes) => planes.iter().any(|of| of.has_in_front(oriented)),
+            SeparationTests::Planes(planes) => {
+                planes.iter().any(|of| of.has_box_in_front(oriented))
+            }
         }
     }
 }
@@ -154,7 +150,7 @@ fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
 fn add_plane_through_edge(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {
-            planes.push(Plane::through_triangle(plane));
+            planes.push(Plane::from_triangle(plane));
         }
     }
 }

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 
 fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     let mut found = Vec::new();
-    boxes.all_meeting(region, &Work::unbounded(), |face| {
+    boxes.all_faces_meeting(region, &Work::unbounded(), |face| {
         found.push(face);
         true
     });
@@ -168,7 +168,7 @@ fn the_nearest_triangle_is_found() {
     let (mut met, mut missed) = (0, 0);
     for _ in 0..40 {
         let ((points, faces), probes) = given.new_tree(&mut runner).unwrap().current();
-        let search = BoxTree::of_faces(&points, &faces, 0..faces.len() as u32);
+        let search = BoxTree::from_faces(&points, &faces, 0..faces.len() as u32);
         let at = |face: &[u32; 3]| face.map(|v| points[v as usize]);
         for [p, q] in probes {
             let point = 2.0 * p;

@@ -32,7 +32,7 @@ pub(crate) fn crossings(
             Some(plates) => plates.all_meeting(face, &near, work, pair),
             None => manifold
                 .boxes()
-                .all_meeting(&near, work, |other| other <= face || pair(other)),
+                .all_faces_meeting(&near, work, |other| other <= face || pair(other)),
         };
         if !goes_on {
             work.check()?;

@@ -13,7 +13,7 @@ use std::cmp::{Ordering, Reverse};
 
 /// The partition of a mesh's faces into convex polygons.
 pub(crate) struct ConvexPolygons {
-    flats: Vec<Flat>,
+    polygons: Vec<Flat>,
     /// For each face, the number of its polygon.
     polygon_of_face: Vec<u32>,
 }
@@ -36,11 +36,11 @@ impl ConvexPolygons {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.flats.len()
+        self.polygons.len()
     }
 
     pub(crate) fn get(&self, flat: u32) -> &Flat {
-        &self.flats[flat as usize]
+        &self.polygons[flat as usize]
     }
 
     /// Returns the number of the polygon that contains a face.
@@ -238,7 +238,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             });
         }
         ConvexPolygons {
-            flats,
+            polygons: flats,
             polygon_of_face: flat_of,
         }
     }

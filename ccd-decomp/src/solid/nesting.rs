@@ -4,7 +4,7 @@ mod closed_parts;
 
 use crate::bounds::{Bounds, BoundsTree};
 use crate::disjoint_sets::members;
-use crate::exact::predicates::{is_degenerate, too_fine};
+use crate::exact::predicates::{first_too_fine_point, is_degenerate};
 use crate::exact::rays::{crossing, probe_segment};
 use crate::exact::triangles::meet_outside_shared_corners;
 use crate::exact::volume::SignedVolume;
@@ -13,7 +13,7 @@ use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
 use crate::tally::Tally;
-use crate::tolerance::{FACE_ROUNDING, MAX_NESTING_RAYS};
+use crate::tolerance::{FACE_CENTRE_ROUNDING, MAX_NESTING_RAYS};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -83,7 +83,7 @@ impl<'m> Shells<'m> {
     }
 
     fn nesting(&self) -> Nesting {
-        let exact = too_fine(self.mesh.vertices()).is_none();
+        let exact = first_too_fine_point(self.mesh.vertices()).is_none();
         let shells = 0..self.faces_of_shell.len() as u32;
         let found: Vec<Option<Surroundings>> = shells
             .map(|shell| exact.then(|| self.surroundings(shell)).flatten())
@@ -172,7 +172,7 @@ impl<'m> Shells<'m> {
         let corner = self.mesh.triangle(faces[0])[0];
         let is_own = |other: u32| other == shell;
         let at = Bounds::enclosing([corner]);
-        if self.bounds.all_boxes_meeting(&at, is_own) {
+        if self.bounds.all_meeting_boxes_satisfy(&at, is_own) {
             return Some(Vec::new());
         }
         let size = self.boxes.farthest_distance(corner);
@@ -197,9 +197,9 @@ impl<'m> Shells<'m> {
         let is_of_shell = |face: u32| self.shell_of_face[face as usize] == shell;
         let misses =
             |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
-        let is_alone = self
-            .boxes
-            .all_meeting(&Region::segment(across), &Work::unbounded(), misses);
+        let is_alone =
+            self.boxes
+                .all_faces_meeting(&Region::segment(across), &Work::unbounded(), misses);
         is_alone.then_some(middle)
     }
 
@@ -208,18 +208,20 @@ impl<'m> Shells<'m> {
     fn shells_winding_about_start(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
-        let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
-            let other = self.shell_of_face[face as usize];
-            let start = Bounds::enclosing([ray[0]]);
-            let may_wind = other != shell && self.bounds.get(other).meets(&start);
-            let found = if may_wind {
-                crossing(ray, self.mesh.triangle(face))
-            } else {
-                Some(0)
-            };
-            met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
-            found.is_some()
-        });
+        let passes = self
+            .boxes
+            .all_faces_meeting(&region, &Work::unbounded(), |face| {
+                let other = self.shell_of_face[face as usize];
+                let start = Bounds::enclosing([ray[0]]);
+                let may_wind = other != shell && self.bounds.get(other).meets(&start);
+                let found = if may_wind {
+                    crossing(ray, self.mesh.triangle(face))
+                } else {
+                    Some(0)
+                };
+                met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
+                found.is_some()
+            });
         passes.then(|| {
             met.sort_unstable();
             met.chunk_by(|one, next| one.0 == next.0)
@@ -238,7 +240,7 @@ impl<'m> Shells<'m> {
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);
             self.boxes
-                .all_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
+                .all_faces_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
                     let other = self.shell_of_face[near as usize];
                     if other != shell && !crossed.contains(&other) && !flat(near) {
                         let ids = [face, near].map(|f| self.mesh.welded_face(f));
@@ -259,7 +261,7 @@ fn centre_and_sides([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 
     let middle = (a + b + c) / 3.0;
     // Far from the origin, rounding exceeds that of the mesh's size.
     let size = size + middle.abs().max_element();
-    let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
+    let off = unit((b - a).cross(c - a))? * FACE_CENTRE_ROUNDING * size;
     Some((middle, [middle - off, middle + off]))
 }
 

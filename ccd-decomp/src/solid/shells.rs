@@ -76,7 +76,7 @@ fn winding_number_of_other_shells(
         let mut windings = Some(0);
         manifold
             .boxes()
-            .all_meeting(&Region::segment(ray), work, |f| {
+            .all_faces_meeting(&Region::segment(ray), work, |f| {
                 if shell_of[f as usize] != shell {
                     let crossing = crossing(ray, manifold.triangle(f));
                     windings = windings.zip(crossing).map(|(sum, one)| sum + one);

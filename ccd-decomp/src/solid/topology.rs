@@ -12,7 +12,7 @@ use std::fmt;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Topology {
     /// Edges with a single face, which are the boundaries of holes.
-    pub boundary: Tally<Edge>,
+    pub boundary_edges: Tally<Edge>,
     /// Edges with two faces in the same direction. One of the two faces has the wrong orientation.
     pub flipped_edges: Tally<Edge>,
     /// Edges with more than two faces, with more in one direction than in the other.
@@ -24,7 +24,7 @@ pub struct Topology {
     pub wrong_shells: Tally<u32>,
     /// Shells for which it is unclear whether they bound a solid or a cavity; one face of each. They are inside a shell
     /// and cross another shell, or their nesting cannot be determined.
-    pub unclear: Tally<u32>,
+    pub unclear_shells: Tally<u32>,
     /// The enclosed volume after wrong shells are reversed, in cubic units of length. It is negative if all normals
     /// point inward, and meaningful for closed meshes only.
     pub signed_volume: f64,
@@ -71,7 +71,7 @@ impl Topology {
             let backward = uses.iter().filter(|of| of.is_backward).count();
             let tally = match (uses.len(), 2 * backward == uses.len()) {
                 (2, true) => continue,
-                (1, _) => &mut topology.boundary,
+                (1, _) => &mut topology.boundary_edges,
                 (2, false) => &mut topology.flipped_edges,
                 (_, false) => &mut topology.branching_edges,
                 (_, true) => &mut topology.shared_edges,
@@ -83,7 +83,7 @@ impl Topology {
         }
         let nesting = Nesting::new(mesh, &edges);
         topology.wrong_shells = nesting.wrong_shells;
-        topology.unclear = nesting.unclear_shells;
+        topology.unclear_shells = nesting.unclear_shells;
         let turned =
             (!nesting.turned.is_empty()).then(|| mesh.with_reversed_faces(&nesting.turned));
         if let Some(turned) = &turned {
@@ -94,13 +94,15 @@ impl Topology {
 
     /// Returns whether the mesh bounds a solid: it is closed, and the nesting of its shells is clear.
     pub fn is_solid(&self) -> bool {
-        self.is_closed() && self.unclear.is_empty()
+        self.is_closed() && self.unclear_shells.is_empty()
     }
 
     /// Returns whether every edge has equally many faces in both directions. The winding number of a point off the
     /// surface is then a whole number, which defines the inside.
     pub fn is_closed(&self) -> bool {
-        self.boundary.is_empty() && self.flipped_edges.is_empty() && self.branching_edges.is_empty()
+        self.boundary_edges.is_empty()
+            && self.flipped_edges.is_empty()
+            && self.branching_edges.is_empty()
     }
 
     /// Returns whether the mesh is closed, and no edge has more than two faces.
@@ -110,7 +112,7 @@ impl Topology {
 
     /// Returns advice on how to make the mesh a manifold, as a part of error messages.
     pub(crate) fn advice(&self) -> &'static str {
-        if !(self.boundary.is_empty() && self.branching_edges.is_empty()) {
+        if !(self.boundary_edges.is_empty() && self.branching_edges.is_empty()) {
             "close the mesh"
         } else if !self.flipped_edges.is_empty() {
             "turn the faces that look the other way"
@@ -156,7 +158,7 @@ impl fmt::Display for Edge {
 impl fmt::Display for Topology {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let notes = [
-            (&self.boundary, "edges with one face"),
+            (&self.boundary_edges, "edges with one face"),
             (
                 &self.flipped_edges,
                 "edges between faces that look opposite ways",
@@ -167,7 +169,7 @@ impl fmt::Display for Topology {
             ),
             (&self.shared_edges, "edges shared by closed parts"),
         ];
-        let torn = !(self.boundary.is_empty() && self.branching_edges.is_empty());
+        let torn = !(self.boundary_edges.is_empty() && self.branching_edges.is_empty());
         write!(f, "{}", if torn { "open" } else { "closed" })?;
         if !self.flipped_edges.is_empty() {
             write!(f, ", not all faces turned the same way")?;
@@ -176,7 +178,10 @@ impl fmt::Display for Topology {
         }
         let shells = [
             (&self.wrong_shells, "shells wound the wrong way, turned"),
-            (&self.unclear, "shells that may bound a solid or a cavity"),
+            (
+                &self.unclear_shells,
+                "shells that may bound a solid or a cavity",
+            ),
         ];
         for (tally, what) in shells.iter().filter(|(tally, _)| !tally.is_empty()) {
             write!(f, "; {what}, by a face: {tally}")?;

@@ -29,7 +29,7 @@ pub enum BodyError {
     Prepare(#[from] PrepareError),
     /// No body can be made of the content of a file.
     #[error("{}: {error}", .file.display())]
-    InFile {
+    FileContent {
         /// The path of the file whose content is at fault.
         file: PathBuf,
         /// The reason why no body can be made.
@@ -68,7 +68,7 @@ pub enum SourceError {
     UnknownAdjustment(#[from] UnknownAdjustment),
     /// A stored body has adjustments, which apply only to meshes.
     #[error("{}: {PREPARED_ADVICE}", .file.display())]
-    Prepared {
+    AdjustedStoredBody {
         /// The path of the file of the stored body.
         file: PathBuf,
     },

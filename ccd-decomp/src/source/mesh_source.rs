@@ -48,7 +48,7 @@ impl MeshSource {
             file = file.stated_in(unit);
         }
         if let Some(unit) = self.adjustments.target_unit {
-            file = file.in_unit(unit);
+            file = file.converted_to_unit(unit);
         }
         let unit = file.unit();
         let mesh = match &self.part {

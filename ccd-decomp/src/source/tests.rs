@@ -60,7 +60,7 @@ fn unknown_words_after_a_file_are_reported(#[case] text: &str, #[case] message: 
 struct TetrahedronFile(PathBuf);
 
 impl TetrahedronFile {
-    fn named(name: &str) -> Self {
+    fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("{}-{name}", std::process::id()));
         let faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
         let text = format!("v 1 0 0\nv 3 0 0\nv 1 2 0\nv 1 0 2\n{faces}");
@@ -96,7 +96,7 @@ fn x_range(prepared: &PreparedBody) -> [f64; 2] {
 
 #[test]
 fn files_are_taken_as_their_adjustments_say() {
-    let file = TetrahedronFile::named("adjusted.obj");
+    let file = TetrahedronFile::new("adjusted.obj");
     assert_eq!(x_range(&file.load_with_words("")), [1.0, 3.0]);
     assert_eq!(
         x_range(&file.load_with_words("@scale=0.1")),
@@ -118,7 +118,7 @@ fn files_are_taken_as_their_adjustments_say() {
     );
     let text = format!("{}@in", file.0.display());
     let source: BodySource = text.parse().unwrap();
-    let converted = source.load_in(Unit::Millimetre, Detail::Auto).unwrap();
+    let converted = source.load_in_unit(Unit::Millimetre, Detail::Auto).unwrap();
     assert_eq!(x_range(&converted), [25.4, 76.2]);
     // Combined with the adjustments of all files.
     let doubled = Adjustments::NONE.scaled(2.0).unwrap().mirrored(Axis::X);
@@ -128,7 +128,7 @@ fn files_are_taken_as_their_adjustments_say() {
 
 #[test]
 fn a_closed_mesh_may_be_hollow() {
-    let file = TetrahedronFile::named("hollow.obj");
+    let file = TetrahedronFile::new("hollow.obj");
     assert_eq!(file.load_with_words("").report.volume, Volume::Solid);
     let hollow = file.load_with_words("@surface");
     assert_eq!(
@@ -143,8 +143,8 @@ fn a_closed_mesh_may_be_hollow() {
 #[test]
 fn a_file_with_the_whole_text_as_its_name_is_that_file() {
     let (plain, at) = (
-        TetrahedronFile::named("it.obj"),
-        TetrahedronFile::named("it.obj@scale=2.obj"),
+        TetrahedronFile::new("it.obj"),
+        TetrahedronFile::new("it.obj@scale=2.obj"),
     );
     assert_eq!(x_range(&at.load_with_words("")), [1.0, 3.0]);
     drop(at);
@@ -160,7 +160,10 @@ fn a_stored_body_stays_as_it_is() {
     let stored = BodySource::Stored("part.ccd".into());
     let error = stored.load_adjusted(&scaled, Detail::Auto).unwrap_err();
     assert!(
-        matches!(error, BodyError::Source(SourceError::Prepared { .. })),
+        matches!(
+            error,
+            BodyError::Source(SourceError::AdjustedStoredBody { .. })
+        ),
         "{error}"
     );
     let shape = BodySource::Sphere { radius: 1.0 };

@@ -7,7 +7,7 @@ use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 /// relative to the mesh's size and its distance from the origin. Rounding moves the centre off the face by 8
 /// [`UNIT_ROUNDOFF_F64`] at most, and the face's normal is accurate to a hundredth even for needles of an aspect of
 /// 1e6.
-pub(crate) const FACE_ROUNDING: f64 = 1e-12;
+pub(crate) const FACE_CENTRE_ROUNDING: f64 = 1e-12;
 
 /// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along an
 /// axis. `direction` is the axis, of length about 1. It covers the difference of the point and the box's centre, and the

@@ -148,7 +148,7 @@ fn split_at_median(
     make: impl FnOnce([(&mut [Centre], Slot<'_, Node>); 2]),
 ) {
     let spread = centres.iter().fold(AabbF32::EMPTY, |all, centre| {
-        all.union(AabbF32::of_point(centre.at.into()))
+        all.union(AabbF32::from_point(centre.at.into()))
     });
     let axis = spread.extent().max_position();
     let half = centres.len() / 2;

@@ -37,11 +37,11 @@ impl Nearest {
 ///
 /// Every candidate is a valid pair of points, however ill-conditioned; the least distance decides.
 pub(crate) fn nearest(level: Level, p: &Corners, q: &Corners) -> Nearest {
-    vectorize!(level, level => nearest_at(level, p, q))
+    vectorize!(level, level => nearest_in_lanes(level, p, q))
 }
 
 #[inline(always)]
-fn nearest_at<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
+fn nearest_in_lanes<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
     let edges = nearest_edge_points(level, p, q);
     let corners_q = project_corners_to_face(level, p, q);
     let corners_p = project_corners_to_face(level, q, p);
@@ -122,14 +122,14 @@ fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<
 }
 
 /// For every corner of one triangle, one per lane, its projection onto the face of the other triangle.
-struct CornerFace<L: Simd> {
+struct CornerProjections<L: Simd> {
     /// The squared distance of the corner from its projection; infinite if the projection is outside of the face.
     square: f64x4<L>,
     u: f64x4<L>,
     v: f64x4<L>,
 }
 
-impl<L: Simd> CornerFace<L> {
+impl<L: Simd> CornerProjections<L> {
     /// Returns the barycentric coordinates of the projection in the face, and of the corner in its own triangle.
     #[inline(always)]
     fn weights(&self, lane: usize) -> ([f64; 3], [f64; 3]) {
@@ -141,7 +141,11 @@ impl<L: Simd> CornerFace<L> {
 }
 
 #[inline(always)]
-fn project_corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners) -> CornerFace<L> {
+fn project_corners_to_face<L: Simd>(
+    level: L,
+    face: &Corners,
+    corners: &Corners,
+) -> CornerProjections<L> {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);
     let square = n.length_squared();
@@ -156,7 +160,7 @@ fn project_corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners)
         .add_scaled(-v, Lanes3::splat(level, f));
     let zero = splat(level, 0.0);
     let inside = u.simd_ge(zero) & v.simd_ge(zero) & (splat(level, 1.0) - u - v).simd_gt(zero);
-    CornerFace {
+    CornerProjections {
         square: inside.select(apart.dot(apart), splat(level, f64::INFINITY)),
         u,
         v,

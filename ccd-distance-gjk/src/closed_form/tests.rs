@@ -49,8 +49,8 @@ fn claims_name_the_nearest_features(
         support.sort_unstable();
         support
     };
-    assert_eq!(sorted(claim.a.support()), of_a);
-    assert_eq!(sorted(claim.b.support()), of_b);
+    assert_eq!(sorted(claim.a.point_indices()), of_a);
+    assert_eq!(sorted(claim.b.point_indices()), of_b);
 }
 
 /// Tests that claims about segments and points use the indices of the pieces' own points.
@@ -58,7 +58,10 @@ fn claims_name_the_nearest_features(
 fn segments_and_points_keep_their_indices() {
     let segment = [v(1.0, 1.0, 2.0), v(1.0, 1.0, 1.0)];
     let claim = claim(&segment, &[v(1.0, 1.0, 0.0)]).expect("a segment and a point");
-    assert_eq!((claim.a.support(), claim.b.support()), (&[1][..], &[0][..]));
+    assert_eq!(
+        (claim.a.point_indices(), claim.b.point_indices()),
+        (&[1][..], &[0][..])
+    );
     assert_eq!(claim.axis, -DVec3::Z);
 }
 

@@ -69,7 +69,7 @@ impl<'a> MinkowskiDifference<'a> {
 #[inline]
 fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
     if piece.points.len() > MAX_SCANNED_POINTS {
-        return piece.extremal(direction);
+        return piece.extremal_point(direction);
     }
     let mut best = (0, f64::NEG_INFINITY);
     for (k, &point) in (0..).zip(piece.points) {

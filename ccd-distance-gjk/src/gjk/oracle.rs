@@ -9,7 +9,7 @@ use super::start::Cache;
 use super::termination::{StopReason, gap_equals_distance};
 use crate::tolerance::{CERTIFIED_ULPS, MAX_FEATURE_AXIS_ROUNDS, MIN_CERTIFIED_SHARE};
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, Combination, DistanceOracle, GiveUpReason, PiecePair};
+use ccd_core::{Claim, ConvexCombination, DistanceOracle, GiveUpReason, PiecePair};
 
 /// An oracle for the distance of two hulls of any number of points, by GJK `[GJK88]`.
 ///
@@ -51,7 +51,7 @@ impl DistanceOracle for Gjk {
         let Some(difference) = MinkowskiDifference::new(pair) else {
             return Ok(EMPTY_CLAIM);
         };
-        let found = solve_from(&difference, cache);
+        let found = solve_with_cache(&difference, cache);
         *cache = Cache::from_search_result(&found);
         Ok(claim(&found))
     }
@@ -60,14 +60,14 @@ impl DistanceOracle for Gjk {
 /// The claim for a pair in which a piece has no points: no axis and no witnesses.
 pub(crate) const EMPTY_CLAIM: Claim = Claim {
     axis: DVec3::ZERO,
-    a: Combination::EMPTY,
-    b: Combination::EMPTY,
+    a: ConvexCombination::EMPTY,
+    b: ConvexCombination::EMPTY,
 };
 
 /// Searches for the nearest point from the cached simplex, and again without the cache if the result is not certified.
 ///
 /// A cached simplex may be degenerate at the new positions, so that no step gets nearer.
-pub(crate) fn solve_from(difference: &MinkowskiDifference<'_>, cache: &Cache) -> Best {
+pub(crate) fn solve_with_cache(difference: &MinkowskiDifference<'_>, cache: &Cache) -> Best {
     let found = solve(difference, cache.simplex(difference));
     if found.gap > 0.0 && !is_certified(&found) {
         found.combine_results(solve(difference, Cache::default().simplex(difference)))

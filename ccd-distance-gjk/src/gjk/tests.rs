@@ -3,7 +3,7 @@
 use super::fan::AxisCandidates;
 use super::foot::NearestPoint;
 use super::minkowski::MinkowskiDifference;
-use super::oracle::{is_certified, solve, solve_from};
+use super::oracle::{is_certified, solve, solve_with_cache};
 use super::refine::PairedWeights;
 use super::search::{Best, search};
 use super::simplex::{Simplex, Vertex};
@@ -221,7 +221,7 @@ fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
             let difference = MinkowskiDifference::new(&pair).unwrap();
             let warm = solve(&difference, cache.simplex(&difference));
             stalled += u32::from(!is_certified(&warm));
-            let found = solve_from(&difference, &cache);
+            let found = solve_with_cache(&difference, &cache);
             assert!(is_certified(&found), "{height} {t}: {found:?}");
             cache = Cache::from_search_result(&found);
         }

@@ -4,7 +4,7 @@ use super::scene::Scene;
 use super::twin;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Claim, Combination, DistanceOracle};
+use ccd_core::{Claim, ConvexCombination, DistanceOracle};
 
 /// The numbers of a claim that can be checked: the distance of its points, and the support gap of its axis.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +26,8 @@ pub(super) fn ask<O: DistanceOracle>(o: &mut O, scene: &Scene, cache: &mut O::Ca
 }
 
 pub(super) fn check(scene: &Scene, claim: &Claim) -> MeasuredClaim {
-    let (a, b) = scene.local();
-    let place = |combination: &Combination, points: &[DVec3]| {
+    let (a, b) = scene.local_points();
+    let place = |combination: &ConvexCombination, points: &[DVec3]| {
         combination
             .position(points)
             .unwrap_or_else(|| panic!("{claim:?} names no point of {scene:?}"))
@@ -64,7 +64,7 @@ pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -
 /// Checks that the nearest points of separate pieces are as near as by brute force.
 pub(super) fn agrees_with_brute_force<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &claim_with_empty_cache::<O>(scene));
-    let (a, b) = scene.local();
+    let (a, b) = scene.local_points();
     let truth = twin::distance(&a, &b);
     let error = (checked.distance - truth).abs();
     assert!(
@@ -96,7 +96,7 @@ pub(super) fn separates_touching_pieces<O: DistanceOracle + Default>(scene: &Sce
 }
 
 /// Checks that the claimed points of a pair and of the exchanged pair have the same distance.
-pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
+pub(super) fn check_symmetry<O: DistanceOracle + Default>(scene: &Scene) {
     let one = check(scene, &claim_with_empty_cache::<O>(scene));
     let swapped = scene.swapped();
     let other = check(&swapped, &claim_with_empty_cache::<O>(&swapped));

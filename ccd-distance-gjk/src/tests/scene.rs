@@ -39,7 +39,7 @@ impl Scene {
     }
 
     /// Returns both pieces' points in A's frame, relative to A's first point, without the rounding of far coordinates.
-    pub(crate) fn local(&self) -> (Vec<DVec3>, Vec<DVec3>) {
+    pub(crate) fn local_points(&self) -> (Vec<DVec3>, Vec<DVec3>) {
         let between = self.b_to_a.point(self.b[0]) - self.a[0];
         let local = |y: &DVec3| self.b_to_a.rotation * (*y - self.b[0]) + between;
         let a = self.a.iter().map(|x| *x - self.a[0]).collect();

@@ -3,8 +3,8 @@
 use super::certify_march_end;
 use crate::counters::Counters;
 use crate::feature::{Certainty, Feature, Pair};
-use crate::placed::{Placed, PlacedPair};
-use crate::termination::End;
+use crate::placed::{PlacedPair, PlacedPolytope};
+use crate::termination::MarchEnd;
 use crate::tests::setting::{cube, features, moved, needle, point, prepared_polytope, turned};
 use crate::tests::shape;
 use crate::tolerance::CERTAIN_DISTANCE;
@@ -24,8 +24,12 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             // A stop is only examined if rounding could hide a nearer pair.
             let close =
                 Witness::new(placed, pair).distance() < CERTAIN_DISTANCE * placed.scale.size;
-            let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
-            let ends = [End::Cycle(pair), End::StepLimit(pair), End::Unclear(pair)];
+            let tie = close.then_some(MarchEnd::Nearest(pair, Certainty::Tied));
+            let ends = [
+                MarchEnd::Cycle(pair),
+                MarchEnd::StepLimit(pair),
+                MarchEnd::Unclear(pair),
+            ];
             for end in ends.into_iter().chain(tie) {
                 let mut counters = Counters::default();
                 let answer = certify_march_end(placed, end, &mut counters);
@@ -75,12 +79,15 @@ fn positions_that_are_not_finite_are_given_up() {
             b: Feature::Vertex(0),
         };
         let mut counters = Counters::default();
-        let cycle = certify_march_end(&placed, End::Cycle(pair), &mut counters);
-        let cap = certify_march_end(&placed, End::StepLimit(pair), &mut counters);
+        let cycle = certify_march_end(&placed, MarchEnd::Cycle(pair), &mut counters);
+        let cap = certify_march_end(&placed, MarchEnd::StepLimit(pair), &mut counters);
         assert!(matches!(cycle.err(), None | Some(GiveUpReason::Cycle)));
         assert!(matches!(cap.err(), None | Some(GiveUpReason::StepCap)));
         // An end reported as a cycle is counted as one.
-        for end in [End::Unclear(pair), End::Nearest(pair, Certainty::Tied)] {
+        for end in [
+            MarchEnd::Unclear(pair),
+            MarchEnd::Nearest(pair, Certainty::Tied),
+        ] {
             let mut counters = Counters::default();
             let why = certify_march_end(&placed, end, &mut counters).err();
             assert!(why != Some(GiveUpReason::Cycle) || counters.cycles > 0);

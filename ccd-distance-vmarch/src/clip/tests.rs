@@ -1,7 +1,7 @@
 //! Tests the clipping of needles to the prism of a cube's top, and the overlap of parallel segments.
 
 use super::{clip_to_prism, middle_of_overlap};
-use crate::placed::{Line, Placed};
+use crate::placed::{Line, PlacedPolytope};
 use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;

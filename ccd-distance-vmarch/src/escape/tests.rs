@@ -2,7 +2,7 @@
 
 use super::{Escape, escape_local_minimum, farthest};
 use crate::feature::{Feature, LocalMinimum};
-use crate::placed::Placed;
+use crate::placed::PlacedPolytope;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use ccd_core::glam::DVec3;
 

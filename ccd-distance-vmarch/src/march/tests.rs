@@ -4,7 +4,7 @@ use super::march;
 use crate::counters::Counters;
 use crate::feature::Pair;
 use crate::polytope::Polytope;
-use crate::termination::End;
+use crate::termination::MarchEnd;
 use crate::tests::setting::{cube, features, needle, point, prepared_polytope, turned};
 use crate::tests::shape;
 use crate::witness::Witness;
@@ -55,7 +55,7 @@ fn every_start_leads_to_the_nearest_features() {
                         let mut counters = Counters::default();
                         let end = march(&placed, Pair { a, b }, &mut counters);
                         starts += 1;
-                        let End::Nearest(pair, _) = end else {
+                        let MarchEnd::Nearest(pair, _) = end else {
                             // A later step makes a claim for these.
                             others += 1;
                             continue;

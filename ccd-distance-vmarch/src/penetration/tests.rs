@@ -4,7 +4,7 @@ use super::{
     barycentric_coordinates, edge_face_crossing, inner_corner_crossing, search_crossing,
     segment_meets_triangle, weights,
 };
-use crate::placed::Placed;
+use crate::placed::PlacedPolytope;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use crate::tests::shape::{Pcg64, SeedableRng, direction, magnitude, vector};
 use ccd_core::glam::DVec3;

@@ -1,8 +1,8 @@
-use super::{Placed, PlacedPair};
+use super::{PlacedPair, PlacedPolytope};
 use crate::polytope::Polytope;
 use crate::rational::{Exact3, exact};
 use crate::tolerance::PLACEMENT_ERROR;
-use crate::worst::{RandomCase, Worst, share};
+use crate::worst::{RandomCase, WorstCaseSearch, share};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{Frame, Piece};
@@ -17,7 +17,7 @@ fn corners(tape: &mut RandomCase) -> [DVec3; 3] {
 /// Errors of the rotation and translation are excluded: they move all vertices alike.
 #[test]
 fn worst_placing() {
-    let found = Worst::of("PLACING", 6_000).search(|tape| {
+    let found = WorstCaseSearch::of("PLACING", 6_000).search(|tape| {
         let points = [corners(tape), corners(tape)];
         let turn = DVec3::from(tape.vector(-8..=1));
         let frame = Frame {
@@ -29,7 +29,10 @@ fn worst_placing() {
         let (a, b) = (a?, b?);
         let placed = PlacedPair::new(&a, &b, &frame);
         // Corners keep the order of the points that have them.
-        let (i, j) = (tape.pick(a.vertices.len()), tape.pick(b.vertices.len()));
+        let (i, j) = (
+            tape.index_below(a.vertices.len()),
+            tape.index_below(b.vertices.len()),
+        );
         let offset = placed.b.vertex(j as u32) - placed.a.vertex(i as u32);
         let given = |of: &Polytope, k: usize, all: &[DVec3; 3]| {
             let at = of.vertices[k].point + of.origin;
@@ -60,5 +63,5 @@ fn worst_placing() {
         (least[0] > 1e-12 * size && least[1] > 1e-12 * size)
             .then(|| share(off, PLACEMENT_ERROR * size))
     });
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }

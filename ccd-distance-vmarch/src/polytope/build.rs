@@ -29,10 +29,10 @@ impl Polytope {
         let ends = match classify_spread(points, rounding) {
             Spread::Point => return Ok(Self::from_outlines(points, &[0], &[])),
             Spread::Line(ends) => return Ok(Self::from_outlines(points, &ends, &[])),
-            Spread::Wide(ends) => ends,
+            Spread::PlaneOrSpace(ends) => ends,
         };
         let facets = match points.len() {
-            3 => Facets::of_triangle(points),
+            3 => Facets::from_triangle(points),
             _ => Facets::new(points, piece.facets.iter()),
         };
         let facets = facets.ok_or(GiveUpReason::BadFacets)?;
@@ -49,18 +49,18 @@ impl Polytope {
     fn from_outlines(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
         let mut polytope = assemble::assemble_polytope(points, ends, loops);
         if polytope.vertices.len() > MAX_SCANNED_CORNERS {
-            polytope.start_corners = Some(Box::new(DirectionTable::new(&polytope)));
+            polytope.direction_table = Some(Box::new(DirectionTable::new(&polytope)));
         }
         polytope
     }
 }
 
-/// The dimension of a set of points up to rounding; `Line` and `Wide` hold the indices of two points that are far
+/// The dimension of a set of points up to rounding; `Line` and `PlaneOrSpace` hold the indices of two points that are far
 /// apart.
 enum Spread {
     Point,
     Line([u32; 2]),
-    Wide([u32; 2]),
+    PlaneOrSpace([u32; 2]),
 }
 
 /// Returns whether all points are within `rounding` of one point, of one line, or of neither.
@@ -84,6 +84,6 @@ fn classify_spread(points: &[DVec3], rounding: f64) -> Spread {
     {
         Spread::Line([one, other])
     } else {
-        Spread::Wide([one, other])
+        Spread::PlaneOrSpace([one, other])
     }
 }

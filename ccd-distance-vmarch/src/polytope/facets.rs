@@ -44,15 +44,15 @@ impl Facets {
                 kept.push(corners);
             }
         }
-        Self::joined(points, kept)
+        Self::from_loops(points, kept)
     }
 
     /// Creates the two facets of a triangle without thickness: its front and its back.
-    pub(crate) fn of_triangle(points: &[DVec3]) -> Option<Self> {
-        Self::joined(points, vec![vec![0, 1, 2], vec![0, 2, 1]])
+    pub(crate) fn from_triangle(points: &[DVec3]) -> Option<Self> {
+        Self::from_loops(points, vec![vec![0, 1, 2], vec![0, 2, 1]])
     }
 
-    fn joined(points: &[DVec3], loops: Vec<Vec<u32>>) -> Option<Self> {
+    fn from_loops(points: &[DVec3], loops: Vec<Vec<u32>>) -> Option<Self> {
         let mut sides: Vec<(u32, u32, u32)> = Vec::new();
         for (corners, facet) in loops.iter().zip(0..) {
             sides.extend(sides_of_loop(corners).map(|(v, w)| (v, w, facet)));

@@ -71,7 +71,7 @@ fn centre_of_square(square: usize) -> DVec3 {
 impl Polytope {
     /// Returns a corner that is farthest along a direction, up to rounding.
     pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
-        if let Some(table) = &self.start_corners {
+        if let Some(table) = &self.direction_table {
             return self.hill_climb(table.start_vertex(direction), direction);
         }
         let heights = self

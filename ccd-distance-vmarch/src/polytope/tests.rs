@@ -66,7 +66,7 @@ fn assert_valid_polytope(polytope: &Polytope) {
 #[case(shape::prism(100).triangulated(), [200, 300, 102])]
 #[case(shape::antiprism(7), [14, 28, 16])]
 #[case(shape::uv_sphere(9, 16).triangulated(), [146, 304, 160])]
-#[case(shape::cyclic(20), [20, 54, 36])]
+#[case(shape::cyclic_polytope(20), [20, 54, 36])]
 #[case(shape::polygon(12), [12, 12, 2])]
 #[case(shape::polygon(12).triangulated(), [12, 12, 2])]
 #[case(shape::shape_of_points(&[DVec3::X]), [1, 0, 0])]
@@ -121,7 +121,7 @@ fn coplanar_facets_are_one_face_and_corners_within_are_none() {
     for _ in 0..200 {
         let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
         let (size, shift) = (magnitude(&mut rng, -6.0, 6.0), vector(&mut rng));
-        let moved = subdivided_cube().mapped(|p| size * (turn * p + shift));
+        let moved = subdivided_cube().with_mapped_points(|p| size * (turn * p + shift));
         let polytope = prepared_polytope(&moved);
         assert_eq!(counts(&polytope), [8, 12, 6]);
         assert_valid_polytope(&polytope);
@@ -163,7 +163,7 @@ fn thin_polytopes_are_sound() {
         assert_valid_polytope(&made.unwrap_or_else(|why| panic!("{why:?}: {squeeze} {hull:?}")));
         // Turned, its corners are rounded, and its facets no more exactly convex.
         let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
-        let turned = hull.mapped(|p| turn * p);
+        let turned = hull.with_mapped_points(|p| turn * p);
         let pieces = turned.pieces();
         assert!(Polytope::new(&pieces.get(0)).is_ok(), "{turned:?}");
     }

@@ -7,7 +7,7 @@ use super::{Tally, cases};
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUpReason, Piece, PiecePair};
+use ccd_core::{Claim, ConvexCombination, DistanceOracle, Frame, GiveUpReason, Piece, PiecePair};
 use rstest::rstest;
 
 /// Tests that claims about pieces that barely intersect, touch, or are barely apart are exact up to rounding.
@@ -69,7 +69,7 @@ fn touching_is_exact_up_to_rounding(
 fn pieces_inside_intersect() {
     let (large, small) = (
         shape::uv_sphere(9, 16),
-        shape::antiprism(5).mapped(|p| 0.05 * p),
+        shape::antiprism(5).with_mapped_points(|p| 0.05 * p),
     );
     let (large, small) = (Body::new(large), Body::new(small));
     let mut rng = Pcg64::seed_from_u64(3);
@@ -114,7 +114,7 @@ fn query_three_times(oracle: &mut Vmarch, scene: &Scene<'_>, cache: &mut Cache) 
         if let Ok(claim) = oracle.separation(&scene.pair(), cache) {
             for (named, body) in [(claim.a, scene.a), (claim.b, scene.b)] {
                 let known = |&k: &u32| (k as usize) < body.shape.points.len();
-                assert!(named.support().iter().all(known), "{claim:?}");
+                assert!(named.point_indices().iter().all(known), "{claim:?}");
             }
         }
     }
@@ -290,8 +290,8 @@ fn size_does_not_matter() {
             let scene = scene::draw(kind, &pool, &mut rng);
             let power = [-150, -40, 30][(magnitude(&mut rng, 0.0, 1.0) as usize) % 3];
             let scale = 2f64.powi(power);
-            let [a, b] =
-                [scene.a, scene.b].map(|body| Body::new(body.shape.clone().mapped(|p| scale * p)));
+            let [a, b] = [scene.a, scene.b]
+                .map(|body| Body::new(body.shape.clone().with_mapped_points(|p| scale * p)));
             let mut b_to_a = scene.b_to_a;
             b_to_a.translation *= scale;
             let scaled = Scene {
@@ -317,8 +317,8 @@ fn place_does_not_matter() {
     for _ in 0..500 {
         let scene = scene::draw(Kind::Random, &pool, &mut rng);
         let shift = 1e6 * shape::vector(&mut rng);
-        let [a, b] =
-            [scene.a, scene.b].map(|body| Body::new(body.shape.clone().mapped(|p| p + shift)));
+        let [a, b] = [scene.a, scene.b]
+            .map(|body| Body::new(body.shape.clone().with_mapped_points(|p| p + shift)));
         let mut b_to_a = scene.b_to_a;
         b_to_a.translation += shift - b_to_a.rotation * shift;
         let far = Scene {
@@ -346,8 +346,8 @@ fn other_oracles_take_over_and_counts_are_kept() {
         fn separation(&mut self, _: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
             Ok(Claim {
                 axis: DVec3::X,
-                a: Combination::point(0),
-                b: Combination::point(0),
+                a: ConvexCombination::point(0),
+                b: ConvexCombination::point(0),
             })
         }
     }

@@ -66,7 +66,7 @@ pub(crate) fn body_pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
         Kind::Flat => {
             let mut out = [3, 4, 6, 12, 40].map(shape::polygon).to_vec();
             out.push(shape::polygon(8).triangulated());
-            out.push(shape::polygon(5).mapped(|p| p * DVec3::new(1.0, 1e-5, 1.0)));
+            out.push(shape::polygon(5).with_mapped_points(|p| p * DVec3::new(1.0, 1e-5, 1.0)));
             out.extend(hulls(rng, &[8]));
             out
         }
@@ -76,7 +76,7 @@ pub(crate) fn body_pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
     let placed = shapes.into_iter().map(|shape| {
         let (turn, shift) = (rotation(rng), vector(rng));
         let placed = |p| if kept { p } else { turn * p + shift };
-        Body::new(shape.mapped(placed))
+        Body::new(shape.with_mapped_points(placed))
     });
     placed.collect()
 }
@@ -97,7 +97,7 @@ fn shapes_with_faces(rng: &mut Pcg64) -> Vec<Shape> {
 }
 
 fn slivers(rng: &mut Pcg64) -> Vec<Shape> {
-    let mut out = [6, 10, 20].map(shape::cyclic).to_vec();
+    let mut out = [6, 10, 20].map(shape::cyclic_polytope).to_vec();
     for count in [4, 5, 6, 8, 12] {
         for _ in 0..4 {
             let mut thin = || magnitude(rng, -8.0, 0.0);
@@ -124,7 +124,7 @@ fn plates(rng: &mut Pcg64) -> Vec<Shape> {
     for _ in 0..6 {
         let thin = magnitude(rng, -9.0, -2.0);
         out.push(shape::cuboid(DVec3::new(1.0, 0.7, thin)));
-        out.push(shape::prism(7).mapped(|p| p * DVec3::new(1.0, 1.0, thin)));
+        out.push(shape::prism(7).with_mapped_points(|p| p * DVec3::new(1.0, 1.0, thin)));
         out.push(shape::cuboid(DVec3::new(1.0, thin, thin)));
     }
     out
@@ -239,7 +239,7 @@ fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (D
     let n = match rng.random_range(0..4) {
         0 => direction(rng),
         1 if has_aligned_axes(kind) => [DVec3::X, DVec3::Y, DVec3::Z][rng.random_range(0..3)],
-        2 => crossed(a, b, rotation, rng).unwrap_or(DVec3::Z),
+        2 => edge_cross_product(a, b, rotation, rng).unwrap_or(DVec3::Z),
         _ => normal(a, rng).unwrap_or_else(|| direction(rng)),
     };
     let gap = if whole {
@@ -284,7 +284,7 @@ fn normal(body: &Body, rng: &mut Pcg64) -> Option<DVec3> {
     (at(1) - at(0)).cross(at(2) - at(0)).try_normalize()
 }
 
-fn crossed(a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> Option<DVec3> {
+fn edge_cross_product(a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> Option<DVec3> {
     let edge = |body: &Body, rng: &mut Pcg64| {
         let edges = body.shape.edges();
         if edges.is_empty() {

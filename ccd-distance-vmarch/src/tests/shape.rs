@@ -30,7 +30,7 @@ impl Shape {
         Pieces::polytopes(&[polytope]).expect("finite points")
     }
 
-    pub(crate) fn mapped(mut self, map: impl Fn(DVec3) -> DVec3) -> Self {
+    pub(crate) fn with_mapped_points(mut self, map: impl Fn(DVec3) -> DVec3) -> Self {
         self.points.iter_mut().for_each(|p| *p = map(*p));
         self
     }
@@ -103,7 +103,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
                         let on: Vec<u32> = on.collect();
                         let polygon = match on.len() {
                             3 => [p, q, r].map(|v| v as u32).to_vec(),
-                            _ => around(points, &on, triangle),
+                            _ => polygon_corners(points, &on, triangle),
                         };
                         if !planes.contains(&polygon) {
                             planes.push(polygon);
@@ -120,7 +120,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
 }
 
 /// Returns the corners of the convex hull of points in a plane, counterclockwise from the corner of least index.
-fn around(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
+fn polygon_corners(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
     let normal = (q - p).cross(r - p);
     let above = p + normal.normalize_or_zero() * (q - p).length();
     let is_side = |v: u32, w: u32| {
@@ -264,7 +264,7 @@ pub(crate) fn uv_sphere(rings: u32, corners: u32) -> Shape {
 }
 
 /// Creates a cyclic polytope, whose thin triangles all have the first or the last corner in common.
-pub(crate) fn cyclic(count: u32) -> Shape {
+pub(crate) fn cyclic_polytope(count: u32) -> Shape {
     let curve = |t: u32| 2.0 * f64::from(t) / f64::from(count - 1) - 1.0;
     let point = |t: u32| DVec3::new(curve(t), curve(t).powi(2), curve(t).powi(3));
     let first = (1..count - 1).map(|i| vec![0, i + 1, i]);

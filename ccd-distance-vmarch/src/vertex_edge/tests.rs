@@ -51,7 +51,7 @@ fn points_beyond_an_end_continue_to_it(#[case] at: DVec3, #[case] corner: DVec3)
 // Behind both faces: the march goes on to the face that it is less far behind.
 #[case(DVec3::new(0.0, 0.9, 0.5), DVec3::Y)]
 #[case(DVec3::new(0.0, 0.5, 0.9), DVec3::Z)]
-fn points_beside_a_face_continue_to_it(#[case] at: DVec3, #[case] normal: DVec3) {
+fn points_over_a_face_continue_to_it(#[case] at: DVec3, #[case] normal: DVec3) {
     let face = face(&cube(), normal);
     assert_eq!(
         of_point(at),

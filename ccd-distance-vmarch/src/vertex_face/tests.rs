@@ -52,7 +52,7 @@ fn points_continue_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle:
 #[rstest]
 #[case(DVec3::new(0.0, 0.0, 0.9))]
 #[case(DVec3::new(0.0, 0.0, -7.0))]
-fn finds_features_behind(#[case] at: DVec3) {
+fn points_behind_the_face_are_local_minima(#[case] at: DVec3) {
     let MarchStep::LocalMinimum(which, minimum) = of_point(at) else {
         panic!("it is below the top");
     };

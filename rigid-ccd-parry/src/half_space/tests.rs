@@ -73,26 +73,28 @@ fn the_horizon_ends_when_bodies_are_inside_or_away() {
     let plane = HalfSpace::new(DVec3::Y).expect("a normal");
     let ground = at([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
     let horizon = |body| plane.horizon(ground, body, 0.25, f64::INFINITY);
-    let Horizon::Whole(falls) = horizon(at([0.0, 3.0, 0.0], [5.0, -2.0, 0.0], [0.0; 3], 1.0))
+    let QueryDuration::WholeCast(falls) =
+        horizon(at([0.0, 3.0, 0.0], [5.0, -2.0, 0.0], [0.0; 3], 1.0))
     else {
         panic!("it falls through");
     };
     assert!((2.125..2.126).contains(&falls), "{falls}");
-    let Horizon::Whole(rises) = horizon(at([0.0, -3.0, 0.0], [5.0, 2.0, 0.0], [1.0; 3], 1.0))
+    let QueryDuration::WholeCast(rises) =
+        horizon(at([0.0, -3.0, 0.0], [5.0, 2.0, 0.0], [1.0; 3], 1.0))
     else {
         panic!("it comes out");
     };
     assert!((2.125..2.126).contains(&rises), "{rises}");
     let away = horizon(at([0.0, 3.0, 0.0], [5.0, 2.0, 0.0], [1.0; 3], 1.0));
-    assert_eq!(away, Horizon::Whole(0.0));
+    assert_eq!(away, QueryDuration::WholeCast(0.0));
     let slides = horizon(at([0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [1.0; 3], 1.0));
-    let Horizon::Whole(turn) = slides else {
+    let QueryDuration::WholeCast(turn) = slides else {
         panic!("it repeats itself");
     };
     assert!(turn > 3.6 && turn < 3.7, "{turn}");
     assert_eq!(
         horizon(at([0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [0.0; 3], 1.0)),
-        Horizon::Whole(0.0)
+        QueryDuration::WholeCast(0.0)
     );
 }
 
@@ -104,8 +106,11 @@ fn a_motion_that_may_be_along_a_tilted_plane_has_a_long_horizon() {
     let along = at([3.0, 3.0, 3.0], [5.0, -2.0, -3.0], [0.0; 3], 1.0);
     let horizon = plane.horizon(ground, along, 0.25, f64::INFINITY);
     assert!(
-        matches!(horizon, Horizon::Part(duration) if duration > 1e6),
+        matches!(horizon, QueryDuration::Part(duration) if duration > 1e6),
         "{horizon:?}"
     );
-    assert_eq!(plane.horizon(ground, along, 0.25, 1e3), Horizon::Whole(1e3));
+    assert_eq!(
+        plane.horizon(ground, along, 0.25, 1e3),
+        QueryDuration::WholeCast(1e3)
+    );
 }

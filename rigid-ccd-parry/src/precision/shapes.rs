@@ -122,7 +122,7 @@ fn solid_of_revolution_geometry(
         TypedShape::RoundCone(s) => (cone(&s.inner_shape), s.border_radius),
         _ => return Err(ShapeError::Custom),
     };
-    Ok(ShapeGeometry::from_round(
+    Ok(ShapeGeometry::from_solid_of_revolution(
         made?,
         border_radius(grown)?,
         options.excess,

@@ -4,7 +4,7 @@ use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, ShapeCastHit, ShapeCastOptions, ShapeCastStatus};
 use crate::double::library::shape::{Shape, TypedShape};
 use crate::double::make;
-use crate::scenes::{MotionSpec, motions, random, shape};
+use crate::scenes::{MotionSpec, motions, seeded_rng, shape};
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
 /// The number of hits at about the same time as parry's, and how many of them agree in points, normals and sub-shapes.
@@ -74,7 +74,7 @@ fn distance_to_sub_shape(shape: &make::SharedShape, number: u32, point: Vector) 
 }
 
 fn pair(seed: u64, kinds: [u32; 2]) -> ([make::SharedShape; 2], [MotionSpec; 2]) {
-    let mut rng = random(seed);
+    let mut rng = seeded_rng(seed);
     let shapes = kinds.map(|kind| make::shape(&shape(&mut rng, kind)));
     (shapes, motions(&mut rng))
 }

@@ -4,7 +4,7 @@ use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, NonlinearRigidMotion, ShapeCastOptions};
 use crate::double::library::shape::{HalfSpace, Shape};
 use crate::double::make;
-use crate::scenes::{motions, number, random, shape, turn};
+use crate::scenes::{motions, number, seeded_rng, shape, turn};
 use ccd_core::order::lesser;
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
@@ -19,7 +19,7 @@ fn height(plane: &Pose, normal: Vector, at: &Pose, shape: &dyn Shape) -> f64 {
 fn straight_casts_are_parrys() {
     let (mut hits, mut misses) = (0, 0);
     for seed in 0..400 {
-        let mut rng = random(seed);
+        let mut rng = seeded_rng(seed);
         let kind = [0, 1, 2, 3, 4, 5, 7, 8][seed as usize % 8];
         let body = make::shape(&shape(&mut rng, kind));
         let [x, y, z, _] = turn(&mut rng).map(f64::from);
@@ -59,7 +59,7 @@ fn straight_casts_are_parrys() {
 fn turning_bodies_stay_above_until_they_are_hit() {
     let (mut hits, mut misses) = (0, 0);
     for seed in 0..300 {
-        let mut rng = random(seed);
+        let mut rng = seeded_rng(seed);
         let kind = [1, 3, 5, 8][seed as usize % 4];
         let body = make::shape(&shape(&mut rng, kind));
         let plane = HalfSpace::new(Vector::Y);

@@ -20,7 +20,7 @@ mod single {
     use rigid_ccd_parry::f32 as ours;
 
     /// Numbers for which casts tend to fail, such as zeros, infinities and NaN.
-    const ODD: [f32; 20] = [
+    const SPECIAL_NUMBERS: [f32; 20] = [
         0.0,
         -0.0,
         1.0,
@@ -62,7 +62,7 @@ mod double {
     use rigid_ccd_parry::f64 as ours;
 
     /// Numbers for which casts tend to fail, such as zeros, infinities and NaN.
-    const ODD: [f64; 24] = [
+    const SPECIAL_NUMBERS: [f64; 24] = [
         0.0,
         -0.0,
         1.0,

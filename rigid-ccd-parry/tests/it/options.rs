@@ -10,7 +10,7 @@ fn pose_at_x(x: f32) -> Pose {
     Pose::translation(x, 0.0, 0.0)
 }
 
-fn sliding(x: f32, speed: f32) -> NonlinearRigidMotion {
+fn sliding_motion(x: f32, speed: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(pose_at_x(x), Vector::ZERO, speed * Vector::X, Vector::ZERO)
 }
 
@@ -94,9 +94,9 @@ fn times_count_from_the_start_of_the_motion() {
     let ball = Ball::new(1.0);
     let cast = |from, to| {
         let hit = cast_shapes_nonlinear(
-            &sliding(-4.0, 1.0),
+            &sliding_motion(-4.0, 1.0),
             &ball,
-            &sliding(0.0, 0.0),
+            &sliding_motion(0.0, 0.0),
             &ball,
             from,
             to,
@@ -129,9 +129,9 @@ fn times_that_are_no_numbers_are_refused() {
         [f32::INFINITY; 2],
     ] {
         let hit = cast_shapes_nonlinear(
-            &sliding(-4.0, 1.0),
+            &sliding_motion(-4.0, 1.0),
             &ball,
-            &sliding(0.0, 0.0),
+            &sliding_motion(0.0, 0.0),
             &ball,
             from,
             to,
@@ -171,7 +171,7 @@ fn a_limit_is_a_hit_at_a_time_that_is_safe() {
         SharedShape::cuboid(0.5, 0.4, 0.3),
         SharedShape::capsule_y(0.5, 0.2),
     ];
-    let [rests, mut flies] = [sliding(0.0, 0.0), sliding(-3.0, 4.0)];
+    let [rests, mut flies] = [sliding_motion(0.0, 0.0), sliding_motion(-3.0, 4.0)];
     flies.angvel = Vector::new(1.0, 7.0, 3.0);
     let cast = |budget| {
         let mut caster = Caster::new(Options {
@@ -201,7 +201,15 @@ fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
     assert_eq!(hit.status, ShapeCastStatus::OutOfIterations);
     assert!(hit.time_of_impact > 1e5, "{hit:?}");
     // A body that rotates alone repeats its poses.
-    let hit = cast_shapes_nonlinear(&a, &cube, &sliding(1.5, 0.0), &cube, 0.0, f32::MAX, true);
+    let hit = cast_shapes_nonlinear(
+        &a,
+        &cube,
+        &sliding_motion(1.5, 0.0),
+        &cube,
+        0.0,
+        f32::MAX,
+        true,
+    );
     assert!(hit.expect("served").is_none());
 }
 
@@ -220,11 +228,11 @@ fn a_mesh_is_a_surface_unless_the_options_make_it_a_solid() {
             meshes,
             ..Options::default()
         });
-        let flies = sliding(0.0, 1.0);
+        let flies = sliding_motion(0.0, 1.0);
         let hit = caster.cast_shapes_nonlinear(
             &flies,
             &ball,
-            &sliding(0.0, 0.0),
+            &sliding_motion(0.0, 0.0),
             &mesh(flags, 12),
             0.0,
             9.0,
@@ -278,7 +286,7 @@ fn cylinders_are_early_by_at_most_the_excess() {
         let hit = caster.cast_shapes_nonlinear(
             &flies,
             &wheel,
-            &sliding(0.0, 0.0),
+            &sliding_motion(0.0, 0.0),
             &wall,
             0.0,
             9.0,

@@ -7,7 +7,7 @@ use crate::double::library::query::{
 use crate::double::library::shape::{Ball, Cuboid, HalfSpace, HeightField, Shape, SharedShape};
 use crate::double::library::utils::Array2;
 use crate::double::make;
-use crate::scenes::{motions, random, shape, vector};
+use crate::scenes::{motions, seeded_rng, shape, vector};
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
 fn options() -> ShapeCastOptions {
@@ -48,7 +48,7 @@ const PENETRATING_STATUS: ShapeCastStatus = ShapeCastStatus::PenetratingOrWithin
 fn parting_convex_shapes_are_ignored_as_in_parry() {
     let (mut gone, mut kept, mut others) = (0, 0, 0);
     for seed in 0..500 {
-        let mut rng = random(seed);
+        let mut rng = seeded_rng(seed);
         let kinds = [
             [0, 1, 2, 3, 8][seed as usize % 5],
             [0, 1, 2, 3, 8][seed as usize / 5 % 5],
@@ -120,7 +120,7 @@ fn a_body_that_parts_from_flat_triangles_is_ignored_as_in_parry() {
     let floor = HeightField::new(flat, Vector::new(18.0, 1.0, 18.0));
     let (mut gone, mut kept) = (0, 0);
     for seed in 0..200 {
-        let mut rng = random(seed);
+        let mut rng = seeded_rng(seed);
         let [x, _, z] = vector(&mut rng, 2.0).map(f64::from);
         let [vx, vy, vz] = vector(&mut rng, 1.0).map(f64::from);
         // The body moves upwards: off the plane, and into the edges of triangles within the plane.

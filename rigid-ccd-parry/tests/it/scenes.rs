@@ -95,7 +95,7 @@ impl MotionSpec {
     }
 }
 
-pub(crate) fn random(seed: u64) -> Pcg64Mcg {
+pub(crate) fn seeded_rng(seed: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(seed)
 }
 

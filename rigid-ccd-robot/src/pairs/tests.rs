@@ -29,7 +29,7 @@ fn robot() -> Robot {
 
 #[test]
 fn neighbours_and_rigid_pairs_are_left_out() {
-    let pairs = LinkPairs::of_robot(&robot());
+    let pairs = LinkPairs::from_robot(&robot());
     assert_eq!(pairs.skip_reason(1, 0), Some(&SkipReason::Adjacent));
     assert_eq!(pairs.skip_reason(3, 0), Some(&SkipReason::Adjacent));
     assert_eq!(pairs.skip_reason(2, 4), Some(&SkipReason::NoMotion));
@@ -40,7 +40,7 @@ fn neighbours_and_rigid_pairs_are_left_out() {
 
 #[test]
 fn pairs_can_be_left_out_and_checked_again() {
-    let mut pairs = LinkPairs::of_robot(&robot());
+    let mut pairs = LinkPairs::from_robot(&robot());
     pairs.skip(4, 0, SkipReason::Disabled("Never".into()));
     pairs.skip(1, 0, SkipReason::Disabled("User".into()));
     assert_eq!(pairs.skip_reason(0, 1), Some(&SkipReason::Adjacent));

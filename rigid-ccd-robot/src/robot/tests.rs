@@ -37,24 +37,24 @@ fn links(count: usize) -> Vec<Link> {
 }
 
 /// A random robot, and for each joint the data from which a test computes poses by matrices of its own.
-struct Drawn {
+struct RandomRobot {
     robot: Robot,
-    twins: Vec<Twin>,
+    twins: Vec<ReferenceJoint>,
 }
 
-struct Twin {
+struct ReferenceJoint {
     parent: usize,
     origin: Pose,
     axis: DVec3,
     kind: usize,
     /// The number of the joint that this joint follows with factor −2 and offset 0.5; its own number if it follows
     /// none.
-    follows: usize,
+    followed_joint: usize,
 }
 
 /// Draws a random robot of 8 links, in which joint `k` moves link `k + 1`.
-fn draw(random: &mut Pcg64) -> Drawn {
-    let mut twins: Vec<Twin> = Vec::new();
+fn draw(random: &mut Pcg64) -> RandomRobot {
+    let mut twins: Vec<ReferenceJoint> = Vec::new();
     let mut joints = Vec::new();
     for k in 0..7 {
         let (origin, kind) = (pose(random), k % 3);
@@ -77,23 +77,23 @@ fn draw(random: &mut Pcg64) -> Drawn {
             };
         }
         joints.push(joint);
-        twins.push(Twin {
+        twins.push(ReferenceJoint {
             parent,
             origin,
             axis,
             kind,
-            follows,
+            followed_joint: follows,
         });
     }
     // A robot may be given in any order.
     joints.rotate_left(3);
     let robot = Robot::new(links(8), joints).unwrap();
-    Drawn { robot, twins }
+    RandomRobot { robot, twins }
 }
 
-impl Drawn {
+impl RandomRobot {
     fn position(&self, joint: usize, of: &dyn Fn(usize) -> f64) -> f64 {
-        match self.twins[joint].follows {
+        match self.twins[joint].followed_joint {
             own if own == joint => of(joint),
             followed => 0.5 - 2.0 * self.position(followed, of),
         }
@@ -165,7 +165,7 @@ fn stretches_between_branches_hold() {
     let mut random = Pcg64::seed_from_u64(2);
     let mut nearest = 0.0_f64;
     for _ in 0..200 {
-        let Drawn { robot, .. } = draw(&mut random);
+        let RandomRobot { robot, .. } = draw(&mut random);
         let [from, to] = [random.random_range(0..8), random.random_range(0..8)];
         let between = robot.chain_between(from, to);
         let [first, last] = [(); 2].map(|()| {
@@ -251,7 +251,7 @@ fn joints_that_follow_nothing_are_refused() {
 #[test]
 fn configurations_that_do_not_fit_are_refused() {
     let mut limited = hinge("elbow", "link0", "link1");
-    limited.joint = limited.joint.within(-1.0..=1.0);
+    limited.joint = limited.joint.with_limits(-1.0..=1.0);
     let robot = Robot::new(links(2), vec![limited]).unwrap();
     let message =
         |configuration: &[f64]| robot.pose("link1", configuration).unwrap_err().to_string();
@@ -271,7 +271,7 @@ fn configurations_that_do_not_fit_are_refused() {
 #[test]
 fn limits_of_a_joint_that_follows_do_not_count() {
     let mut follower = hinge("follower", "link0", "link2");
-    follower.joint = follower.joint.within(0.0..=0.1);
+    follower.joint = follower.joint.with_limits(0.0..=0.1);
     follower.position = Position::Follows {
         joint: "leader".into(),
         multiplier: 3.0,

@@ -8,12 +8,12 @@ use std::collections::HashMap;
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
     /// For each link, the numbers of the joint that moves it and of its parent link; `None` for the base.
-    above: Vec<Option<Above>>,
+    parents: Vec<Option<Parent>>,
     base: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Above {
+struct Parent {
     joint: usize,
     parent: usize,
 }
@@ -23,7 +23,7 @@ struct Above {
 pub(super) struct Step {
     pub(super) joint: usize,
     /// Whether the path leads up, from the joint's child link to its parent link.
-    pub(super) is_up: bool,
+    pub(super) leads_to_parent: bool,
 }
 
 impl Tree {
@@ -47,7 +47,7 @@ impl Tree {
             }
             let (child, parent) = (number(&joint.child)?, number(&joint.parent)?);
             let link = || joint.child.clone();
-            if above[child].replace(Above { joint: k, parent }).is_some() {
+            if above[child].replace(Parent { joint: k, parent }).is_some() {
                 return Err(RobotError::TwoParents {
                     link: link(),
                     joint: name,
@@ -65,7 +65,10 @@ impl Tree {
             (None, _) if links.is_empty() => return Err(RobotError::NoLinks),
             (None, _) => return Err(RobotError::Loop { link: name(0) }),
         };
-        let tree = Tree { above, base };
+        let tree = Tree {
+            parents: above,
+            base,
+        };
         let is_lost = |&link: &usize| tree.ancestors(link).count() > links.len();
         match (0..links.len()).find(is_lost) {
             Some(link) => Err(RobotError::Loop { link: name(link) }),
@@ -78,13 +81,13 @@ impl Tree {
     }
 
     pub(super) fn parent(&self, link: usize) -> Option<usize> {
-        self.above[link].map(|above| above.parent)
+        self.parents[link].map(|above| above.parent)
     }
 
     /// Iterates over a link and its ancestors, up to the base. A loop ends after more links than there are.
     fn ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
         let up = |&link: &usize| self.parent(link);
-        std::iter::successors(Some(link), up).take(self.above.len() + 1)
+        std::iter::successors(Some(link), up).take(self.parents.len() + 1)
     }
 
     /// Returns the joints on the path from one link to another, through their nearest common ancestor.
@@ -96,10 +99,10 @@ impl Tree {
         let steps_to_common = |link: usize, is_up: bool| {
             self.ancestors(link)
                 .take_while(move |&link| link != common)
-                .filter_map(move |link| self.above[link])
+                .filter_map(move |link| self.parents[link])
                 .map(move |above| Step {
                     joint: above.joint,
-                    is_up,
+                    leads_to_parent: is_up,
                 })
         };
         let mut steps: Vec<Step> = steps_to_common(to, false).collect();

@@ -48,12 +48,12 @@ pub enum UrdfError {
         kind: String,
     },
     /// The file of a mesh was not found at any of the paths that its name may mean.
-    #[error("`{uri}` is not found; looked for {}", tried.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "))]
+    #[error("`{uri}` is not found; looked for {}", searched_paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "))]
     MeshNotFound {
         /// The file name or `package://` name of the mesh, as the URDF gives it.
         uri: String,
         /// The paths that were searched for the mesh, in order.
-        tried: Vec<PathBuf>,
+        searched_paths: Vec<PathBuf>,
     },
     /// A mesh cannot be read.
     #[error(transparent)]
@@ -76,7 +76,7 @@ pub enum UrdfError {
 
 impl UrdfError {
     /// Returns this error with the name of the link in which it occurred.
-    pub(super) fn of_link(self, link: &str) -> Self {
+    pub(super) fn with_link_name(self, link: &str) -> Self {
         UrdfError::Link {
             link: link.to_owned(),
             error: Box::new(self),
@@ -84,7 +84,7 @@ impl UrdfError {
     }
 
     /// Returns this error with the name of the joint in which it occurred.
-    pub(super) fn of_joint(self, joint: &str) -> Self {
+    pub(super) fn with_joint_name(self, joint: &str) -> Self {
         UrdfError::Joint {
             joint: joint.to_owned(),
             error: Box::new(self),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug)]
 pub(super) struct Packages {
     /// The folder of the URDF file, from which relative paths start.
-    beside: PathBuf,
+    urdf_folder: PathBuf,
     /// Folders that are packages, or hold packages, in the order in which they are searched.
     folders: Vec<PathBuf>,
 }
@@ -26,10 +26,13 @@ impl Packages {
         // A URDF is usually a few folders below its package.
         let whole = beside.canonicalize().unwrap_or_else(|_| beside.clone());
         folders.extend(whole.ancestors().map(Path::to_owned));
-        Packages { beside, folders }
+        Packages {
+            urdf_folder: beside,
+            folders,
+        }
     }
 
-    pub(super) fn look_first_in(&mut self, folder: PathBuf) {
+    pub(super) fn prepend_folder(&mut self, folder: PathBuf) {
         self.folders.insert(0, folder);
     }
 
@@ -40,7 +43,7 @@ impl Packages {
             Some(path) => Ok(path.clone()),
             None => Err(UrdfError::MeshNotFound {
                 uri: uri.to_owned(),
-                tried,
+                searched_paths: tried,
             }),
         }
     }
@@ -52,7 +55,7 @@ impl Packages {
             .or_else(|| uri.strip_prefix("model://"));
         let Some(path) = in_package else {
             let path = uri.strip_prefix("file://").unwrap_or(uri);
-            return vec![self.beside.join(path)];
+            return vec![self.urdf_folder.join(path)];
         };
         let (package, rest) = path.split_once('/').unwrap_or((path, ""));
         let in_folder = |folder: &PathBuf| {

@@ -52,7 +52,12 @@ fn shapes_have_their_whole_sizes() {
     let spans: Vec<Vec<f64>> = robot
         .links()
         .iter()
-        .map(|link| link.bodies.iter().map(|body| body.body.span()).collect())
+        .map(|link| {
+            link.bodies
+                .iter()
+                .map(|body| body.body.bounding_radius())
+                .collect()
+        })
         .collect();
     let mesh = 2.0;
     let expected = [[f64::sqrt(14.0), 0.5], [f64::sqrt(2.0), 2.0], [mesh, mesh]];
@@ -74,7 +79,7 @@ fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
     assert!(Arc::ptr_eq(&bodies[0].body, &bodies[1].body));
     assert_eq!(bodies[0].body.volume(), rigid_ccd::body::Volume::Solid);
     let hull = urdf(&folder(JOINTS))
-        .with_meshes(MeshModel::OuterHull)
+        .with_mesh_model(MeshModel::OuterHull)
         .read()
         .unwrap();
     assert_eq!(hull.links()[2].bodies[0].body.pieces().len(), 1);

@@ -86,9 +86,9 @@ fn joint(joint: &urdf_rs::Joint) -> Result<Joint, InputError> {
     let origin = Pose::new(joint.origin.xyz.0, turned)?;
     let limits = joint.limit.lower..=joint.limit.upper;
     Ok(match joint.joint_type {
-        JointType::Revolute => Joint::revolute(origin, joint.axis.xyz.0)?.within(limits),
+        JointType::Revolute => Joint::revolute(origin, joint.axis.xyz.0)?.with_limits(limits),
         JointType::Continuous => Joint::revolute(origin, joint.axis.xyz.0)?,
-        JointType::Prismatic => Joint::prismatic(origin, joint.axis.xyz.0)?.within(limits),
+        JointType::Prismatic => Joint::prismatic(origin, joint.axis.xyz.0)?.with_limits(limits),
         _ => Joint::fixed(origin),
     })
 }

@@ -13,7 +13,7 @@ pub struct BatchSize {
 }
 
 /// The target duration of a batch; an interruption loses at most about this much work.
-const BATCH: Duration = Duration::from_millis(500);
+const TARGET_DURATION: Duration = Duration::from_millis(500);
 
 /// The maximum number of rows in a batch.
 const MAX_ITEMS: usize = 4096;
@@ -36,10 +36,10 @@ impl BatchSize {
     ///
     /// Threads wait for the slowest one at the end of a batch, so that sizes grow in few steps.
     pub fn adapt(&mut self, taken: Duration) {
-        if taken < BATCH / 2 {
-            let growth = if taken < BATCH / 16 { 8 } else { 2 };
+        if taken < TARGET_DURATION / 2 {
+            let growth = if taken < TARGET_DURATION / 16 { 8 } else { 2 };
             self.items = MAX_ITEMS.min(growth * self.items);
-        } else if taken > 2 * BATCH {
+        } else if taken > 2 * TARGET_DURATION {
             self.items = self.least.max(self.items / 2);
         }
     }

@@ -61,7 +61,7 @@ impl ScheduleKind {
     }
 
     /// Returns whether the schedule advances all pairs by one common step, for which it uses a [bound](BoundKind).
-    pub fn uses_a_bound(self) -> bool {
+    pub fn uses_velocity_bound(self) -> bool {
         self != ScheduleKind::BestFirst
     }
 }
@@ -106,9 +106,11 @@ impl SolverKind {
     /// Creates a solver whose backend uses the given instruction set.
     pub fn solver(self, instructions: Instructions) -> Box<dyn Solve> {
         match self.oracle {
-            OracleKind::Direct => self.with_oracle(ClosedForm::new(instructions).or_else(Gjk)),
-            OracleKind::Gjk => self.with_oracle(Gjk),
-            OracleKind::Vmarch => self.with_oracle(Vmarch::default().or_else(Gjk)),
+            OracleKind::Direct => {
+                self.solver_with_oracle(ClosedForm::new(instructions).or_else(Gjk))
+            }
+            OracleKind::Gjk => self.solver_with_oracle(Gjk),
+            OracleKind::Vmarch => self.solver_with_oracle(Vmarch::default().or_else(Gjk)),
         }
     }
 
@@ -121,7 +123,7 @@ impl SolverKind {
         }
     }
 
-    fn with_oracle<O>(self, oracle: O) -> Box<dyn Solve>
+    fn solver_with_oracle<O>(self, oracle: O) -> Box<dyn Solve>
     where
         O: DistanceOracle + Send + 'static,
         O::Cache: Send,

@@ -1,7 +1,7 @@
 //! `ccd completions`: completion scripts for shells.
 
 use super::{Cli, Exit};
-use crate::command::output::CannotWrite;
+use crate::command::output::OutputError;
 use anyhow::Result;
 use clap::{Args, CommandFactory};
 use clap_complete::{Shell, generate};
@@ -26,6 +26,6 @@ pub(super) fn run(args: &CompletionsArgs) -> Result<Exit> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "ccd", &mut script);
     let written = io::stdout().write_all(&script);
-    written.map_err(CannotWrite::at_standard_output)?;
+    written.map_err(OutputError::for_standard_output)?;
     Ok(Exit::AllAnswered)
 }

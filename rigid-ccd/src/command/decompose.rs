@@ -6,7 +6,7 @@ use super::Exit;
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::named::{ORDERS, named_value_parser};
-use super::output::{CannotWrite, Output};
+use super::output::{Output, OutputError};
 use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
@@ -130,7 +130,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
         FormatArg::Text => writeln!(io::stdout(), "{statistics}"),
         FormatArg::Json => writeln!(io::stdout(), "{}", serde_json::to_string(&statistics)?),
     };
-    printed.map_err(CannotWrite::at_standard_output)?;
+    printed.map_err(OutputError::for_standard_output)?;
     Ok(Exit::AllAnswered)
 }
 
@@ -190,7 +190,7 @@ impl OutputKind {
         }
     }
 
-    fn write(self, model: &Model, out: Output) -> Result<(), CannotWrite> {
+    fn write(self, model: &Model, out: Output) -> Result<(), OutputError> {
         out.write(|writer| match self {
             OutputKind::Pieces => write_obj_pieces(&model.pieces, writer),
             OutputKind::Body => model.write(writer).map_err(|error| match error.fault {

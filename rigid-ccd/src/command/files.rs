@@ -1,7 +1,7 @@
 //! Opens input tables from files or standard input, and names files in messages.
 
 use super::output::{JOURNAL_EXTENSION, is_standard_output, is_standard_stream};
-use crate::table::courses::Courses;
+use crate::table::courses::MovementRows;
 use crate::table::csv_records::CsvRecords;
 use crate::table::motions::MotionRows;
 use crate::table::paths::Grouping;
@@ -48,12 +48,12 @@ pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Opti
 }
 
 /// The rows of a table of motions or paths, from a file or standard input.
-pub(super) type Rows = Courses<CsvRecords<Source>>;
+pub(super) type Rows = MovementRows<CsvRecords<Source>>;
 
 /// Opens a table of motions or paths, and returns its rows and, if known, its length in bytes.
 pub(super) fn open_movement_rows(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
     let (input, length) = open_table(path)?;
-    let rows = Courses::new(input, grouping).with_context(|| input_name(path))?;
+    let rows = MovementRows::new(input, grouping).with_context(|| input_name(path))?;
     Ok((rows, length))
 }
 

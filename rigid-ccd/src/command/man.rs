@@ -1,7 +1,7 @@
 //! `ccd man`: man pages for the command and each subcommand.
 
 use super::{Cli, Exit};
-use crate::command::output::CannotWrite;
+use crate::command::output::OutputError;
 use anyhow::Result;
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
@@ -29,11 +29,11 @@ pub(super) fn run(args: &ManArgs) -> Result<Exit> {
 }
 
 /// Writes the man pages of a command and of all its subcommands into a folder.
-fn write(command: Command, folder: &Path) -> Result<(), CannotWrite> {
+fn write(command: Command, folder: &Path) -> Result<(), OutputError> {
     for below in command.get_subcommands().filter(|c| !c.is_hide_set()) {
         write(below.clone(), folder)?;
     }
     let page = Man::new(command);
     let path = folder.join(page.get_filename());
-    ccd_file::write(&path, |out| page.render(out)).map_err(|error| CannotWrite::at(&path, error))
+    ccd_file::write(&path, |out| page.render(out)).map_err(|error| OutputError::at(&path, error))
 }

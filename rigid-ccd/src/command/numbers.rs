@@ -13,7 +13,7 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 /// Parses a length or a time from 0 to [`MAX_COORDINATE`].
-pub(super) fn not_negative(text: &str) -> Result<f64, String> {
+pub(super) fn parse_nonnegative(text: &str) -> Result<f64, String> {
     number(text)
         .filter(|value| (0.0..=MAX_COORDINATE).contains(value))
         .ok_or_else(|| format!("give a number from 0 to {MAX_COORDINATE:e}, such as 0.01"))

@@ -7,21 +7,21 @@ use std::path::{Path, PathBuf};
 /// The error of an output that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {place}: {source}")]
-pub struct CannotWrite {
+pub struct OutputError {
     /// The path of the file, or the name of the stream.
     pub place: String,
     /// The error of the operating system.
     pub source: io::Error,
 }
 
-impl CannotWrite {
+impl OutputError {
     pub(super) fn at(path: &Path, source: io::Error) -> Self {
         let place = output_name(path);
-        CannotWrite { place, source }
+        OutputError { place, source }
     }
 
-    pub(super) fn at_standard_output(source: io::Error) -> Self {
-        CannotWrite::at(Path::new("-"), source)
+    pub(super) fn for_standard_output(source: io::Error) -> Self {
+        OutputError::at(Path::new("-"), source)
     }
 }
 
@@ -39,7 +39,7 @@ pub(super) enum Output {
 
 impl Output {
     /// Reserves an output before the work starts, so that an output that cannot be written fails at once.
-    pub(super) fn claim(path: &Path) -> Result<Self, CannotWrite> {
+    pub(super) fn claim(path: &Path) -> Result<Self, OutputError> {
         let claim = || {
             if is_standard_output(path) {
                 return Ok(Output::Stream(path.to_owned()));
@@ -49,11 +49,11 @@ impl Output {
                 Destination::Stream => Output::Stream(path.to_owned()),
             })
         };
-        claim().map_err(|source| CannotWrite::at(path, source))
+        claim().map_err(|source| OutputError::at(path, source))
     }
 
     /// Reserves an output for a table other than a query's results; refuses to overwrite an interrupted query.
-    pub(super) fn claim_table(path: &Path) -> Result<Self, CannotWrite> {
+    pub(super) fn claim_table(path: &Path) -> Result<Self, OutputError> {
         let output = Output::claim(path)?;
         match &output {
             Output::File(claim, _)
@@ -61,10 +61,10 @@ impl Output {
             {
                 let problem = format!(
                     "{} has rows of an interrupted query; continue that with --resume, or delete the file",
-                    claim.partial().display()
+                    claim.partial_path().display()
                 );
                 let source = io::Error::new(io::ErrorKind::ResourceBusy, problem);
-                Err(CannotWrite::at(path, source))
+                Err(OutputError::at(path, source))
             }
             _ => Ok(output),
         }
@@ -85,14 +85,14 @@ impl Output {
     pub(super) fn write(
         self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), CannotWrite> {
+    ) -> Result<(), OutputError> {
         let place = self.name();
         let written = match self {
             Output::File(claim, _) => claim.write(fill),
             Output::Stream(path) if is_standard_output(&path) => fill(&mut io::stdout().lock()),
             Output::Stream(path) => ccd_file::write(path, fill),
         };
-        written.map_err(|source| CannotWrite { place, source })
+        written.map_err(|source| OutputError { place, source })
     }
 }
 

@@ -115,7 +115,7 @@ impl Pair {
     /// body.
     pub(super) fn print_remarks(&self, tolerance: f64, rows: &Rows) {
         let Bodies { a, b } = self.bodies();
-        let remark = Remark::of_tolerance(tolerance, [a, b].map(Remark::size));
+        let remark = Remark::check_tolerance(tolerance, [a, b].map(Remark::size));
         print_remarks(remark.into_iter().chain(rows.remarks()));
     }
 
@@ -171,7 +171,7 @@ fn same_source(a: &BodySource, b: &BodySource) -> bool {
 /// Returns the files that a body is read from; empty for a primitive.
 fn files(source: &BodySource) -> Vec<PathBuf> {
     // An unreadable file is reported when its body is made.
-    source.files().unwrap_or_else(|_| match source {
+    source.file_paths().unwrap_or_else(|_| match source {
         BodySource::Stored(path) => vec![path.clone()],
         BodySource::Mesh(source) => vec![source.file.clone()],
         _ => Vec::new(),

@@ -17,7 +17,7 @@ pub struct Progress {
     steps: Arc<AtomicU64>,
     total: Total,
     /// The number of input bytes that each step of the current batch counts for, if the total is in bytes.
-    bytes_of_step: AtomicU64,
+    bytes_per_step: AtomicU64,
     /// The end of the current batch's rows, in bytes of the input, if the total is in bytes.
     end: AtomicU64,
     /// The sender whose drop tells the displaying thread that the work is done.
@@ -89,7 +89,7 @@ impl Progress {
     }
 
     /// Starts to show progress through an input of rows, `length` bytes long if known; shows nothing if `quiet`.
-    pub fn of_rows(length: Option<u64>, quiet: bool) -> Self {
+    pub fn for_rows(length: Option<u64>, quiet: bool) -> Self {
         if quiet {
             Progress::hidden()
         } else {
@@ -113,7 +113,7 @@ impl Progress {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
             steps: Arc::default(),
             total: Total::Unknown,
-            bytes_of_step: AtomicU64::new(0),
+            bytes_per_step: AtomicU64::new(0),
             end: AtomicU64::new(0),
             done_signal: None,
             display_thread: None,
@@ -125,19 +125,19 @@ impl Progress {
         self.steps.fetch_add(1, Ordering::Relaxed);
         match self.total {
             Total::Steps(_) => self.bar.inc(1),
-            Total::Bytes(_) => self.bar.inc(self.bytes_of_step.load(Ordering::Relaxed)),
+            Total::Bytes(_) => self.bar.inc(self.bytes_per_step.load(Ordering::Relaxed)),
             Total::Unknown | Total::SingleStep => {}
         }
     }
 
     /// Begins a batch of `steps` steps, which answer the input's rows up to byte `end`; rows before the batch count as
     /// answered.
-    pub fn answering(&self, steps: usize, end: u64) {
+    pub fn begin_batch(&self, steps: usize, end: u64) {
         if let Total::Bytes(_) = self.total {
             let begin = self.end.swap(end, Ordering::Relaxed);
             self.bar.set_position(begin);
             let bytes = end.saturating_sub(begin) / (steps as u64).max(1);
-            self.bytes_of_step.store(bytes, Ordering::Relaxed);
+            self.bytes_per_step.store(bytes, Ordering::Relaxed);
         }
     }
 

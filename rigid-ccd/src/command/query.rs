@@ -19,13 +19,13 @@ use super::{Exit, print_error};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion};
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
-use crate::picture::{Asked, Claim};
+use crate::picture::{QueryContext, TimeMeaning};
 use answering::BatchRun;
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use clap::ArgMatches;
-use journal::{CONTENT_PREFIX, Checkpoint, RecordedOptions};
+use journal::{CHECKSUM_PREFIX, Checkpoint, RecordedOptions};
 use outputs::{ClaimedFiles, OpenedTables};
 use run::QueryRun;
 use std::io::{self, Write};
@@ -54,11 +54,11 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     }
     let start = resume::skip_rows(args, &mut rows, earlier)?;
     outputs.save(start)?;
-    let timing = timing(args);
+    let timing = timed_question(args);
     if timing.method.bound == BoundKind::Published {
         print_error("--bound published: times are not certified, contacts may be late or missed");
     }
-    let progress = Progress::of_rows(length, args.quiet);
+    let progress = Progress::for_rows(length, args.quiet);
     let mut run = QueryRun {
         args,
         answering: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
@@ -101,17 +101,17 @@ fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(ChosenRows, Output)>)
 }
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
-fn page_context(args: &QueryArgs) -> Asked {
+fn page_context(args: &QueryArgs) -> QueryContext {
     let claim = match (args.bound, args.ask) {
-        (Some(BoundKind::Published), _) => Claim::Published,
-        (_, Question::IsFree) => Claim::Any,
-        (_, Question::Distance) => Claim::MeasurementTime,
-        _ if ignores_start_contacts(args) => Claim::FirstContactAfterParting,
+        (Some(BoundKind::Published), _) => TimeMeaning::Published,
+        (_, Question::IsFree) => TimeMeaning::Any,
+        (_, Question::Distance) => TimeMeaning::MeasurementTime,
+        _ if ignores_start_contacts(args) => TimeMeaning::FirstContactAfterParting,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
-            Claim::First
+            TimeMeaning::FirstContact
         }
     };
-    Asked {
+    QueryContext {
         claim,
         margin: args.margin,
         clearance: args.clearance,
@@ -143,7 +143,7 @@ fn check_file_paths(args: &QueryArgs) -> Result<()> {
 /// Refuses `--bound` for a schedule that uses no bound on the motion.
 fn check_bound(args: &QueryArgs) -> Result<()> {
     match args.bound {
-        Some(bound) if !args.schedule.uses_a_bound() => {
+        Some(bound) if !args.schedule.uses_velocity_bound() => {
             bail!("--bound {bound} needs --schedule fast or naive")
         }
         _ => Ok(()),
@@ -216,7 +216,7 @@ fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> Record
     let mut recorded = vec![("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned())];
     recorded.extend(args.recorded_options(given));
     for (option, checksum) in &pair.checksums {
-        recorded.push((format!("{CONTENT_PREFIX}{option}"), checksum.clone()));
+        recorded.push((format!("{CHECKSUM_PREFIX}{option}"), checksum.clone()));
     }
     RecordedOptions(recorded)
 }
@@ -229,7 +229,7 @@ fn method(args: &QueryArgs) -> SolverKind {
     }
 }
 
-fn timing(args: &QueryArgs) -> TimedQuestion {
+fn timed_question(args: &QueryArgs) -> TimedQuestion {
     TimedQuestion {
         question: args.ask,
         method: method(args),
@@ -251,7 +251,7 @@ fn timing(args: &QueryArgs) -> TimedQuestion {
 /// Warns that no row was answered, and says why.
 fn report_no_rows(args: &QueryArgs, skipped: usize) {
     let input = input_name(&args.motions);
-    if args.rows.is_all() {
+    if args.rows.includes_all_rows() {
         print_error(&format!("{input}: has a header, but no rows"));
     } else {
         print_error(&format!(
@@ -285,7 +285,7 @@ fn run_outcome(args: &QueryArgs, end: Checkpoint) -> Exit {
             "--check: {failed} of {rows} rows are not proven free or kept"
         ));
     }
-    match (end.bad, failed) {
+    match (end.bad_rows, failed) {
         (0, 1..) if args.check => Exit::SomeRowsNotFree,
         (0, _) => Exit::AllAnswered,
         _ => Exit::SomeRowsBad,

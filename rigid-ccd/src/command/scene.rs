@@ -1,7 +1,7 @@
 //! `ccd scene`: lists which bodies of a scene touch, in order of time.
 
 use super::meshes::MeshArgs;
-use super::numbers::{not_negative, tolerance};
+use super::numbers::{parse_nonnegative, tolerance};
 use super::output::Output;
 use super::scene_table::{self, SceneArgs};
 use super::table::Table;
@@ -26,13 +26,13 @@ pub(super) struct SceneCommandArgs {
     #[command(flatten)]
     meshes: MeshArgs,
     /// Time at which all motions end [default: 1]
-    #[arg(long, value_name = "TIME", value_parser = not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: f64,
     /// Distance to keep between the bodies, in the scene's unit of length
-    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true)]
     margin: f64,
     /// Leave a pair unresolved after N units of work; a million takes about a second
     #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
@@ -117,7 +117,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
 /// Returns the row of the table of results for the contact or error of a pair.
 fn row(contact: &Result<Impact, PairError>) -> ResultRow {
     match contact.as_ref().map_err(|pair| &pair.error) {
-        Ok(impact) => ResultRow::of_hit(&impact.hit),
+        Ok(impact) => ResultRow::from_hit(&impact.hit),
         Err(Error::Unresolved(known)) => ResultRow {
             status: Status::Unresolved,
             time: Some(known.safe_until),

@@ -5,7 +5,7 @@ use super::meshes::MeshArgs;
 use super::{print_error, print_line, print_remarks};
 use crate::picture::DrawnBody;
 use crate::scene::{Impact, PairError};
-use crate::table::columns::{BODY_COLUMN_NAME, Columns, Form};
+use crate::table::columns::{BODY_COLUMN_NAME, Columns, TableKind};
 use crate::table::csv_records::CsvRecords;
 use crate::table::motions::{BodyRow, RowPosition, RowProblem, body};
 use crate::table::records::Records;
@@ -97,7 +97,7 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
             "all motions of a scene end together: give --duration in place of the column `{time}`"
         );
     }
-    let columns = Columns::from_header(&header, Form::Scene)?;
+    let columns = Columns::from_header(&header, TableKind::Scene)?;
     let mut rows: Vec<PlacedRow> = Vec::new();
     while let Some(position) = records.advance()? {
         let row = body(&columns, records.current(), position.row, duration);
@@ -147,7 +147,7 @@ impl SceneTable {
         let prepared = source.load_adjusted(&how.meshes.adjustments(), detail)?;
         self.reports.push(format!("{text}: {}", prepared.report));
         self.bodies.insert(text.to_owned(), prepared.body);
-        self.files.extend(source.files()?);
+        self.files.extend(source.file_paths()?);
         Ok(())
     }
 
@@ -165,7 +165,7 @@ impl SceneTable {
         let sizes = self.bodies.values().map(Remark::size);
         let least = sizes.filter(|&size| size > 0.0).fold(f64::INFINITY, lesser);
         let remarks = self.remarks.iter().copied();
-        print_remarks(remarks.chain(Remark::of_tolerance(tolerance, [least; 2])));
+        print_remarks(remarks.chain(Remark::check_tolerance(tolerance, [least; 2])));
     }
 
     /// Returns the bodies to draw, in the order of their rows.

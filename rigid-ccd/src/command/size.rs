@@ -21,13 +21,13 @@ impl Size {
         Size(sides(corners(body)))
     }
 
-    fn largest(self) -> f64 {
+    fn largest_side(self) -> f64 {
         self.0.to_array().into_iter().fold(0.0, greater)
     }
 
     /// Warns if two bodies may have different units of length.
     pub fn compare(a: Size, b: Size) {
-        let (of_a, of_b) = (a.largest(), b.largest());
+        let (of_a, of_b) = (a.largest_side(), b.largest_side());
         let (large, small, ratio) = if of_a > of_b {
             ("--a", "--b", of_a / of_b)
         } else {

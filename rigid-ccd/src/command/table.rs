@@ -1,6 +1,6 @@
 //! Writes a CSV table row by row, to a file or a stream.
 
-use super::output::{CannotWrite, Output, is_standard_output};
+use super::output::{Output, OutputError, is_standard_output};
 use ccd_file::Claim;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -33,12 +33,12 @@ pub struct MeasuringWriter {
 
 impl Table {
     /// Creates a table with its header; an existing file is kept until the new table is complete.
-    pub fn create(path: &Path, header: &[&str]) -> Result<Self, CannotWrite> {
+    pub fn create(path: &Path, header: &[&str]) -> Result<Self, OutputError> {
         Table::start(Output::claim_table(path)?, header)
     }
 
     /// Starts a table in a reserved output, and discards what an earlier run left there.
-    pub(super) fn start(output: Output, header: &[&str]) -> Result<Self, CannotWrite> {
+    pub(super) fn start(output: Output, header: &[&str]) -> Result<Self, OutputError> {
         let name = output.name();
         let opened = match output {
             Output::File(mut claim, _) => claim
@@ -53,7 +53,7 @@ impl Table {
                 file.map(|file| (Box::new(file) as Box<dyn Write>, None))
             }
         };
-        let (to, claim) = opened.map_err(|source| CannotWrite {
+        let (to, claim) = opened.map_err(|source| OutputError {
             place: name.clone(),
             source,
         })?;
@@ -72,7 +72,7 @@ impl Table {
     pub(super) fn resume(
         mut claim: Claim,
         written: WrittenSize,
-    ) -> Result<Option<Self>, CannotWrite> {
+    ) -> Result<Option<Self>, OutputError> {
         let name = claim.target().display().to_string();
         let opened = (|| {
             claim.file().rewind()?;
@@ -90,7 +90,7 @@ impl Table {
         })();
         match opened {
             Ok(measured) => Ok(measured.map(|measured| Table::new(name, measured, Some(claim)))),
-            Err(source) => Err(CannotWrite {
+            Err(source) => Err(OutputError {
                 place: name,
                 source,
             }),
@@ -111,26 +111,26 @@ impl Table {
     pub fn write(
         &mut self,
         row: impl FnOnce(&mut csv::Writer<MeasuringWriter>) -> Result<(), csv::Error>,
-    ) -> Result<(), CannotWrite> {
+    ) -> Result<(), OutputError> {
         row(&mut self.writer).map_err(|error| self.write_error(csv_cause(error)))
     }
 
     /// Adds a row, given as serialisable cells.
-    pub(super) fn row(&mut self, cells: &impl Serialize) -> Result<(), CannotWrite> {
+    pub(super) fn row(&mut self, cells: &impl Serialize) -> Result<(), OutputError> {
         self.write(|writer| writer.serialize(cells))
     }
 
     /// Flushes all rows to the file, so that they survive an interruption.
-    pub fn flush(&mut self) -> Result<(), CannotWrite> {
-        self.written().map(|_| ())
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.flush_and_measure().map(|_| ())
     }
 
     /// Flushes all rows to the file, and returns the length and checksum of the table.
-    pub(super) fn written(&mut self) -> Result<WrittenSize, CannotWrite> {
+    pub(super) fn flush_and_measure(&mut self) -> Result<WrittenSize, OutputError> {
         let flushed = self.writer.flush();
         flushed.map_err(|source| self.write_error(source))?;
         if let Some(claim) = &mut self.claim {
-            claim.keep();
+            claim.keep_on_drop();
         }
         let MeasuringWriter {
             bytes, checksum, ..
@@ -142,7 +142,7 @@ impl Table {
     }
 
     /// Renames the complete table to its final name.
-    pub fn finish(mut self) -> Result<(), CannotWrite> {
+    pub fn finish(mut self) -> Result<(), OutputError> {
         self.flush()?;
         match self.claim.take().map_or(Ok(()), Claim::place) {
             Ok(()) => Ok(()),
@@ -150,8 +150,8 @@ impl Table {
         }
     }
 
-    fn write_error(&self, source: io::Error) -> CannotWrite {
-        CannotWrite {
+    fn write_error(&self, source: io::Error) -> OutputError {
+        OutputError {
             place: self.name.clone(),
             source,
         }

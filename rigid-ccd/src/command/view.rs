@@ -13,7 +13,7 @@ use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{Exit, print_error};
 use crate::batch::{Question, SolverKind, TimedQuestion, time};
-use crate::picture::{Asked, Claim, Painter, scene_view};
+use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Instructions, Settings};
@@ -50,8 +50,10 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = ChosenRows::new(args.ids.clone());
     let timing = timing(args);
-    let asked = Asked {
-        claim: known.as_ref().map_or(Claim::First, |_| Claim::TableTime),
+    let asked = QueryContext {
+        claim: known
+            .as_ref()
+            .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
         margin: args.margin,
         clearance: None,
     };
@@ -104,7 +106,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
 pub(super) struct RowsPage<'a> {
     pub(super) title: &'a str,
     pub(super) pair: &'a Pair,
-    pub(super) context: Asked,
+    pub(super) context: QueryContext,
 }
 
 /// Returns the title of a page about two bodies: their names without folders, and the unit.

@@ -19,7 +19,7 @@ fn approaching_motion(k: u32) -> Motion {
 }
 
 /// Returns answers as text with all their digits, so that equal texts mean equal bits.
-fn bits(found: &[Result<Answer, QueryError>]) -> Vec<String> {
+fn exact_text(found: &[Result<Answer, QueryError>]) -> Vec<String> {
     found.iter().map(|found| format!("{found:?}")).collect()
 }
 
@@ -51,12 +51,15 @@ fn answers_are_the_same_bits_in_order_on_any_number_of_threads() {
         .filter(|answer| answer.hit().unwrap().is_some())
         .count();
     assert!((50..150).contains(&hits), "{hits} of 200 hit");
-    assert_eq!(bits(&first_contacts(&queries)), bits(&alone));
+    assert_eq!(exact_text(&first_contacts(&queries)), exact_text(&alone));
     for threads in [1, 2, 5] {
         let mut many = solver(threads);
         assert_eq!(many.threads(), threads);
         for _ in 0..2 {
-            assert_eq!(bits(&many.first_contacts(&queries)), bits(&alone));
+            assert_eq!(
+                exact_text(&many.first_contacts(&queries)),
+                exact_text(&alone)
+            );
         }
     }
 }
@@ -158,9 +161,9 @@ fn limits_are_those_of_each_solver() {
 }
 
 /// A value that sets a flag when it is dropped: in a panic, after the panic has printed its message.
-struct SetOnUnwind<'f>(&'f AtomicBool);
+struct UnwindGuard<'f>(&'f AtomicBool);
 
-impl Drop for SetOnUnwind<'_> {
+impl Drop for UnwindGuard<'_> {
     fn drop(&mut self) {
         self.0.store(true, Ordering::SeqCst);
     }
@@ -204,7 +207,7 @@ fn a_panic_reaches_the_caller_and_stops_the_other_threads() {
         let mut counts = ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), || 0);
         let answer = |count: &mut usize, query: usize| {
             if query == 3 {
-                let _unwinds = SetOnUnwind(&panicked);
+                let _unwinds = UnwindGuard(&panicked);
                 panic!("query 3 is broken");
             }
             // The other threads wait until the panic unwinds.

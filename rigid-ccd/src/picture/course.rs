@@ -17,15 +17,18 @@ pub fn course(course: &Movements) -> Result<[ShownMotion; 2], InputError> {
     };
     let [a, b] = [&path.a, &path.b].map(|poses| {
         let centre = poses.centre();
-        let keys = poses.times().zip(poses.turns()).map(|(time, turn)| {
-            let pose = poses.pose(time)?;
-            Ok(Keyframe::new(
-                time,
-                &pose,
-                pose.transform_point(centre),
-                turn?,
-            ))
-        });
+        let keys = poses
+            .times()
+            .zip(poses.rotation_vectors())
+            .map(|(time, turn)| {
+                let pose = poses.pose(time)?;
+                Ok(Keyframe::new(
+                    time,
+                    &pose,
+                    pose.transform_point(centre),
+                    turn?,
+                ))
+            });
         Ok(ShownMotion::Keyframes {
             centre: centre.to_array(),
             keys: keys.collect::<Result<_, InputError>>()?,

@@ -19,7 +19,7 @@ const TIME_LIMIT: Duration = Duration::from_secs(1);
 /// The budget of one measurement of a distance, in the units of [`Settings::budget`].
 const BUDGET: u64 = 100_000;
 /// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
-const ROUNDED_UP: f64 = 1.0 + 1e-9;
+const ROUNDING_FACTOR: f64 = 1.0 + 1e-9;
 
 /// The distance of two bodies over time, and the steps of conservative advancement.
 #[derive(Clone, Debug)]
@@ -183,9 +183,9 @@ impl GapSampler<'_> {
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(ClosingSpeed {
-            speed: (shift + turns + gains) * ROUNDED_UP,
+            speed: (shift + turns + gains) * ROUNDING_FACTOR,
             // Bound the deviation both at the measured times and between them.
-            deviation: 2.0 * (a.deviation.at(reach_a) + b.deviation.at(reach_b)) * ROUNDED_UP,
+            deviation: 2.0 * (a.deviation.at(reach_a) + b.deviation.at(reach_b)) * ROUNDING_FACTOR,
         })
     }
 
@@ -221,5 +221,5 @@ impl GapSampler<'_> {
 
 /// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
 fn extent((stretch, body): (&Stretch, &Body)) -> f64 {
-    body.span() + stretch.motion.centre().length()
+    body.bounding_radius() + stretch.motion.centre().length()
 }

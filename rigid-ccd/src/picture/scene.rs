@@ -136,8 +136,8 @@ fn contact(bodies: &[DrawnBody<'_>], impact: &Impact) -> ShownContact {
     ShownContact {
         time: hit.time,
         words: format!("{when}: {} and {}", a.name, b.name),
-        lit_a: at(a, touching.map(|contact| contact.feature_a), witness_a),
-        lit_b: at(b, touching.map(|contact| contact.feature_b), witness_b),
+        highlight_a: at(a, touching.map(|contact| contact.feature_a), witness_a),
+        highlight_b: at(b, touching.map(|contact| contact.feature_b), witness_b),
         witnesses: Some([witness_a, witness_b]),
         normal: touching.map(|contact| contact.separation.normal),
     }

@@ -4,9 +4,9 @@ use crate::table::results::{ResultRow, Status};
 
 /// The facts about a query that the description of its answer needs: the meaning of times, the margin, the clearance.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked {
+pub struct QueryContext {
     /// The meaning of the answer's time.
-    pub claim: Claim,
+    pub claim: TimeMeaning,
     /// The margin of the query, in the scene's unit of length.
     pub margin: f64,
     /// The required distance that the query's answer is compared with, if any.
@@ -15,9 +15,9 @@ pub struct Asked {
 
 /// The meaning of the time in an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Claim {
+pub enum TimeMeaning {
     /// The certified time of the first contact or, for a closest approach, of the least distance.
-    First,
+    FirstContact,
     /// The time of the [first](Claim::First) contact, where a contact at the start is ignored until the bodies part.
     FirstContactAfterParting,
     /// The time of some contact, perhaps not the first one.
@@ -32,7 +32,12 @@ pub enum Claim {
 
 /// Describes the answer of a row in words. The motions end at `end`, and `proven` is a lower bound of the distance at
 /// all times.
-pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
+pub(super) fn verdict(
+    row: &ResultRow,
+    asked: QueryContext,
+    end: f64,
+    proven: Option<f64>,
+) -> String {
     let time = row.time.map_or("an unknown time".to_owned(), number);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
     let clearance = match asked.clearance {
@@ -51,7 +56,7 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
             let (contact, after) = (contact(row), describe_after_start_contact(row));
             format!("{how} at the start: {contact}.{after}")
         }
-        Status::Measured if asked.claim == Claim::MeasurementTime => {
+        Status::Measured if asked.claim == TimeMeaning::MeasurementTime => {
             format!("At {time}: {}.", describe_distance(row))
         }
         Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
@@ -74,9 +79,13 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         },
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
         Status::Unresolved => match asked.claim {
-            Claim::Published => format!("Not resolved ({reason}) after {time}. Not certified."),
-            Claim::TableTime => format!("Not resolved ({reason}) after {time}, as the table says."),
-            Claim::FirstContactAfterParting => format!(
+            TimeMeaning::Published => {
+                format!("Not resolved ({reason}) after {time}. Not certified.")
+            }
+            TimeMeaning::TableTime => {
+                format!("Not resolved ({reason}) after {time}, as the table says.")
+            }
+            TimeMeaning::FirstContactAfterParting => format!(
                 "Not resolved ({reason}). Proven: nothing touches before {time}, but for a contact at the start that \
                  was let go."
             ),
@@ -97,7 +106,7 @@ fn describe_after_start_contact(row: &ResultRow) -> String {
 }
 
 /// Describes in words a contact that begins after the start.
-fn describe_later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
+fn describe_later_contact(row: &ResultRow, asked: QueryContext, time: &str) -> String {
     let margin = number(asked.margin);
     let (first, at, before) = if asked.margin > 0.0 {
         (
@@ -114,36 +123,40 @@ fn describe_later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
     };
     let touching = contact(row);
     match (asked.claim, row.last_time) {
-        (Claim::First, None) => format!("{first} at {time}: {touching}. Proven: {before}."),
-        (Claim::First, Some(last)) => format!(
+        (TimeMeaning::FirstContact, None) => {
+            format!("{first} at {time}: {touching}. Proven: {before}.")
+        }
+        (TimeMeaning::FirstContact, Some(last)) => format!(
             "{first} at {time}: {touching}. Proven: {before}, nor after {}.",
             number_rounded_up(last)
         ),
-        (Claim::FirstContactAfterParting, _) => format!(
+        (TimeMeaning::FirstContactAfterParting, _) => format!(
             "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
         ),
-        (Claim::Any | Claim::MeasurementTime, _) => {
+        (TimeMeaning::Any | TimeMeaning::MeasurementTime, _) => {
             format!("{at} at {time}: {touching}. There may be an earlier one.")
         }
-        (Claim::Published, _) => {
+        (TimeMeaning::Published, _) => {
             format!("{at} at {time}: {touching}. Not certified: it may be late.")
         }
-        (Claim::TableTime, _) => format!("{at} at {time}, as the table says: {touching}."),
+        (TimeMeaning::TableTime, _) => format!("{at} at {time}, as the table says: {touching}."),
     }
 }
 
-fn describe_free_bodies(asked: Asked, end: f64, proven: Option<f64>) -> String {
+fn describe_free_bodies(asked: QueryContext, end: f64, proven: Option<f64>) -> String {
     let end = number(end);
     match (asked.claim, proven.filter(|gap| *gap > 0.0)) {
         (_, Some(gap)) => format!(
             "No contact, to the end at {end}. Proven: never nearer than {}.",
             number(gap)
         ),
-        (Claim::Published, None) => {
+        (TimeMeaning::Published, None) => {
             format!("No contact found, to the end at {end}. Not certified.")
         }
-        (Claim::TableTime, None) => format!("No contact, to the end at {end}, as the table says."),
-        (Claim::FirstContactAfterParting, None) => {
+        (TimeMeaning::TableTime, None) => {
+            format!("No contact, to the end at {end}, as the table says.")
+        }
+        (TimeMeaning::FirstContactAfterParting, None) => {
             format!(
                 "No contact, to the end at {end}. Proven, but for one at the start that was let go."
             )

@@ -9,7 +9,7 @@ pub(super) enum Goal {
     /// The first contact of each body with any other one.
     FirstOfEachBody(Vec<EarliestTime>),
     /// The first contact of each pair of bodies.
-    All,
+    AllPairs,
 }
 
 impl Goal {
@@ -29,7 +29,7 @@ impl Goal {
                 let [a, b] = [earliest[a].time(), earliest[b].time()];
                 if a > b { a } else { b }
             }
-            Goal::All => f64::INFINITY,
+            Goal::AllPairs => f64::INFINITY,
         }
     }
 
@@ -39,7 +39,7 @@ impl Goal {
             Goal::FirstOfEachBody(earliest) => {
                 [a, b].iter().for_each(|&k| earliest[k].record(time));
             }
-            Goal::All => {}
+            Goal::AllPairs => {}
         }
     }
 }

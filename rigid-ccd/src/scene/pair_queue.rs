@@ -68,7 +68,7 @@ impl<'r, 'a> PairQueue<'r, 'a> {
     fn next_target_time(&self, time: f64, others: f64, limit: f64) -> f64 {
         let slice = greater(others, time + ADVANCE_SHARE * self.duration);
         let until = match self.goal {
-            Goal::All => f64::INFINITY,
+            Goal::AllPairs => f64::INFINITY,
             Goal::First(_) | Goal::FirstOfEachBody(_) => lesser(slice, limit.next_up()),
         };
         // Durations may be too short for slices.
@@ -80,7 +80,7 @@ impl<'r, 'a> PairQueue<'r, 'a> {
 #[derive(Default)]
 pub(super) struct WorkerMemory {
     oracle: Direct,
-    spare: Vec<BestFirst<Direct>>,
+    spare_searches: Vec<BestFirst<Direct>>,
 }
 
 impl WorkerMemory {
@@ -104,7 +104,7 @@ impl WorkerMemory {
                 None => match (pair_queue.query)(pair) {
                     Ok(query) => Box::new(FirstContact::new(
                         query,
-                        self.spare.pop().unwrap_or_default(),
+                        self.spare_searches.pop().unwrap_or_default(),
                     )),
                     Err(error) => {
                         pair_queue.goal.record(pair, 0.0);
@@ -141,9 +141,9 @@ impl WorkerMemory {
 
     fn keep_search_for_reuse(&mut self, search: Option<Search<'_>>) {
         if let Some(search) = search
-            && self.spare.len() < MAX_SPARE_SEARCHES
+            && self.spare_searches.len() < MAX_SPARE_SEARCHES
         {
-            self.spare.push(search.into_memory());
+            self.spare_searches.push(search.into_memory());
         }
     }
 }

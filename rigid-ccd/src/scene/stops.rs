@@ -25,7 +25,7 @@ pub struct Stop {
     /// The time at which the body stops; the duration if it does not stop.
     pub time: f64,
     /// The index of the body that stops it; `None` if it does not stop.
-    pub by: Option<usize>,
+    pub stopped_by: Option<usize>,
     /// The contact with the body that stops it; `None` if it does not stop, or if a limit was reached before a contact
     /// was found. Bodies that rest on each other stop at once, before the time of the hit.
     pub contact: Option<Impact>,
@@ -53,7 +53,7 @@ impl Stop {
         let Impact { bodies, hit } = self.contact?;
         let normal = hit.contact()?.separation.normal;
         // The normal of a hit points from the lower index to the higher one.
-        if self.by == Some(bodies[0]) {
+        if self.stopped_by == Some(bodies[0]) {
             Some(-normal)
         } else {
             Some(normal)
@@ -98,7 +98,7 @@ impl Scene<'_> {
         self.settings = with_half_tolerance_as_margin(&given);
         let clock = TimeLimits::new(duration, &self.settings);
         let pairs = self.pairs(duration);
-        let events = self.run_pair_queue(&pairs, &clock, &Goal::All);
+        let events = self.run_pair_queue(&pairs, &clock, &Goal::AllPairs);
         let stops = StopSearch::new(self, &pairs, clock).run(events);
         self.settings = given;
         stops
@@ -141,7 +141,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         }
         let goes_on = Stop {
             time: clock.duration,
-            by: None,
+            stopped_by: None,
             contact: None,
         };
         StopSearch {
@@ -181,7 +181,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
                 if self.moves(index) {
                     self.stops[index] = Stop {
                         time: event.time,
-                        by: Some(other),
+                        stopped_by: Some(other),
                         contact,
                     };
                 }
@@ -284,13 +284,14 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     }
 
     fn moves(&self, index: usize) -> bool {
-        self.scene.members[index].mobility == Mobility::Moving && self.stops[index].by.is_none()
+        self.scene.members[index].mobility == Mobility::Moving
+            && self.stops[index].stopped_by.is_none()
     }
 }
 
 /// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
 fn reach(body: &Body, stretch: &Stretch) -> f64 {
-    body.span() + length(stretch.motion.centre())
+    body.bounding_radius() + length(stretch.motion.centre())
 }
 
 /// Bounds the error of the positions of a body's points when its movement continues from a rounded pose.

@@ -27,7 +27,7 @@ pub(in crate::table) enum Quantity {
 
 /// The kind of a table, which decides its columns and what a row describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum TableKind {
     /// Each row has the motions of both bodies.
     Motions,
     /// Each row has the poses of both bodies at a time.
@@ -47,7 +47,7 @@ const PATH_BODY_COLUMNS: [&str; 13] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
-impl Form {
+impl TableKind {
     /// Returns the names of all columns that a table of this kind may have, in order.
     pub(in crate::table) fn names(self) -> Vec<String> {
         let bodies = self.prefixes().iter().flat_map(|prefix| {
@@ -55,9 +55,9 @@ impl Form {
             of_body.map(move |name| format!("{prefix}{name}"))
         });
         let (before, after): (&[&str], &[&str]) = match self {
-            Form::Motions => (&["id"], &["duration"]),
-            Form::Paths => (&["id", TIME_COLUMN_NAME], &[]),
-            Form::Scene => (&["id"], &[BODY_COLUMN_NAME]),
+            TableKind::Motions => (&["id"], &["duration"]),
+            TableKind::Paths => (&["id", TIME_COLUMN_NAME], &[]),
+            TableKind::Scene => (&["id"], &[BODY_COLUMN_NAME]),
         };
         let owned = |names: &'static [&str]| names.iter().map(|&name| name.to_owned());
         owned(before).chain(bodies).chain(owned(after)).collect()
@@ -66,8 +66,8 @@ impl Form {
     /// Returns the prefixes of column names, one for each body.
     fn prefixes(self) -> &'static [&'static str] {
         match self {
-            Form::Motions | Form::Paths => &["a_", "b_"],
-            Form::Scene => &[""],
+            TableKind::Motions | TableKind::Paths => &["a_", "b_"],
+            TableKind::Scene => &[""],
         }
     }
 
@@ -82,9 +82,9 @@ impl Form {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
-            (Form::Paths, Quantity::AngularVelocity) => 7..10,
-            (Form::Paths, Quantity::Centre) => 10..13,
-            (Form::Paths, _) => 0..0,
+            (TableKind::Paths, Quantity::AngularVelocity) => 7..10,
+            (TableKind::Paths, Quantity::Centre) => 10..13,
+            (TableKind::Paths, _) => 0..0,
             (_, Quantity::EndPosition) => 7..10,
             (_, Quantity::EndOrientation) => 10..14,
             (_, Quantity::Velocity) => 14..17,
@@ -92,8 +92,8 @@ impl Form {
             (_, Quantity::Centre) => 20..23,
         };
         let first_of_a = match self {
-            Form::Motions | Form::Scene => 1,
-            Form::Paths => 2,
+            TableKind::Motions | TableKind::Scene => 1,
+            TableKind::Paths => 2,
         };
         let first = match side {
             Side::A => first_of_a,
@@ -105,24 +105,24 @@ impl Form {
     /// Returns the names of a body's columns, without its prefix.
     fn body_columns(self) -> &'static [&'static str] {
         match self {
-            Form::Motions | Form::Scene => &BODY_COLUMNS,
-            Form::Paths => &PATH_BODY_COLUMNS,
+            TableKind::Motions | TableKind::Scene => &BODY_COLUMNS,
+            TableKind::Paths => &PATH_BODY_COLUMNS,
         }
     }
 
     /// Returns a text that lists the known columns, for messages.
     pub(in crate::table) fn known_columns_text(self) -> &'static str {
         match self {
-            Form::Motions => {
+            TableKind::Motions => {
                 "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, \
                  wx wy wz, end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz; or, for paths with \
                  several poses, id, t, px py pz, qw qx qy qz, wx wy wz, cx cy cz"
             }
-            Form::Paths => {
+            TableKind::Paths => {
                 "a table with a column t holds the poses of paths: known columns are id, t, and with the prefix \
                  a_ or b_: px py pz, qw qx qy qz, wx wy wz (to the next row), cx cy cz"
             }
-            Form::Scene => {
+            TableKind::Scene => {
                 "known columns of a scene are body, id, px py pz, qw qx qy qz, vx vy vz, wx wy wz, \
                  end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
             }
@@ -133,7 +133,7 @@ impl Form {
 /// The header of a table of motions, of paths or of a scene: which of the known columns it has, and at which index.
 #[derive(Debug)]
 pub struct Columns {
-    form: Form,
+    form: TableKind,
     names: Vec<String>,
     /// For each known column, the index of its cell in a row; `None` if the table does not have it.
     cells: Vec<Option<usize>>,
@@ -148,9 +148,9 @@ impl Columns {
     /// A column is unknown, appears twice or is missing, or there is none.
     pub fn of(header: &[String]) -> Result<Self, TableError> {
         let form = if header.iter().any(|name| name == TIME_COLUMN_NAME) {
-            Form::Paths
+            TableKind::Paths
         } else {
-            Form::Motions
+            TableKind::Motions
         };
         Columns::from_header(header, form)
     }
@@ -159,7 +159,7 @@ impl Columns {
     ///
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
-    pub(crate) fn from_header(header: &[String], form: Form) -> Result<Self, TableError> {
+    pub(crate) fn from_header(header: &[String], form: TableKind) -> Result<Self, TableError> {
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty);
         }
@@ -223,7 +223,7 @@ impl Columns {
 
     /// Returns whether the rows are the poses of paths.
     pub fn is_path_table(&self) -> bool {
-        self.form == Form::Paths
+        self.form == TableKind::Paths
     }
 
     /// Returns the remarks about the rows read so far, one of each kind.
@@ -276,16 +276,16 @@ fn number_in_header(header: &[String], names: &[String]) -> Option<String> {
 }
 
 /// Returns the error of a header with an unknown column.
-fn unknown_column_error(header: &[String], column: &str, form: Form) -> TableError {
+fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> TableError {
     if let ([only], Some(separator)) = (header, foreign::header_separator(column)) {
         return TableError::WrongSeparator {
             found: separator,
             header: only.clone(),
         };
     }
-    if foreign::is_index_of_pandas(column) {
+    if foreign::is_pandas_index(column) {
         let column = column.to_owned();
-        return TableError::IndexOfPandas { column };
+        return TableError::PandasIndex { column };
     }
     let lower = column.to_ascii_lowercase();
     if lower == "time" {
@@ -303,7 +303,7 @@ fn unknown_column_error(header: &[String], column: &str, form: Form) -> TableErr
     let names = form.names();
     let nearest = names.iter().min_by_key(edit_distance);
     // A velocity in a table of paths is not a misspelt position.
-    let of_other_form = form == Form::Paths && Form::Motions.names().contains(&lower);
+    let of_other_form = form == TableKind::Paths && TableKind::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
         known: form.known_columns_text(),
@@ -317,10 +317,10 @@ fn unknown_column_error(header: &[String], column: &str, form: Form) -> TableErr
 
 /// Returns the body's prefix in a column name that is typical of an Euler angle or a rotation vector; `None` for other
 /// names.
-fn prefix_of_angle(lower: &str, form: Form) -> Option<&'static str> {
+fn prefix_of_angle(lower: &str, form: TableKind) -> Option<&'static str> {
     let (prefixes, usual): (&[&str], _) = match form {
-        Form::Motions | Form::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),
-        Form::Scene => (&["end_"], ""),
+        TableKind::Motions | TableKind::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),
+        TableKind::Scene => (&["end_"], ""),
     };
     let found = prefixes.iter().find(|prefix| lower.starts_with(*prefix));
     let prefix = found.copied().unwrap_or(usual);

@@ -43,7 +43,7 @@ pub(crate) fn rows(
     let query = bodies.query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
     let row = |pair: &FeaturePair| {
-        ResultRow::of_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
+        ResultRow::from_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
     };
     Ok(pairs.iter().map(row).collect())
 }

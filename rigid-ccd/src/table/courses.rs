@@ -83,7 +83,7 @@ impl Movements {
 /// An iterator over the queries in a table of motions or of paths. Each row of a table of motions is a query; in a
 /// table of paths, all rows with the same id are one query.
 #[derive(Debug)]
-pub struct Courses<S> {
+pub struct MovementRows<S> {
     rows: MotionRows<S>,
     /// The state of reading a table of paths; `None` for a table of motions.
     paths: Option<Paths>,
@@ -92,17 +92,17 @@ pub struct Courses<S> {
 /// The motions or paths of a query with its position in the table, or the error of a bad row.
 pub type CourseRow = Result<(RowPosition, Movements), RowError>;
 
-impl<R: io::Read> Courses<CsvRecords<R>> {
+impl<R: io::Read> MovementRows<CsvRecords<R>> {
     /// Creates the iterator, and reads the header of a CSV table.
     ///
     /// # Errors
     /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R, grouping: Grouping) -> Result<Self, TableError> {
-        Courses::of(CsvRecords::new(input)?, grouping)
+        MovementRows::of(CsvRecords::new(input)?, grouping)
     }
 }
 
-impl<S: Records> Courses<S> {
+impl<S: Records> MovementRows<S> {
     /// Creates the iterator over the rows of `records`. A table with a column `t` is a table of paths.
     ///
     /// # Errors
@@ -113,7 +113,7 @@ impl<S: Records> Courses<S> {
         let paths = paths.then(|| Paths::new(&mut records, grouping));
         let paths = paths.transpose()?;
         let rows = MotionRows { records, columns };
-        Ok(Courses { rows, paths })
+        Ok(MovementRows { rows, paths })
     }
 
     /// Returns whether the table is a table of paths, not of motions.
@@ -159,7 +159,7 @@ impl<S: Records> Courses<S> {
     }
 }
 
-impl<S: Records> Iterator for Courses<S> {
+impl<S: Records> Iterator for MovementRows<S> {
     type Item = Result<CourseRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -83,7 +83,7 @@ pub enum TableError {
         "header: column `{column}` has no name; an index of pandas is written so: write the table with index=False, \
          or drop the column"
     )]
-    IndexOfPandas {
+    PandasIndex {
         /// The empty name, or the placeholder that pandas writes in its place.
         column: String,
     },
@@ -188,13 +188,13 @@ pub enum RowProblem {
     #[error(
         "column t: {} is not later than {}, the time of the row before; sort the rows of each id by t",
         Number(*.time),
-        Number(*.before)
+        Number(*.previous_time)
     )]
     TimeNotLater {
         /// The time of the row that is refused.
         time: f64,
         /// The time of the previous row.
-        before: f64,
+        previous_time: f64,
     },
     /// A time is so large relative to the path's first time that it rounds to the time of the row before.
     #[error(
@@ -221,7 +221,7 @@ pub enum RowProblem {
     #[error(
         "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one centre of rotation"
     )]
-    CentreMoves {
+    CentreChanged {
         /// The letter of the body, as in the columns' prefix.
         body: char,
     },
@@ -248,7 +248,7 @@ impl From<InputError> for RowProblem {
     fn from(error: InputError) -> Self {
         match error {
             InputError::OutOfRange {
-                what: "duration",
+                quantity: "duration",
                 value,
                 allowed,
             } => Self::BadDuration { value, allowed },

@@ -32,7 +32,7 @@ pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
 }
 
 /// Returns whether a column is the index of a pandas frame, which has no name in CSV and a special one in Parquet.
-pub(super) fn is_index_of_pandas(column: &str) -> bool {
+pub(super) fn is_pandas_index(column: &str) -> bool {
     column.is_empty() || column.starts_with("__index_level_")
 }
 

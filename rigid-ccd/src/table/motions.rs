@@ -13,7 +13,7 @@ pub(crate) use row::{BodyRow, body};
 pub use write::write;
 
 use crate::Remark;
-use crate::table::columns::{Columns, Form};
+use crate::table::columns::{Columns, TableKind};
 use crate::table::csv_records::CsvRecords;
 use crate::table::records::Records;
 use ccd_core::Motion;
@@ -84,7 +84,7 @@ impl<R: io::Read> MotionRows<CsvRecords<R>> {
     /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R) -> Result<Self, TableError> {
         let records = CsvRecords::new(input)?;
-        let columns = Columns::from_header(&records.header()?, Form::Motions)?;
+        let columns = Columns::from_header(&records.header()?, TableKind::Motions)?;
         Ok(MotionRows { records, columns })
     }
 }

@@ -194,7 +194,7 @@ fn check_row_is_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, Row
     if time <= before.time {
         return Err(RowProblem::TimeNotLater {
             time,
-            before: before.time,
+            previous_time: before.time,
         });
     }
     // Written so that NaN is refused.
@@ -217,7 +217,7 @@ fn check_orientation(
     duration: f64,
 ) -> Result<(), RowProblem> {
     if before.centre != row.centre {
-        return Err(RowProblem::CentreMoves { body });
+        return Err(RowProblem::CentreChanged { body });
     }
     let left = length(residual_rotation(
         [&before.pose, &row.pose],
@@ -241,7 +241,7 @@ impl Path {
             let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
             if spins.clone().any(|spin| spin != DVec3::ZERO) {
-                path.turning(spins.map(DVec3::into).collect())
+                path.with_angular_velocities(spins.map(DVec3::into).collect())
             } else {
                 Ok(path)
             }

@@ -22,7 +22,7 @@ enum State {
     /// The next byte is the first of a cell, the only place where a quote opens.
     Start,
     /// The next byte is within a cell without quotes, or after the closing quote.
-    Plain,
+    Unquoted,
     /// The next byte is between quotes.
     Quoted,
     /// The last byte was a quote that closes the cell unless another quote follows.
@@ -63,7 +63,7 @@ impl<R> QuoteTracker<R> {
             (State::Quoted, b'"') => State::AfterClosingQuote,
             (State::Quoted, _) => State::Quoted,
             (_, b',' | b'\n') => State::Start,
-            _ => State::Plain,
+            _ => State::Unquoted,
         };
         self.line += u64::from(byte == b'\n');
     }

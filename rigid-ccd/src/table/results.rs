@@ -100,7 +100,7 @@ impl ResultRow {
 
     /// Creates the row of a contact; its id and its counts stay empty.
     #[cfg(feature = "command")]
-    pub(crate) fn of_hit(hit: &ccd_core::Hit) -> Self {
+    pub(crate) fn from_hit(hit: &ccd_core::Hit) -> Self {
         let row = ResultRow {
             status: Status::from(&hit.kind),
             ..ResultRow::default()
@@ -110,7 +110,7 @@ impl ResultRow {
 
     /// Creates the row of two features in contact; its status and its counts have their defaults.
     #[cfg(feature = "command")]
-    pub(crate) fn of_feature_pair(id: &str, time: f64, pair: &ccd_core::FeaturePair) -> Self {
+    pub(crate) fn from_feature_pair(id: &str, time: f64, pair: &ccd_core::FeaturePair) -> Self {
         let row = ResultRow {
             id: id.to_owned(),
             ..ResultRow::default()

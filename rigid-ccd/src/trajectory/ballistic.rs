@@ -25,7 +25,7 @@ use ccd_core::{
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ballistic {
-    thrown: Motion,
+    start_motion: Motion,
     acceleration: DVec3,
 }
 
@@ -36,7 +36,7 @@ impl Ballistic {
     /// [`InputError::NotFinite`].
     pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Ballistic {
-            thrown,
+            start_motion: thrown,
             acceleration: finite_vector(acceleration, "acceleration")?,
         })
     }
@@ -45,7 +45,7 @@ impl Ballistic {
 impl SmoothTrajectory for Ballistic {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let Ballistic {
-            thrown,
+            start_motion: thrown,
             acceleration,
         } = self;
         let pose = thrown.pose(time);
@@ -58,7 +58,7 @@ impl SmoothTrajectory for Ballistic {
     fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
         AccelerationBounds {
             linear: length(self.acceleration),
-            angular: 0.0,
+            angular_acceleration: 0.0,
         }
     }
 
@@ -78,7 +78,7 @@ impl SmoothTrajectory for Ballistic {
     /// Bounds the rounding errors of poses between two times.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let Ballistic {
-            thrown,
+            start_motion: thrown,
             acceleration,
         } = self;
         let time = greater(from.abs(), to.abs());

@@ -9,7 +9,7 @@ pub(super) fn out_of_range_error(
     allowed: &'static str,
 ) -> InputError {
     InputError::OutOfRange {
-        what,
+        quantity: what,
         value,
         allowed,
     }

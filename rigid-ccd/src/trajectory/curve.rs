@@ -122,7 +122,7 @@ impl Curve {
 
     /// Bounds the magnitude of the derivative of the given order between two times, over all segments there.
     fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
-        self.segments.greatest(from, to, |segment| {
+        self.segments.greatest_bound(from, to, |segment| {
             segment.derivative_bound(order, greater(from, segment.from), lesser(to, segment.to))
         })
     }

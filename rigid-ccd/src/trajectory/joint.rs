@@ -86,7 +86,7 @@ impl Joint {
     /// Returns the joint with a least and a greatest allowed position, in radians or as a length. Positions beyond a
     /// limit by no more than the rounding of an interpolated position are accepted.
     #[must_use]
-    pub fn within(self, limits: RangeInclusive<f64>) -> Self {
+    pub fn with_limits(self, limits: RangeInclusive<f64>) -> Self {
         Joint { limits, ..self }
     }
 
@@ -133,11 +133,11 @@ impl Joint {
     /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::NotFinite`].
     pub fn pose(&self, position: f64) -> Result<Pose, InputError> {
         self.check(position, None)?;
-        self.pose_up_to_rounding(position)
+        self.unchecked_pose(position)
     }
 
     /// Returns the pose as [`Joint::pose`] does, but does not check that the position is within the limits.
-    pub(super) fn pose_up_to_rounding(&self, position: f64) -> Result<Pose, InputError> {
+    pub(super) fn unchecked_pose(&self, position: f64) -> Result<Pose, InputError> {
         let moved = match self.kind {
             Kind::Fixed => Pose::IDENTITY,
             Kind::Revolute(axis) => Pose::new(DVec3::ZERO, DQuat::from_axis_angle(axis, position))?,

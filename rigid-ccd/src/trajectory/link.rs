@@ -241,17 +241,17 @@ impl State {
     /// Updates the state from the link before a joint to the link after it.
     fn pass_joint(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
         let before = self.pose;
-        self.pose = before.compose(&joint.pose_up_to_rounding(position)?);
+        self.pose = before.compose(&joint.unchecked_pose(position)?);
         let arm = self.pose.translation() - before.translation();
         // The arm moves with the link before its freedom, or with the link after it.
         match joint.direction() {
             Direction::Forward => {
                 self.add_arm(arm);
                 let held = before.compose(joint.origin());
-                self.add_freedom(joint.kind(), held.rotation(), rate);
+                self.add_joint_motion(joint.kind(), held.rotation(), rate);
             }
             Direction::Backward => {
-                self.add_freedom(joint.kind(), before.rotation(), -rate);
+                self.add_joint_motion(joint.kind(), before.rotation(), -rate);
                 self.add_arm(arm);
             }
         }
@@ -266,7 +266,7 @@ impl State {
     }
 
     /// Adds the motion of a joint about or along its axis; `held` rotates the axis into the frame of the state.
-    fn add_freedom(&mut self, kind: Kind, held: DQuat, rate: f64) {
+    fn add_joint_motion(&mut self, kind: Kind, held: DQuat, rate: f64) {
         match kind {
             Kind::Fixed => {}
             Kind::Revolute(axis) => {

@@ -93,7 +93,7 @@ impl Poses {
     /// assert!(drill.pose(0.25)?.rotation().angle_between(quarter) < 1e-7);
     /// # Ok::<(), rigid_ccd::InputError>(())
     /// ```
-    pub fn turning(self, spins: Vec<[f64; 3]>) -> Result<Self, InputError> {
+    pub fn with_angular_velocities(self, spins: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if spins.len() + 1 != self.poses.len() {
             let allowed = "one for each pose but the last";
             let given = spins.len() as f64;
@@ -167,7 +167,7 @@ impl Poses {
 
     /// Returns the approximate rotation vector from each pose to the next; zero for the last pose.
     #[cfg(feature = "pages")]
-    pub(crate) fn turns(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
+    pub(crate) fn rotation_vectors(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
         let turns = ends.enumerate().map(|(k, [(begin, from), (end, to)])| {
             let segment = Segment::new([from, to], self.centre, end - begin, self.spin(k))?;

@@ -52,7 +52,12 @@ impl<T> Segments<T> {
 
     /// Returns the greatest value of `bound` over the segments that overlap an interval of time; infinity if a value is
     /// NaN.
-    pub(super) fn greatest(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
+    pub(super) fn greatest_bound(
+        &self,
+        from: f64,
+        to: f64,
+        bound: impl Fn(&Segment<T>) -> f64,
+    ) -> f64 {
         let segments = self.overlapping_segments(from, to).iter();
         segments.map(bound).fold(0.0, greater_bound)
     }

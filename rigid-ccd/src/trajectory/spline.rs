@@ -55,7 +55,7 @@ impl SmoothTrajectory for Spline {
     fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds {
         AccelerationBounds {
             linear: self.curve.acceleration(from, to),
-            angular: self.turns.acceleration(from, to),
+            angular_acceleration: self.turns.acceleration(from, to),
         }
     }
 

@@ -153,7 +153,9 @@ fn poses_of_many_turns() {
                 * turned;
         }
         stops.push((time, Pose::new(vector(rng, 3.0), turned)?));
-        Poses::new(stops)?.turning(spins)?.about(vector(rng, 1.0))
+        Poses::new(stops)?
+            .with_angular_velocities(spins)?
+            .about(vector(rng, 1.0))
     });
 }
 
@@ -163,7 +165,10 @@ fn angular_velocities_tell_the_number_of_turns() {
     let still = vec![(0.0, Pose::IDENTITY), (2.0, Pose::IDENTITY)];
     let path = Poses::new(still).unwrap();
     let turns = std::f64::consts::TAU * 7.0;
-    let turning = path.clone().turning(vec![[0.0, 0.0, 0.5 * turns]]).unwrap();
+    let turning = path
+        .clone()
+        .with_angular_velocities(vec![[0.0, 0.0, 0.5 * turns]])
+        .unwrap();
     for time in [0.1, 0.5, 1.3, 2.0] {
         let exact = DQuat::from_rotation_z(0.5 * turns * time);
         let found = turning.pose(time).unwrap().rotation();
@@ -172,14 +177,17 @@ fn angular_velocities_tell_the_number_of_turns() {
     // The leftover to the next pose is always the same: a twentieth of a turn.
     let nearly = path
         .clone()
-        .turning(vec![[0.0, 0.0, 0.5 * (turns + 0.3)]])
+        .with_angular_velocities(vec![[0.0, 0.0, 0.5 * (turns + 0.3)]])
         .unwrap();
     let stretch = nearly.stretch(0.0, 2.0).unwrap();
     assert!(
         (stretch.motion.spin().z * 2.0 - turns).abs() < 1e-12,
         "{stretch:?}"
     );
-    let zero = path.clone().turning(vec![[0.0; 3]]).unwrap();
+    let zero = path
+        .clone()
+        .with_angular_velocities(vec![[0.0; 3]])
+        .unwrap();
     assert_eq!(zero.stretch(0.0, 2.0).unwrap().motion.spin(), DVec3::ZERO);
     for bad in [
         vec![],
@@ -187,7 +195,10 @@ fn angular_velocities_tell_the_number_of_turns() {
         vec![[f64::NAN, 0.0, 0.0]],
         vec![[0.0; 3]; 2],
     ] {
-        assert!(path.clone().turning(bad.clone()).is_err(), "{bad:?}");
+        assert!(
+            path.clone().with_angular_velocities(bad.clone()).is_err(),
+            "{bad:?}"
+        );
     }
 }
 
@@ -459,7 +470,7 @@ fn tangents_have_the_velocities_of_poses() {
 fn positions_are_checked_up_to_rounding() {
     let joint = Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap();
     let (least, greatest) = (-3.0718, -0.0698);
-    let chain = Chain::new(Pose::IDENTITY, vec![joint.within(least..=greatest)]);
+    let chain = Chain::new(Pose::IDENTITY, vec![joint.with_limits(least..=greatest)]);
     let mut rng = Rng::seed_from_u64(5);
     let mut beyond = 0;
     for _ in 0..10_000 {

@@ -6,15 +6,15 @@ use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// A call of the command with its arguments and input.
-pub(crate) struct Run {
+pub(crate) struct CommandCall {
     args: Vec<String>,
     stdin: String,
     folder: PathBuf,
 }
 
-impl Run {
+impl CommandCall {
     pub(crate) fn with_args(args: &[&str]) -> Self {
-        let run = Run {
+        let run = CommandCall {
             args: Vec::new(),
             stdin: String::new(),
             folder: ".".into(),
@@ -36,7 +36,7 @@ impl Run {
     #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
     pub(crate) fn folder(self, folder: &Path) -> Self {
         let folder = folder.to_owned();
-        Run { folder, ..self }
+        CommandCall { folder, ..self }
     }
 
     pub(crate) fn output(&self) -> Output {
@@ -123,7 +123,7 @@ pub(crate) fn stderr(output: &Output) -> String {
 /// A directory for one test's files. It is removed at the end of the test.
 pub(crate) struct Scene {
     pub(crate) directory: PathBuf,
-    _removes: TempDir,
+    _temp_dir: TempDir,
 }
 
 impl Scene {
@@ -132,7 +132,7 @@ impl Scene {
         let held = tempfile::Builder::new().prefix(name).tempdir().unwrap();
         Scene {
             directory: held.path().to_owned(),
-            _removes: held,
+            _temp_dir: held,
         }
     }
 

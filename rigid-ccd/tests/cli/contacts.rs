@@ -1,6 +1,6 @@
 //! Tests `--contacts`, `--counters`, and messages about times that are not certified.
 
-use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
+use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 use std::path::Path;
 
 /// The options for a cube and a slab as bodies A and B.
@@ -8,7 +8,7 @@ const CUBE_AND_SLAB_OPTIONS: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9
 /// A table of motions of a cube onto the face of a slab, past its side, and away from it.
 const CUBE_MOTIONS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
 
-fn rows_and_contacts(run: Run, table: &Path) -> (Vec<Row>, Vec<Row>) {
+fn rows_and_contacts(run: CommandCall, table: &Path) -> (Vec<Row>, Vec<Row>) {
     let output = run.args(&["--contacts", table.to_str().unwrap()]).ends(0);
     (parse(&output.stdout), parse(&std::fs::read(table).unwrap()))
 }
@@ -18,7 +18,7 @@ fn every_contact_of_every_row_is_listed() {
     let scene = Scene::new("contacts");
     let table = scene.directory.join("contacts.csv");
     let (results, contacts) = rows_and_contacts(
-        Run::query(&CUBE_AND_SLAB_OPTIONS).stdin(CUBE_MOTIONS),
+        CommandCall::query(&CUBE_AND_SLAB_OPTIONS).stdin(CUBE_MOTIONS),
         &table,
     );
     let ids: Vec<&str> = contacts.iter().map(|row| row.text("id")).collect();
@@ -51,7 +51,7 @@ fn every_contact_of_every_row_is_listed() {
 fn contacts_at_the_start_and_on_standard_output() {
     let scene = Scene::new("contacts_at_the_start");
     let results = scene.directory.join("results.csv");
-    let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--out", results.to_str().unwrap(), "--contacts", "-"])
         .stdin("id,a_pz,a_vz\ntouching,1.5005,-4\noverlapping,1,0\n")
         .ends(0);
@@ -69,7 +69,7 @@ fn a_table_without_contacts_has_its_header() {
     let scene = Scene::new("no_contacts");
     let table = scene.directory.join("contacts.csv");
     let (_, contacts) = rows_and_contacts(
-        Run::query(&CUBE_AND_SLAB_OPTIONS).stdin("a_pz\n4\n"),
+        CommandCall::query(&CUBE_AND_SLAB_OPTIONS).stdin("a_pz\n4\n"),
         &table,
     );
     assert!(contacts.is_empty());
@@ -102,7 +102,7 @@ fn contacts_overwrite_nothing() {
         ),
         (vec!["--contacts", "/no/such/directory/c.csv"], 1, "c.csv"),
     ] {
-        let output = Run::with_args(&["query", "--motions", motions])
+        let output = CommandCall::with_args(&["query", "--motions", motions])
             .args(&CUBE_AND_SLAB_OPTIONS)
             .args(&options)
             .output();
@@ -121,7 +121,7 @@ fn contacts_overwrite_nothing() {
 fn a_row_with_too_many_contacts_is_reported() {
     let scene = Scene::new("too_many_contacts");
     let table = scene.directory.join("contacts.csv");
-    let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--budget", "3", "--contacts", table.to_str().unwrap()])
         .stdin("id,a_pz,a_vz\nfirst,1.5005,-4\n")
         .ends(2);
@@ -133,7 +133,7 @@ fn a_row_with_too_many_contacts_is_reported() {
 
 #[test]
 fn counters_are_more_columns_and_a_line_of_means() {
-    let plain = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let plain = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(CUBE_MOTIONS)
         .output();
     assert!(!stderr(&plain).contains("means"));
@@ -143,7 +143,11 @@ fn counters_are_more_columns_and_a_line_of_means() {
     };
     assert!(header(&plain.stdout).ends_with("iterations,oracle_calls,micros,reason"));
     for (schedule, steps) in [("best-first", false), ("naive", true)] {
-        let run = Run::query(&CUBE_AND_SLAB_OPTIONS).args(&["--counters", "--schedule", schedule]);
+        let run = CommandCall::query(&CUBE_AND_SLAB_OPTIONS).args(&[
+            "--counters",
+            "--schedule",
+            schedule,
+        ]);
         let output = run.stdin(CUBE_MOTIONS).ends(0);
         assert_eq!(
             header(&output.stdout),
@@ -168,7 +172,7 @@ fn counters_are_more_columns_and_a_line_of_means() {
 #[test]
 fn times_without_certificate_are_reported_once() {
     let published = ["--schedule", "naive", "--bound", "published"];
-    let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&published)
         .stdin(CUBE_MOTIONS)
         .expect_messages(0);
@@ -182,7 +186,7 @@ fn times_without_certificate_are_reported_once() {
         &published[..2],
         &["--schedule", "naive", "--bound", "sound"],
     ] {
-        let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .args(sound)
             .stdin(CUBE_MOTIONS)
             .output();

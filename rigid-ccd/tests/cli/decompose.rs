@@ -1,6 +1,6 @@
 //! Tests `ccd decompose`, and queries on prepared bodies.
 
-use crate::command::{Row, Run, Scene, assert_contains, stderr};
+use crate::command::{CommandCall, Row, Scene, assert_contains, stderr};
 use ccd_decomp::{Format, TriangleMesh};
 use rstest::rstest;
 use serde_json::Value;
@@ -23,7 +23,7 @@ fn name(path: &Path) -> &str {
 }
 
 fn decompose(mesh: &Path, options: &[&str]) -> Output {
-    Run::with_args(&["decompose", name(mesh)])
+    CommandCall::with_args(&["decompose", name(mesh)])
         .args(options)
         .output()
 }
@@ -144,7 +144,7 @@ const MOTIONS_TABLE: &str = "id,a_px,a_py,a_pz,a_vx,a_vy,a_vz,a_wx,a_wz\n\
     past,4,9,0,-4,0,0,1,1\nacross,0.2,4,1,0,-4,-0.5,0,5\n";
 
 fn answers(body: &Path, options: &[&str]) -> Vec<Row> {
-    let run = Run::query(&["--a", name(body), "--b", name(body)]).args(options);
+    let run = CommandCall::query(&["--a", name(body), "--b", name(body)]).args(options);
     run.stdin(MOTIONS_TABLE).expect_rows()
 }
 
@@ -200,7 +200,7 @@ fn early_contacts_of_approximate_bodies_are_reported() {
     let scene = Scene::new("outer-hull-warning");
     let mesh = knot(&scene);
     let run = |options: &[&str]| {
-        let run = Run::query(&["--a", name(&mesh), "--b", name(&mesh)]).args(options);
+        let run = CommandCall::query(&["--a", name(&mesh), "--b", name(&mesh)]).args(options);
         run.stdin(MOTIONS_TABLE).output()
     };
     let output = run(&["--pieces", "outer-hull"]);
@@ -282,7 +282,7 @@ fn unreadable_stored_bodies_are_reported() {
         (b"v 0 0 0", "part.ccd: holds no stored body"),
     ] {
         std::fs::write(&out, bytes).unwrap();
-        let message = Run::query(&["--a", name(&out), "--b", "sphere:1"])
+        let message = CommandCall::query(&["--a", name(&out), "--b", "sphere:1"])
             .stdin("id\n")
             .expect_messages(2);
         assert!(
@@ -296,7 +296,7 @@ fn unreadable_stored_bodies_are_reported() {
 #[test]
 fn help_lists_the_statistics() {
     for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "excess")] {
-        let output = Run::with_args(&["decompose", option]).ends(0);
+        let output = CommandCall::with_args(&["decompose", option]).ends(0);
         let text = String::from_utf8(output.stdout).unwrap();
         assert_contains(&text, expected);
     }
@@ -308,7 +308,7 @@ fn a_missing_folder_is_reported_before_the_work() {
     let mesh = scene.file("t.obj", crate::TETRAHEDRON);
     for name in ["t.obj", "t.ccd"] {
         let out = scene.directory.join("gone").join(name);
-        let run = Run::with_args(&["decompose", mesh.to_str().unwrap()]);
+        let run = CommandCall::with_args(&["decompose", mesh.to_str().unwrap()]);
         let message = run
             .args(&["--out", out.to_str().unwrap()])
             .stdin("")

@@ -1,6 +1,6 @@
 //! Tests files of several parts: scenes in glTF, parts by name, and units.
 
-use crate::command::{Run, Scene, assert_contains, stderr};
+use crate::command::{CommandCall, Scene, assert_contains, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -55,7 +55,7 @@ fn glb() -> Vec<u8> {
 }
 
 /// Returns an OBJ with a cube of length 20 about the origin.
-fn die() -> String {
+fn die_obj() -> String {
     let vertices = corners().map(|[x, y, z]| format!("v {} {} {}\n", 10.0 * x, 10.0 * y, 10.0 * z));
     let faces = FACES
         .chunks(3)
@@ -81,7 +81,7 @@ fn a_part_is_chosen_by_name_or_number() {
     let scene = Scene::new("parts");
     let file = scene.bytes("scene.glb", &glb());
     let top = |body: &str| {
-        let rows = Run::query(&["--a", body, "--b", BALL_SPEC])
+        let rows = CommandCall::query(&["--a", body, "--b", BALL_SPEC])
             .stdin(FALLING_BALL_MOTION)
             .expect_rows();
         assert_eq!(rows[0].text("status"), "contact", "{body}");
@@ -106,7 +106,7 @@ fn features_are_numbered_in_the_part_and_go_on_in_the_whole() {
     // The ball falls onto a corner.
     let corner = "b_px,b_py,b_pz,b_vz,duration\n0.5,0.5,4,-1,4\n";
     let feature = |body: &str| {
-        let rows = Run::query(&["--a", body, "--b", BALL_SPEC])
+        let rows = CommandCall::query(&["--a", body, "--b", BALL_SPEC])
             .stdin(corner)
             .expect_rows();
         rows[0].text("feature_a").to_owned()
@@ -122,8 +122,8 @@ fn an_unknown_part_lists_those_there_are() {
     for missing in ["top", "", "2"] {
         let body = part(&file, missing);
         for run in [
-            Run::query(&["--a", BALL_SPEC, "--b", &body]).stdin(FALLING_BALL_MOTION),
-            Run::with_args(&["decompose", &body]),
+            CommandCall::query(&["--a", BALL_SPEC, "--b", &body]).stdin(FALLING_BALL_MOTION),
+            CommandCall::with_args(&["decompose", &body]),
         ] {
             let output = run.ends(2);
             let expected =
@@ -132,7 +132,7 @@ fn an_unknown_part_lists_those_there_are() {
         }
     }
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
-    let output = Run::with_args(&["decompose", &part(&plain, "lid")]).output();
+    let output = CommandCall::with_args(&["decompose", &part(&plain, "lid")]).output();
     assert_contains(&stderr(&output), "it has one, without a name: 0");
 }
 
@@ -142,7 +142,7 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
     let scene = Scene::new("parts-marks");
     for file in ["part#1.obj", "#.obj", "scene.glb#lid.obj"] {
         let path = scene.file(file, crate::TETRAHEDRON);
-        let rows = Run::query(&["--a", name(&path), "--b", BALL_SPEC])
+        let rows = CommandCall::query(&["--a", name(&path), "--b", BALL_SPEC])
             .stdin("b_pz\n9\n")
             .expect_rows();
         assert_eq!(rows[0].text("status"), "free", "{file}");
@@ -168,7 +168,7 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
         ("#0@scale=3@surface", &[], 3.0),
     ] {
         let body = format!("{}{words}", name(&path));
-        let rows = Run::query(&["--a", &body, "--b", BALL_SPEC])
+        let rows = CommandCall::query(&["--a", &body, "--b", BALL_SPEC])
             .args(options)
             .stdin(FALLING_BALL_MOTION)
             .expect_rows();
@@ -181,10 +181,11 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
     for (word, option) in [("@scale=-1", "--scale=-1"), ("@mirror=w", "--mirror=w")] {
         let body = format!("{}{word}", name(&path));
         for run in [
-            Run::query(&["--a", &body, "--b", BALL_SPEC]).stdin(FALLING_BALL_MOTION),
-            Run::query(&["--a", name(&path), "--b", BALL_SPEC, option]).stdin(FALLING_BALL_MOTION),
-            Run::with_args(&["decompose", &body]),
-            Run::with_args(&["decompose", name(&path), option]),
+            CommandCall::query(&["--a", &body, "--b", BALL_SPEC]).stdin(FALLING_BALL_MOTION),
+            CommandCall::query(&["--a", name(&path), "--b", BALL_SPEC, option])
+                .stdin(FALLING_BALL_MOTION),
+            CommandCall::with_args(&["decompose", &body]),
+            CommandCall::with_args(&["decompose", name(&path), option]),
         ] {
             run.ends(2);
         }
@@ -202,7 +203,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
         (&hollow, &[], "free"),
         (name(&path), &["--surface"], "free"),
     ] {
-        let run = Run::query(&["--a", body, "--b", "sphere:.01"]).args(option);
+        let run = CommandCall::query(&["--a", body, "--b", "sphere:.01"]).args(option);
         assert_eq!(
             run.stdin(inside).expect_rows()[0].text("status"),
             status,
@@ -210,11 +211,11 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
         );
     }
     let out = scene.directory.join("hollow.ccd");
-    Run::with_args(&["decompose", &hollow, "--out", name(&out)]).ends(0);
-    let rows = Run::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
+    CommandCall::with_args(&["decompose", &hollow, "--out", name(&out)]).ends(0);
+    let rows = CommandCall::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
     assert_eq!(rows.expect_rows()[0].text("status"), "free");
     // A prepared body is not adjusted.
-    let output = Run::query(&["--a", name(&out), "--b", BALL_SPEC, "--scale", "2"])
+    let output = CommandCall::query(&["--a", name(&out), "--b", BALL_SPEC, "--scale", "2"])
         .stdin(FALLING_BALL_MOTION);
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
@@ -224,7 +225,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
 #[test]
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
-        let run = Run::query(&["--a", BALL_SPEC, "--b", body, "--tolerance", "1e-7"]);
+        let run = CommandCall::query(&["--a", BALL_SPEC, "--b", body, "--tolerance", "1e-7"]);
         let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").ends(0);
         assert_contains(&stderr(&output), "sticking out by up to");
         let rows = crate::parse(&output.stdout);
@@ -244,7 +245,7 @@ fn cylinders_and_cones_are_bodies() {
 fn units_are_converted() {
     let scene = Scene::new("units");
     let cube = scene.bytes("cube.glb", &glb());
-    let die = scene.file("die.obj", &die());
+    let die = scene.file("die.obj", &die_obj());
     let (cube, die) = (part(&cube, "base"), format!("{}@mm", name(&die)));
     // The die, of 20 mm, stands on the cube, of 1000 mm, with a gap of 30 mm.
     let above = |unit: f64| {
@@ -252,10 +253,11 @@ fn units_are_converted() {
         format!("b_pz,b_vz,duration\n{height},{speed},2\n")
     };
     for (unit, metres) in [("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("in", 0.0254)] {
-        let output = Run::query(&["--a", &cube, "--b", &die, "--unit", unit, "--tolerance"])
-            .args(&[&(1e-4 / metres).to_string()])
-            .stdin(&above(metres))
-            .ends(0);
+        let output =
+            CommandCall::query(&["--a", &cube, "--b", &die, "--unit", unit, "--tolerance"])
+                .args(&[&(1e-4 / metres).to_string()])
+                .stdin(&above(metres))
+                .ends(0);
         let message = stderr(&output);
         let rows = crate::parse(&output.stdout);
         assert_eq!(rows[0].text("status"), "contact", "{unit}: {message}");
@@ -273,9 +275,9 @@ fn units_are_converted() {
 fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
     let scene = Scene::new("units-kept");
     let cube = part(&scene.bytes("cube.glb", &glb()), "base");
-    let die = scene.file("die.obj", &die());
+    let die = scene.file("die.obj", &die_obj());
     let query = |a: &str, b: &str| {
-        Run::query(&["--a", a, "--b", b])
+        CommandCall::query(&["--a", a, "--b", b])
             .stdin("b_pz\n50\n")
             .output()
     };
@@ -291,7 +293,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
         let message = stderr(&query(&cube, other));
         assert_eq!(message.contains("give --unit"), is_told, "{message}");
     }
-    let output = Run::query(&["--a", BALL_SPEC, "--b", BALL_SPEC, "--unit", "mile"])
+    let output = CommandCall::query(&["--a", BALL_SPEC, "--b", BALL_SPEC, "--unit", "mile"])
         .stdin(FALLING_BALL_MOTION)
         .output();
     let message = stderr(&output);
@@ -303,20 +305,21 @@ fn a_part_is_prepared_and_stored() {
     let scene = Scene::new("parts-stored");
     let file = scene.bytes("scene.glb", &glb());
     let stored = scene.directory.join("lid.ccd");
-    let output = Run::with_args(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
-        .args(&[name(&stored), "--format", "json"])
-        .ends(0);
+    let output =
+        CommandCall::with_args(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
+            .args(&[name(&stored), "--format", "json"])
+            .ends(0);
     let statistics: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(statistics["mesh"], part(&file, "lid"));
     assert_eq!(statistics["unit"], "mm");
     assert_eq!(statistics["triangles"], 12);
     // The lid is a slab from 1875 to 2125 mm.
-    let rows = Run::query(&["--a", name(&stored), "--b", "sphere:100", "--unit", "mm"])
+    let rows = CommandCall::query(&["--a", name(&stored), "--b", "sphere:100", "--unit", "mm"])
         .stdin("b_pz,b_vz,duration\n4000,-1000,4\n")
         .expect_rows();
     let early = 1.775 - rows[0].number("time");
     assert!((0.0..=1.001e-6).contains(&early), "{early}");
-    let text = Run::with_args(&["decompose", &part(&file, "lid")]).output();
+    let text = CommandCall::with_args(&["decompose", &part(&file, "lid")]).output();
     let text = String::from_utf8(text.stdout).unwrap();
     assert_contains(&text, "\nunit          m\n");
 }
@@ -332,7 +335,7 @@ fn runs_know_their_unit_and_all_their_files() {
     let motions = scene.file("motions.csv", FALLING_BALL_MOTION);
     let results = scene.directory.join("results.csv");
     let run = |unit: &str| {
-        Run::with_args(&[
+        CommandCall::with_args(&[
             "query",
             "--a",
             name(&file),
@@ -363,7 +366,7 @@ fn runs_know_their_unit_and_all_their_files() {
     assert_eq!(other.status.code(), Some(2));
     assert_contains(&stderr(&other), "--a");
     // Results must not replace a buffer either.
-    let output = Run::with_args(&["query", "--a", name(&file), "--b", BALL_SPEC])
+    let output = CommandCall::with_args(&["query", "--a", name(&file), "--b", BALL_SPEC])
         .args(&["--motions", name(&motions), "--out", name(&data)])
         .output();
     assert_contains(&stderr(&output), "--out would overwrite the file of --a");

@@ -13,7 +13,7 @@ mod resume;
 mod scene;
 mod view;
 
-use command::{Row, Run, Scene, assert_contains, parse, stderr};
+use command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 
 /// The path of the command under test.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
@@ -26,10 +26,10 @@ const DROP_TIME: f64 = 2.5 / 4.0;
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-impl Run {
+impl CommandCall {
     /// Returns a call of `ccd query` whose motions come from standard input.
     pub(crate) fn query(bodies: &[&str]) -> Self {
-        Run::with_args(&["query", "--motions", "-"]).args(bodies)
+        CommandCall::with_args(&["query", "--motions", "-"]).args(bodies)
     }
 }
 
@@ -51,7 +51,7 @@ impl Row {
 
 #[test]
 fn a_box_falls_onto_a_box() {
-    let run = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin(FALLING_CUBE_MOTION);
+    let run = CommandCall::query(&CUBE_AND_SLAB_OPTIONS).stdin(FALLING_CUBE_MOTION);
     let rows = run.expect_rows();
     assert_eq!(rows.len(), 1);
     let row = &rows[0];
@@ -79,7 +79,7 @@ fn every_schedule_and_oracle_gives_the_answer() {
                 "--tolerance",
                 "1e-6",
             ];
-            let rows = Run::query(&CUBE_AND_SLAB_OPTIONS)
+            let rows = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
                 .args(&options)
                 .stdin(FALLING_CUBE_MOTION)
                 .expect_rows();
@@ -97,7 +97,7 @@ fn every_schedule_and_oracle_gives_the_answer() {
 fn every_status_occurs() {
     let motions = "id,a_pz,a_vz,duration\n\
                    free,4,-4,0.25\ncontact,4,-4,1\ntouching,1.5005,-4,1\noverlapping,1,0,1\n";
-    let rows = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let rows = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(motions)
         .expect_rows();
     for row in &rows {
@@ -116,7 +116,7 @@ fn an_unresolved_row_is_a_result() {
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let mesh = mesh.to_str().unwrap();
     let motions = "a_px,a_vx,a_wz\n5,-5,9\n";
-    let rows = Run::query(&["--a", mesh, "--b", mesh, "--budget", "1"])
+    let rows = CommandCall::query(&["--a", mesh, "--b", mesh, "--budget", "1"])
         .stdin(motions)
         .expect_rows();
     assert_eq!(rows[0].text("status"), "unresolved");
@@ -126,7 +126,7 @@ fn an_unresolved_row_is_a_result() {
 
 #[test]
 fn a_deadline_leaves_a_row_unresolved() {
-    let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--deadline", "0"])
         .stdin(FALLING_CUBE_MOTION)
         .expect_messages(0);
@@ -135,7 +135,7 @@ fn a_deadline_leaves_a_row_unresolved() {
         "{message}"
     );
     // A long deadline has no effect.
-    let rows = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let rows = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--deadline", "3600"])
         .stdin(FALLING_CUBE_MOTION)
         .expect_rows();
@@ -144,17 +144,17 @@ fn a_deadline_leaves_a_row_unresolved() {
 
 #[test]
 fn margins_are_kept_and_leave_ignores_contacts_at_the_start() {
-    let with_margin = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let with_margin = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--margin", "0.5"])
         .stdin(FALLING_CUBE_MOTION)
         .expect_rows();
     with_margin[0].assert_in_time(2.0 / 4.0, 4.0);
     let parting = "a_pz,a_vz\n1.5,1\n";
-    let reported = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let reported = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(parting)
         .expect_rows();
     assert_eq!(reported[0].text("status"), "touching");
-    let left = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let left = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--start", "leave"])
         .stdin(parting)
         .expect_rows();
@@ -167,14 +167,15 @@ fn files_are_read_and_written() {
     let motions = scene.file("motions.csv", FALLING_CUBE_MOTION);
     let results = scene.directory.join("results.csv");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
-    let run = Run::with_args(&["query", "--a", mesh.to_str().unwrap(), "--b", "sphere:0.5"])
-        .args(&[
-            "--motions",
-            motions.to_str().unwrap(),
-            "--out",
-            results.to_str().unwrap(),
-        ])
-        .stdin("");
+    let run =
+        CommandCall::with_args(&["query", "--a", mesh.to_str().unwrap(), "--b", "sphere:0.5"])
+            .args(&[
+                "--motions",
+                motions.to_str().unwrap(),
+                "--out",
+                results.to_str().unwrap(),
+            ])
+            .stdin("");
     let output = run.ends(0);
     assert_eq!(output.stdout, b"");
     let rows = parse(&std::fs::read(&results).unwrap());
@@ -195,7 +196,9 @@ fn the_same_file_twice_is_loaded_once() {
         "--b",
         other_name.to_str().unwrap(),
     ];
-    let output = Run::query(&bodies).stdin("a_px,a_vx\n3,-3\n").ends(0);
+    let output = CommandCall::query(&bodies)
+        .stdin("a_px,a_vx\n3,-3\n")
+        .ends(0);
     assert_eq!(stderr(&output).matches(", solid").count(), 1);
 }
 
@@ -210,7 +213,7 @@ fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() 
         motions += &format!("3,{},-6,{k},2,{}\n", 0.06 * k - 1.9, 0.1 * k);
     }
     let answers = |options: &[&str]| -> Vec<Vec<String>> {
-        let rows = Run::query(&bodies)
+        let rows = CommandCall::query(&bodies)
             .args(options)
             .stdin(&motions)
             .expect_rows();
@@ -234,7 +237,7 @@ fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() 
 #[test]
 fn raised_tolerances_are_reported() {
     let far = "a_px,b_px,a_pz,a_vz\n1e9,1e9,4,-4\n";
-    let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--tolerance", "1e-12"])
         .stdin(far)
         .ends(0);
@@ -309,7 +312,7 @@ fn tables_do_not_overwrite_each_other_by_any_spelling() {
 #[test]
 fn tolerances_that_no_row_accepts_are_refused_at_once() {
     for tolerance in ["1e-300", "0", "-1", "1e13", "nan"] {
-        let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .args(&["--tolerance", tolerance])
             .stdin(FALLING_CUBE_MOTION)
             .output();
@@ -320,11 +323,11 @@ fn tolerances_that_no_row_accepts_are_refused_at_once() {
 
 #[test]
 fn the_summary_counts_rows_and_quiet_omits_it() {
-    let loud = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let loud = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(FALLING_CUBE_MOTION)
         .output();
     assert_contains(&stderr(&loud), "1 row: 1 contact; median");
-    let quiet = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let quiet = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--quiet"])
         .stdin(FALLING_CUBE_MOTION)
         .output();
@@ -334,7 +337,9 @@ fn the_summary_counts_rows_and_quiet_omits_it() {
 
 #[test]
 fn a_table_without_rows_gives_a_header() {
-    let output = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin("id\n").ends(0);
+    let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
+        .stdin("id\n")
+        .ends(0);
     let header = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(
         header.starts_with("id,status,time,distance_lower,"),
@@ -349,7 +354,7 @@ fn a_table_without_rows_gives_a_header() {
 #[test]
 fn help_shows_examples() {
     for args in [&["--help"][..], &["query", "--help"], &["query", "-h"]] {
-        let output = Run::with_args(args).stdin("").ends(0);
+        let output = CommandCall::with_args(args).stdin("").ends(0);
         assert!(
             String::from_utf8(output.stdout)
                 .unwrap()

@@ -1,6 +1,6 @@
 //! Tests `ccd completions` and `ccd man`.
 
-use crate::command::{Run, Scene, assert_contains};
+use crate::command::{CommandCall, Scene, assert_contains};
 use rstest::rstest;
 use std::fs;
 
@@ -11,7 +11,7 @@ use std::fs;
 #[case("powershell")]
 #[case("zsh")]
 fn every_shell_completes_commands_and_options(#[case] shell: &str) {
-    let output = Run::with_args(&["completions", shell]).ends(0);
+    let output = CommandCall::with_args(&["completions", shell]).ends(0);
     let script = String::from_utf8(output.stdout).unwrap();
     // A fish script names long options without their dashes.
     let option = if shell == "fish" {
@@ -26,14 +26,14 @@ fn every_shell_completes_commands_and_options(#[case] shell: &str) {
 
 #[test]
 fn an_unknown_shell_is_refused() {
-    let message = Run::with_args(&["completions", "cmd"]).expect_messages(2);
+    let message = CommandCall::with_args(&["completions", "cmd"]).expect_messages(2);
     assert_contains(&message, "powershell");
 }
 
 #[test]
 fn the_command_and_every_subcommand_have_a_man_page() {
     let scene = Scene::new("man");
-    Run::with_args(&["man", scene.directory.to_str().unwrap()]).ends(0);
+    CommandCall::with_args(&["man", scene.directory.to_str().unwrap()]).ends(0);
     for (page, word) in [
         ("ccd", "query"),
         ("ccd-query", "motions"),
@@ -49,7 +49,7 @@ fn the_command_and_every_subcommand_have_a_man_page() {
 #[test]
 fn man_pages_need_an_existing_folder() {
     let folder = Scene::new("man-missing").directory.join("gone");
-    let message = Run::with_args(&["man", folder.to_str().unwrap()]).expect_messages(1);
+    let message = CommandCall::with_args(&["man", folder.to_str().unwrap()]).expect_messages(1);
     assert!(
         message.contains("cannot write") && message.contains("gone"),
         "{message}"

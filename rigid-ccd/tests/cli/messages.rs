@@ -1,13 +1,13 @@
 //! Tests messages about input, and about bodies of different size.
 
-use crate::command::{Run, Scene, assert_contains, parse, stderr};
+use crate::command::{CommandCall, Scene, assert_contains, parse, stderr};
 use crate::{CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION};
 
 const SPHERES_OPTIONS: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
 /// Returns the messages of a query of two spheres, which ends with the exit code 2 for the given table.
-fn messages_of(table: &str) -> String {
-    let output = Run::query(&SPHERES_OPTIONS)
+fn query_messages(table: &str) -> String {
+    let output = CommandCall::query(&SPHERES_OPTIONS)
         .args(&["--quiet"])
         .stdin(table)
         .ends(2);
@@ -18,7 +18,7 @@ fn messages_of(table: &str) -> String {
 fn lines_are_counted_whatever_ends_them() {
     for end in ["\n", "\r\n", "\r"] {
         let table = "\u{feff}a_px\n1\n2\n\n3\nx\n".replace('\n', end);
-        let message = messages_of(&table);
+        let message = query_messages(&table);
         assert_contains(&message, "row 3 (line 6): column a_px: `x`");
     }
 }
@@ -34,7 +34,8 @@ fn every_cause_is_reported_once() {
         (folder, "sphere:1", "is a folder"),
         ("-", folder, "is a folder; name a mesh in it"),
     ] {
-        let run = Run::with_args(&["query", "--motions", motions, "--a", a, "--b", "sphere:1"]);
+        let run =
+            CommandCall::with_args(&["query", "--motions", motions, "--a", a, "--b", "sphere:1"]);
         let message = run.stdin("id\n1\n").expect_messages(2);
         let lines: Vec<&str> = message
             .lines()
@@ -62,7 +63,7 @@ fn missing_files_are_reported_once() {
         (there, "sphere:1", "gone/out.csv"),
         (there, "sphere:1", "/dev/null/gone.csv"),
     ] {
-        let run = Run::with_args(&["query", "--quiet", "--motions", motions, "--out", out]);
+        let run = CommandCall::with_args(&["query", "--quiet", "--motions", motions, "--out", out]);
         let output = run.args(&["--a", a, "--b", "sphere:1"]).stdin("").output();
         assert!(!output.status.success());
         let message = stderr(&output);
@@ -80,7 +81,9 @@ fn missing_files_are_reported_once() {
 
 #[test]
 fn help_explains_row_numbers_and_half_turns() {
-    let output = Run::with_args(&["query", "--help"]).stdin("").output();
+    let output = CommandCall::with_args(&["query", "--help"])
+        .stdin("")
+        .output();
     let text = String::from_utf8(output.stdout).unwrap();
     for words in [
         "Rows count from 0",
@@ -94,7 +97,7 @@ fn help_explains_row_numbers_and_half_turns() {
 #[test]
 fn sizes_are_reported_and_compared() {
     let motions = "a_px\n3\n";
-    let output = Run::query(&["--a", "box:.5,1,2", "--b", "sphere:1"])
+    let output = CommandCall::query(&["--a", "box:.5,1,2", "--b", "sphere:1"])
         .stdin(motions)
         .output();
     let message = stderr(&output);
@@ -103,7 +106,7 @@ fn sizes_are_reported_and_compared() {
         "--a box:.5,1,2: 1 primitive, solid, size 1 × 2 × 4\n",
     );
     assert!(!message.contains("times as large"), "{message}");
-    let message = Run::query(&["--a", "box:150,50,50", "--b", "sphere:1"])
+    let message = CommandCall::query(&["--a", "box:150,50,50", "--b", "sphere:1"])
         .stdin(motions)
         .expect_messages(0);
     assert_contains(&message, "--a is 150 times as large as --b");
@@ -113,7 +116,7 @@ fn sizes_are_reported_and_compared() {
 fn selected_rows_have_the_same_answers() {
     let motions = "a_px\n5\n6\nbad\n8\n9\n";
     let answers = |rows: &str| {
-        let run = Run::query(&SPHERES_OPTIONS).args(&["--no-micros", "--rows", rows]);
+        let run = CommandCall::query(&SPHERES_OPTIONS).args(&["--no-micros", "--rows", rows]);
         let output = run.stdin(motions).output();
         let text = String::from_utf8(output.stdout).unwrap();
         let lines: Vec<String> = text.lines().skip(1).map(str::to_owned).collect();
@@ -124,7 +127,7 @@ fn selected_rows_have_the_same_answers() {
     assert_eq!(answers("2..4"), (Some(2), all[2..4].to_vec()));
     assert_eq!(answers("3.."), (Some(0), all[3..].to_vec()));
     assert_eq!(answers("7.."), (Some(0), Vec::new()));
-    let none = Run::query(&SPHERES_OPTIONS)
+    let none = CommandCall::query(&SPHERES_OPTIONS)
         .args(&["--rows", "7.."])
         .stdin(motions)
         .output();
@@ -133,7 +136,9 @@ fn selected_rows_have_the_same_answers() {
         "has 5 rows, and --rows 7.. selects none of them",
     );
     for bad in ["3", "4..4", "a..b", "-1..2"] {
-        Run::query(&SPHERES_OPTIONS).args(&["--rows", bad]).ends(2);
+        CommandCall::query(&SPHERES_OPTIONS)
+            .args(&["--rows", bad])
+            .ends(2);
     }
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }
@@ -146,7 +151,7 @@ fn nothing_in_a_file_controls_the_terminal() {
     let motions = scene.file("\u{1b}[31mred.csv", table);
     let mesh = [crate::TETRAHEDRON, "\u{1b}[5m 1\n"].concat();
     let mesh = scene.file("part.obj", &mesh);
-    let message = Run::with_args(&["query", "--b", "box:1,1,1"])
+    let message = CommandCall::with_args(&["query", "--b", "box:1,1,1"])
         .args(&[
             "--a",
             mesh.to_str().unwrap(),
@@ -169,9 +174,10 @@ fn ignored_input_is_reported_with_quiet_too() {
     let scene = Scene::new("unread");
     let mesh = [crate::TETRAHEDRON, "l 1 2\n"].concat();
     let mesh = scene.file("part.obj", &mesh);
-    let output = Run::query(&["--a", mesh.to_str().unwrap(), "--b", "box:1,1,1", "--quiet"])
-        .stdin("a_px\n9\n")
-        .output();
+    let output =
+        CommandCall::query(&["--a", mesh.to_str().unwrap(), "--b", "box:1,1,1", "--quiet"])
+            .stdin("a_px\n9\n")
+            .output();
     let message = stderr(&output);
     assert!(
         message.ends_with("part.obj: lines passed over: 1 (line 9)\n"),
@@ -205,7 +211,7 @@ fn traps_are_remarked_upon_once() {
     ] {
         let tolerance = ["--tolerance", "0.001"];
         let run = || {
-            Run::with_args(&["query", "--motions", "-"])
+            CommandCall::with_args(&["query", "--motions", "-"])
                 .args(&bodies)
                 .args(&tolerance)
                 .stdin(&motions)
@@ -221,7 +227,7 @@ fn traps_are_remarked_upon_once() {
     }
     // A shaft at round numbers of radians, among them some that would be round in degrees.
     for rates in ["100", "6.283185307179586", "45 46", "0", "3.14 1.57"] {
-        let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .stdin(&spins(rates))
             .output();
         assert!(!stderr(&output).contains("turns"), "{}", stderr(&output));
@@ -238,7 +244,7 @@ fn a_single_known_unit_is_reported_once() {
     let in_mm = format!("{plain}@mm");
     let large = format!("{plain}@scale=1000");
     let told = |options: &[&str]| {
-        let message = Run::query(options)
+        let message = CommandCall::query(options)
             .stdin(FALLING_CUBE_MOTION)
             .expect_messages(0);
         let lines = message.lines().filter(|line| line.starts_with("ccd: "));
@@ -276,15 +282,15 @@ fn a_single_known_unit_is_reported_once() {
 /// Tests that angular velocities of a path are refused without orientations.
 #[test]
 fn angular_velocities_of_a_path_need_orientations() {
-    let message = messages_of("t,a_px,a_wz\n0,9,1\n1,9,1\n");
+    let message = query_messages("t,a_px,a_wz\n0,9,1\n1,9,1\n");
     assert_contains(&message, "no column `a_qw`, but column `a_wz` needs it");
     for column in ["a_vx", "b_end_px", "duration"] {
-        let message = messages_of(&format!("t,a_px,{column}\n0,9,1\n1,9,1\n"));
+        let message = query_messages(&format!("t,a_px,{column}\n0,9,1\n1,9,1\n"));
         let expected =
             format!("unknown column `{column}`; a table with a column t holds the poses");
         assert_contains(&message, &expected);
     }
-    let message = messages_of("id,time,a_px\nx,0,9\n");
+    let message = query_messages("id,time,a_px\nx,0,9\n");
     assert_contains(&message, "unknown column `time`; did you mean `t`?");
 }
 
@@ -292,7 +298,7 @@ fn angular_velocities_of_a_path_need_orientations() {
 fn a_page_of_rows_is_remarked_upon() {
     let scene = Scene::new("page-remarks");
     let motions = scene.file("motions.csv", "a_px,a_wz\n9,90\n");
-    let run = Run::with_args(&[
+    let run = CommandCall::with_args(&[
         "view",
         "--motions",
         motions.to_str().unwrap(),

@@ -1,6 +1,6 @@
 //! Tests that outputs are written completely, by one run at a time; a full disk destroys no older file.
 
-use crate::command::{Run, Scene, assert_contains, stderr};
+use crate::command::{CommandCall, Scene, assert_contains, stderr};
 use crate::resume::{motions, path, query, read, run_and_kill, run_to_end};
 use ccd_file::Claim;
 use std::fs;
@@ -64,7 +64,9 @@ const WRITING_COMMANDS: [(&str, &str); 7] = [
 
 fn run(scene: &Scene, command: &str) -> Output {
     let args: Vec<&str> = command.split(' ').collect();
-    Run::with_args(&args).folder(&scene.directory).output()
+    CommandCall::with_args(&args)
+        .folder(&scene.directory)
+        .output()
 }
 
 fn names(scene: &Scene) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! Tests `ccd query --ask` for motions and for paths.
 
-use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
+use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 use crate::{CUBE_AND_SLAB_OPTIONS, DROP_TIME, FALLING_CUBE_MOTION};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;
@@ -21,11 +21,13 @@ const VISIT_PATH: &str = "id,t,a_px,a_pz\n\
 const VISIT_START_TIME: f64 = 12.5;
 const VISIT_END_TIME: f64 = 15.0;
 
-fn ask(question: &str, bodies: &[&str], table: &str) -> Run {
-    Run::query(bodies).args(&["--ask", question]).stdin(table)
+fn ask(question: &str, bodies: &[&str], table: &str) -> CommandCall {
+    CommandCall::query(bodies)
+        .args(&["--ask", question])
+        .stdin(table)
 }
 
-fn only_row(run: &Run) -> Row {
+fn only_row(run: &CommandCall) -> Row {
     let mut rows = run.expect_rows();
     assert_eq!(rows.len(), 1);
     rows.remove(0)
@@ -310,7 +312,7 @@ fn options_without_a_use_are_refused() {
             "first-contact, is-free, contact-interval, closest-approach, distance",
         ),
     ] {
-        let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .args(options)
             .stdin(VISIT_PATH)
             .expect_messages(2);
@@ -361,7 +363,7 @@ fn a_check_fails_unless_every_row_is_proven() {
     }
     // A bad row takes precedence.
     let two = format!("{}bad,x\n", "id,a_px\nnear,0\n");
-    Run::query(&BALLS_OPTIONS)
+    CommandCall::query(&BALLS_OPTIONS)
         .args(&["--check"])
         .stdin(&two)
         .ends(2);
@@ -372,7 +374,9 @@ fn a_check_fails_unless_every_row_is_proven() {
             "--check needs certified answers",
         ),
     ] {
-        let run = Run::query(&BALLS_OPTIONS).args(&["--check"]).args(options);
+        let run = CommandCall::query(&BALLS_OPTIONS)
+            .args(&["--check"])
+            .args(options);
         let message = run.stdin(PASSING_MOTION).expect_messages(2);
         assert_contains(&message, refusal);
     }
@@ -385,7 +389,7 @@ fn a_finished_check_fails_again() {
     let motions = scene.file("motions.csv", FALLING_CUBE_MOTION);
     let out = scene.directory.join("results.csv");
     let query = ["query", "--motions", motions.to_str().unwrap(), "--check"];
-    let run = Run::with_args(&query)
+    let run = CommandCall::with_args(&query)
         .args(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--out", out.to_str().unwrap()]);
     assert_eq!(run.output().status.code(), Some(3));

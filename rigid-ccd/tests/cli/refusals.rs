@@ -1,6 +1,6 @@
 //! Tests invalid rows, bodies, files and options, and their messages.
 
-use crate::command::{Run, Scene, assert_contains, parse, stderr};
+use crate::command::{CommandCall, Scene, assert_contains, parse, stderr};
 use crate::{CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION};
 
 #[test]
@@ -15,7 +15,9 @@ fn bad_rows_keep_their_place_and_are_reported() {
                    backwards,4,-4,1,0,0,0,,,,0,-1\n\
                    short,4\n\
                    also good,4,-4,1,0,0,0,,,,0,1\n";
-    let output = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin(motions).ends(2);
+    let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
+        .stdin(motions)
+        .ends(2);
     let rows = parse(&output.stdout);
     let message = stderr(&output);
     for (k, (id, reason)) in [
@@ -63,7 +65,7 @@ fn bad_rows_keep_their_place_and_are_reported() {
 
 #[test]
 fn an_unknown_column_is_reported_with_the_most_similar_one() {
-    let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin("id,a_pw\n1,2\n")
         .ends(2);
     assert_eq!(output.stdout, b"");
@@ -97,12 +99,12 @@ fn messages_name_the_bad_body_or_file() {
             "\"1e308\" is too large a length of \"box\"",
         ),
     ] {
-        let message = Run::query(&bodies)
+        let message = CommandCall::query(&bodies)
             .stdin(FALLING_CUBE_MOTION)
             .expect_messages(2);
         assert_contains(&message, expected);
     }
-    let message = Run::with_args(&["query", "--a", "sphere:1", "--b", "sphere:1"])
+    let message = CommandCall::with_args(&["query", "--a", "sphere:1", "--b", "sphere:1"])
         .args(&["--motions", "nowhere.csv"])
         .stdin("")
         .expect_messages(2);
@@ -128,7 +130,7 @@ fn bad_options_are_refused() {
         ["--bound", "published"],
         ["--pieces", "hulls"],
     ] {
-        let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .args(&options)
             .stdin(FALLING_CUBE_MOTION)
             .expect_messages(2);
@@ -139,7 +141,7 @@ fn bad_options_are_refused() {
 #[test]
 fn unwritable_results_have_exit_code_1() {
     let options = ["--out", "/no/such/directory/results.csv"];
-    let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&options)
         .stdin(FALLING_CUBE_MOTION)
         .expect_messages(1);
@@ -163,7 +165,9 @@ fn an_unclosed_quote_is_an_error() {
         ("id,a_pz\n\"a\nb\",4\n\"c,5\n", 1, "row 1 (line 4): a quote"),
         ("a_pz,\"id\n4,x\n", 0, "header (line 1): a quote"),
     ] {
-        let output = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin(motions).ends(2);
+        let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
+            .stdin(motions)
+            .ends(2);
         let message = stderr(&output);
         let expected = format!("standard input: {expected} opens a cell here");
         assert_contains(&message, &expected);
@@ -171,7 +175,7 @@ fn an_unclosed_quote_is_an_error() {
             assert_eq!(parse(&output.stdout).len(), rows, "{motions}");
         }
     }
-    let closed = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin("id,a_pz\n\"a\nb\",4\n");
+    let closed = CommandCall::query(&CUBE_AND_SLAB_OPTIONS).stdin("id,a_pz\n\"a\nb\",4\n");
     assert_eq!(closed.expect_rows()[0].text("id"), "a\nb");
 }
 
@@ -183,7 +187,7 @@ fn git_lfs_pointers_are_recognised() {
     let advice = "is a Git LFS pointer";
     for name in ["p.obj", "p.stl", "p.ply", "p.off", "p.ccd"] {
         let mesh = scene.file(name, pointer);
-        let message = Run::query(&["--a", mesh.to_str().unwrap(), "--b", "sphere:1"])
+        let message = CommandCall::query(&["--a", mesh.to_str().unwrap(), "--b", "sphere:1"])
             .stdin(FALLING_CUBE_MOTION)
             .expect_messages(2);
         assert!(
@@ -191,7 +195,7 @@ fn git_lfs_pointers_are_recognised() {
             "{message}"
         );
     }
-    let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
+    let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(pointer)
         .expect_messages(2);
     assert_contains(&message, advice);

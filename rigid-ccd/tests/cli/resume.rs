@@ -14,11 +14,11 @@ const DEFAULT_OPTIONS: [[&str; 2]; 5] = [
     ["--out", "results.csv"],
     ["--contacts", "contacts.csv"],
 ];
-const ROWS: usize = 20_000;
+const ROW_COUNT: usize = 20_000;
 
 pub(crate) fn motions() -> String {
     let mut table = "id,a_px,a_pz,a_vz,a_wx\n".to_owned();
-    for k in 0..ROWS {
+    for k in 0..ROW_COUNT {
         let bad = if k % 1000 == 7 { "x" } else { "" };
         table += &format!("r{k},{}{bad},4,-4,{}\n", k % 17, k % 5);
     }
@@ -87,7 +87,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     for name in TABLE_FILE_NAMES {
         fs::write(path(&scene, name), "of old").unwrap();
     }
-    let third = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
+    let third = table.match_indices('\n').nth(ROW_COUNT / 3).unwrap().0;
     run_and_kill(&scene, &[], &table[..third]);
     // A process that is killed while it writes leaves half a row.
     for name in [
@@ -117,7 +117,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     // The summary counts all rows of the table, and those of this run.
     assert_contains(&message, "\n20000 rows: ");
     let here = count(", 20 error; ", " in this run; median");
-    assert_eq!(here, Some(ROWS - done), "{message}");
+    assert_eq!(here, Some(ROW_COUNT - done), "{message}");
     for name in TABLE_FILE_NAMES {
         assert!(
             read(&path(&scene, name)) == read(&path(&whole, name)),
@@ -133,7 +133,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
 fn rows_without_their_record_are_kept() {
     let table = motions();
     let scene = Scene::new("no-record");
-    let part = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
+    let part = table.match_indices('\n').nth(ROW_COUNT / 3).unwrap().0;
     run_and_kill(&scene, &[], &table[..part]);
     let [rows, record] =
         ["results.csv.partial", "results.csv.resume"].map(|name| path(&scene, name));
@@ -212,7 +212,7 @@ fn resuming_without_an_interrupted_run_starts_a_new_one() {
 }
 
 /// Returns the text and the modification time of each table.
-fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
+fn read_tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
     let table = |name: &&str| {
         let path = path(scene, name);
         let written = fs::metadata(&path).unwrap().modified().unwrap();
@@ -231,7 +231,7 @@ fn a_finished_run_is_left_unchanged() {
         let scene = Scene::new(name);
         let output = run_to_end(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
-        let before = tables(&scene);
+        let before = read_tables(&scene);
         let output = run_to_end(query(&scene, &["--resume"]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let message = stderr(&output);
@@ -245,11 +245,11 @@ fn a_finished_run_is_left_unchanged() {
             "{message}"
         );
         assert!(!message.contains("median"), "{message}");
-        assert_eq!(tables(&scene), before);
+        assert_eq!(read_tables(&scene), before);
         // Without the option, a new run starts.
         let output = run_to_end(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code));
-        assert_ne!(tables(&scene)[0].1, before[0].1);
+        assert_ne!(read_tables(&scene)[0].1, before[0].1);
     }
 }
 
@@ -259,7 +259,7 @@ fn a_finished_run_with_other_options_is_refused() {
     let scene = Scene::new("finished-other");
     let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
-    let before = tables(&scene);
+    let before = read_tables(&scene);
     for (options, input, expected) in [
         (
             &["--tolerance", "1e-6"][..],
@@ -282,7 +282,7 @@ fn a_finished_run_with_other_options_is_refused() {
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
         assert_contains(&message, expected);
-        assert_eq!(tables(&scene), before);
+        assert_eq!(read_tables(&scene), before);
     }
     // A file of another program is not mistaken for the table.
     fs::write(path(&scene, "results.csv"), "mine").unwrap();
@@ -305,7 +305,7 @@ fn complete_tables_are_renamed() {
     let scene = Scene::new("nameless");
     let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
-    let before = tables(&scene);
+    let before = read_tables(&scene);
     for names in [&TABLE_FILE_NAMES[..], &TABLE_FILE_NAMES[1..]] {
         for name in names {
             let partial = path(&scene, &format!("{name}.partial"));
@@ -313,7 +313,7 @@ fn complete_tables_are_renamed() {
         }
         let output = run_to_end(query(&scene, &["--resume"]), table);
         assert!(output.status.success(), "{}", stderr(&output));
-        assert_eq!(tables(&scene), before);
+        assert_eq!(read_tables(&scene), before);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Tests `ccd scene`.
 
-use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
+use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 use std::path::Path;
 
 /// A table of bodies: two balls that fall onto a slab, listed in an order other than that of their contacts, and one
@@ -11,7 +11,7 @@ const BODIES_TABLE: &str = "body,id,px,pz,vz\n\
     sphere:.5,ball,0,4,-2\n\
     sphere:.5,away,5,4,1\n";
 
-fn contacts(run: &Run) -> Vec<Row> {
+fn contacts(run: &CommandCall) -> Vec<Row> {
     let output = run.ends(0);
     parse(&output.stdout)
 }
@@ -21,7 +21,12 @@ fn pairs_that_touch_are_listed_in_order_of_time() {
     let scene = Scene::new("scene");
     let bodies = scene.file("scene.csv", BODIES_TABLE);
     let bodies = bodies.to_str().unwrap();
-    let rows = contacts(&Run::with_args(&["scene", bodies, "--duration", "2"]));
+    let rows = contacts(&CommandCall::with_args(&[
+        "scene",
+        bodies,
+        "--duration",
+        "2",
+    ]));
     let found: Vec<_> = rows
         .iter()
         .map(|row| (row.text("a"), row.text("b"), row.text("status")))
@@ -45,7 +50,15 @@ fn pairs_that_touch_are_listed_in_order_of_time() {
     assert!((rows[2].number("witness_a_z") - 1.0).abs() < 1e-9);
     assert_eq!(rows[2].text("feature_a"), "f5");
     // No pair touches in so short a time.
-    assert!(contacts(&Run::with_args(&["scene", bodies, "--duration", "0.5"])).is_empty());
+    assert!(
+        contacts(&CommandCall::with_args(&[
+            "scene",
+            bodies,
+            "--duration",
+            "0.5"
+        ]))
+        .is_empty()
+    );
 }
 
 #[test]
@@ -53,7 +66,10 @@ fn contacts_at_the_start_and_bad_motions_have_their_status() {
     let scene = Scene::new("scene-start");
     let table = "body,px,vx\nsphere:1,0,0\nsphere:1,0.5,0\nsphere:1,9,0\nsphere:1,-2,0\n";
     let bodies = scene.file("scene.csv", table);
-    let rows = contacts(&Run::with_args(&["scene", bodies.to_str().unwrap()]));
+    let rows = contacts(&CommandCall::with_args(&[
+        "scene",
+        bodies.to_str().unwrap(),
+    ]));
     let found: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -72,7 +88,7 @@ fn contacts_at_the_start_and_bad_motions_have_their_status() {
     assert_eq!(found, expected);
     let fast = scene.file("fast.csv", "body,px,vx\nsphere:1,0,1e13\nsphere:1,9,0\n");
     let out = scene.directory.join("contacts.csv");
-    let run = Run::with_args(&[
+    let run = CommandCall::with_args(&[
         "scene",
         fast.to_str().unwrap(),
         "--out",
@@ -89,7 +105,7 @@ fn a_scene_is_not_overwritten() {
     let scene = Scene::new("scene-over");
     let bodies = scene.file("scene.csv", BODIES_TABLE);
     let bodies = bodies.to_str().unwrap();
-    Run::with_args(&["scene", bodies, "--out", bodies]).ends(2);
+    CommandCall::with_args(&["scene", bodies, "--out", bodies]).ends(2);
     assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES_TABLE);
 }
 
@@ -102,7 +118,7 @@ fn run_scene_and_view(bodies: &str, options: &[&str]) -> [(Option<i32>, String);
         &["view", "--scene", bodies, "--out", out],
     ]
     .map(|command| {
-        let output = Run::with_args(command).args(options).output();
+        let output = CommandCall::with_args(command).args(options).output();
         (output.status.code(), stderr(&output))
     })
 }
@@ -143,9 +159,17 @@ fn an_end_pose_is_reached_at_the_end() {
     let table = "body,px,end_px,end_py,end_pz\nsphere:1,0,0,0,0\nsphere:1,8,4,0,0\n";
     let bodies = scene.file("scene.csv", table);
     let bodies = bodies.to_str().unwrap();
-    assert!(contacts(&Run::with_args(&["scene", bodies, "--duration", "2"])).is_empty());
+    assert!(
+        contacts(&CommandCall::with_args(&[
+            "scene",
+            bodies,
+            "--duration",
+            "2"
+        ]))
+        .is_empty()
+    );
     let nearer = scene.file("nearer.csv", &table.replace("8,4", "8,0"));
-    let rows = contacts(&Run::with_args(&[
+    let rows = contacts(&CommandCall::with_args(&[
         "scene",
         nearer.to_str().unwrap(),
         "--duration",

@@ -1,15 +1,18 @@
 //! Tests pages of `ccd view` and `ccd query --html`.
 
-use super::command::{Run, Scene, assert_contains, stderr};
+use super::command::{CommandCall, Scene, assert_contains, stderr};
 use serde_json::Value;
 use std::path::Path;
 
 const DROPS_TABLE: &str =
     "id,a_pz,a_vz,duration\nhit,4,-4,1\nshort,4,-1,1\nnever,4,1,1\nin,0,0,1\n\"<b>,\"\"\",4,-4,1\n";
-const CUBE_AND_SLAB: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+const CUBE_AND_SLAB_OPTIONS: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 
 fn view(folder: &Path, more: &[&str]) -> Value {
-    Run::with_args(&["view"]).args(more).folder(folder).ends(0);
+    CommandCall::with_args(&["view"])
+        .args(more)
+        .folder(folder)
+        .ends(0);
     data(&folder.join("view.html"))
 }
 
@@ -40,7 +43,7 @@ fn rows_are_shown_with_their_verdict_and_their_proven_gap() {
     let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let shown = view(
         &scene.directory,
-        &[&CUBE_AND_SLAB[..], &["--motions", &motions]].concat(),
+        &[&CUBE_AND_SLAB_OPTIONS[..], &["--motions", &motions]].concat(),
     );
     let expected = [
         "hit (contact)",
@@ -90,11 +93,11 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
     let scene = Scene::new("view-ids");
     let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let args = [
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
         &["--motions", &motions, "--ids", "never,hit,gone"],
     ]
     .concat();
-    let message = Run::with_args(&["view"])
+    let message = CommandCall::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
         .expect_messages(2);
@@ -104,11 +107,11 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         ["hit (contact)", "never (free)"]
     );
     let nothing = [
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
         &["--motions", &motions, "--ids", "gone"],
     ]
     .concat();
-    let message = Run::with_args(&["view"])
+    let message = CommandCall::with_args(&["view"])
         .args(&nothing)
         .folder(&scene.directory)
         .expect_messages(2);
@@ -120,7 +123,7 @@ fn results_are_shown_as_they_are() {
     let scene = Scene::new("view-results");
     let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let query = [
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
         &[
             "--motions",
             &motions,
@@ -131,13 +134,13 @@ fn results_are_shown_as_they_are() {
         ],
     ]
     .concat();
-    Run::with_args(&["query"])
+    CommandCall::with_args(&["query"])
         .args(&query)
         .folder(&scene.directory)
         .ends(0);
     let page = data(&scene.directory.join("page.html"));
     let args = [
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
         &["--motions", &motions, "--results", "results.csv"],
     ]
     .concat();
@@ -167,11 +170,11 @@ fn results_are_shown_as_they_are() {
     );
     // Another table is not a table of results.
     let wrong = [
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
         &["--motions", &motions, "--results", &motions],
     ]
     .concat();
-    let message = Run::with_args(&["view"])
+    let message = CommandCall::with_args(&["view"])
         .args(&wrong)
         .folder(&scene.directory)
         .expect_messages(2);
@@ -184,11 +187,11 @@ fn results_of_other_bodies_are_not_shown() {
     let motions = file(&scene, "motions.csv", "id,a_pz,a_vz\nhit,4,-4\n");
     let query = [
         &["query", "--motions", &motions, "--out", "results.csv"],
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
     ]
     .concat();
     assert!(
-        Run::with_args(&query)
+        CommandCall::with_args(&query)
             .folder(&scene.directory)
             .output()
             .status
@@ -203,7 +206,7 @@ fn results_of_other_bodies_are_not_shown() {
         "--motions",
         &motions,
     ];
-    let output = Run::with_args(&view)
+    let output = CommandCall::with_args(&view)
         .args(&["--results", "results.csv"])
         .folder(&scene.directory)
         .ends(2);
@@ -212,10 +215,12 @@ fn results_of_other_bodies_are_not_shown() {
     let other = file(&scene, "other.csv", "id,a_pz\nelse,4\n");
     let view = [
         &["view", "--motions", &other, "--results", "results.csv"],
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
     ]
     .concat();
-    let output = Run::with_args(&view).folder(&scene.directory).output();
+    let output = CommandCall::with_args(&view)
+        .folder(&scene.directory)
+        .output();
     assert_contains(&stderr(&output), "no row of");
 }
 
@@ -223,12 +228,12 @@ fn results_of_other_bodies_are_not_shown() {
 fn verdict(scene: &Scene, more: &[&str]) -> String {
     let motions = file(scene, "motions.csv", "id,a_pz,a_vz\nhit,4,-4\n");
     let args = [
-        &CUBE_AND_SLAB[..],
+        &CUBE_AND_SLAB_OPTIONS[..],
         &["--motions", &motions, "--out", "x.csv", "--html", "x.html"],
         more,
     ]
     .concat();
-    Run::with_args(&["query"])
+    CommandCall::with_args(&["query"])
         .args(&args)
         .folder(&scene.directory)
         .ends(0);
@@ -295,7 +300,7 @@ fn a_verdict_matches_the_question_and_the_proof() {
 fn an_unwritable_page_is_an_error_before_the_work() {
     let scene = Scene::new("view-nowhere");
     let motions = file(&scene, "motions.csv", DROPS_TABLE);
-    let both = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
+    let both = [&CUBE_AND_SLAB_OPTIONS[..], &["--motions", &motions]].concat();
     for args in [
         [&["view", "--out", "nowhere/x.html"], &both[..]].concat(),
         [
@@ -304,7 +309,7 @@ fn an_unwritable_page_is_an_error_before_the_work() {
         ]
         .concat(),
     ] {
-        let message = Run::with_args(&args)
+        let message = CommandCall::with_args(&args)
             .folder(&scene.directory)
             .expect_messages(1);
         assert_contains(&message, "create it first");
@@ -320,8 +325,8 @@ fn rows_that_are_no_queries_are_left_out_and_counted() {
         "motions.csv",
         "id,a_pz,a_vz\nbad,x,0\nhit,4,-4\nfar,1e13,0\n",
     );
-    let args = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
-    let message = Run::with_args(&["view"])
+    let args = [&CUBE_AND_SLAB_OPTIONS[..], &["--motions", &motions]].concat();
+    let message = CommandCall::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
         .expect_messages(2);
@@ -342,7 +347,7 @@ fn paths_are_shown_in_the_time_of_their_table() {
     );
     let shown = view(
         &scene.directory,
-        &[&CUBE_AND_SLAB[..], &["--motions", &motions]].concat(),
+        &[&CUBE_AND_SLAB_OPTIONS[..], &["--motions", &motions]].concat(),
     );
     let view = &views(&shown)[0];
     assert_eq!(
@@ -398,7 +403,7 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
         ("body,pz\n", "no bodies"),
     ] {
         let bodies = file(&scene, "wrong.csv", table);
-        let message = Run::with_args(&["view", "--scene", &bodies])
+        let message = CommandCall::with_args(&["view", "--scene", &bodies])
             .folder(&scene.directory)
             .expect_messages(2);
         assert_contains(&message, says);
@@ -409,7 +414,7 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
 fn a_page_overwrites_nothing_that_is_read() {
     let scene = Scene::new("view-overwrites");
     let motions = file(&scene, "motions.csv", DROPS_TABLE);
-    let both = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
+    let both = [&CUBE_AND_SLAB_OPTIONS[..], &["--motions", &motions]].concat();
     let bodies = file(&scene, "scene.csv", "body\nsphere:1\n");
     for args in [
         [&["view", "--out", &motions], &both[..]].concat(),
@@ -417,7 +422,9 @@ fn a_page_overwrites_nothing_that_is_read() {
         [&["query", "--out", "x.csv", "--html", "./x.csv"], &both[..]].concat(),
         vec!["view", "--scene", &bodies, "--out", &bodies],
     ] {
-        Run::with_args(&args).folder(&scene.directory).ends(2);
+        CommandCall::with_args(&args)
+            .folder(&scene.directory)
+            .ends(2);
         assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS_TABLE);
     }
     for args in [
@@ -425,6 +432,8 @@ fn a_page_overwrites_nothing_that_is_read() {
         &["view", "--a", "sphere:1"],
         &["view", "--scene", &bodies, "--a", "sphere:1"],
     ] {
-        Run::with_args(args).folder(&scene.directory).ends(2);
+        CommandCall::with_args(args)
+            .folder(&scene.directory)
+            .ends(2);
     }
 }

@@ -11,7 +11,7 @@ pub(crate) struct Mutator<'a> {
 }
 
 /// The maximum number of changes made to one file.
-const CHANGES: usize = 6;
+const MAX_CHANGES: usize = 6;
 /// Bytes that have a meaning in some file format.
 const MEANINGFUL_BYTES: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eEnN";
 
@@ -23,7 +23,7 @@ impl<'a> Mutator<'a> {
 
     pub(crate) fn next_file(&mut self) -> Vec<u8> {
         let mut bytes = self.pick_file().to_vec();
-        for _ in 0..1 + self.random_below(CHANGES) {
+        for _ in 0..1 + self.random_below(MAX_CHANGES) {
             self.change(&mut bytes);
         }
         bytes

@@ -8,7 +8,7 @@ use crate::engine::{Bodies, Method};
 use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::referee::{Evidence, Limit, Scene};
 use crate::solid::{PointLocation, Solid, distance_to_surface};
-use crate::vector::{Number, Vector, larger, smaller};
+use crate::vector::{Number, Vector, larger, minimum};
 use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
@@ -47,7 +47,7 @@ pub enum Fault {
 }
 
 /// An answer, with the method that gave it.
-pub struct GivenAnswer<'a> {
+pub struct MethodAnswer<'a> {
     pub bodies: &'a Bodies,
     pub method: Method,
     pub answer: Answer,
@@ -84,7 +84,7 @@ impl<'a> Judge<'a> {
 
     /// Returns the faults of all answers, each with the index of its answer. The flag is true if the search for
     /// earlier contacts was complete.
-    pub fn faults(&self, given: &[GivenAnswer<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
+    pub fn faults(&self, given: &[MethodAnswer<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
         let times = given
             .iter()
             .map(|g| self.proven_free_until(&g.answer.outcome));
@@ -112,7 +112,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns the limits of distance and of penetration depth at which the bodies count as nearer than allowed.
-    fn contact_limit(&self, given: &[GivenAnswer<'_>]) -> Limit {
+    fn contact_limit(&self, given: &[MethodAnswer<'_>]) -> Limit {
         let margin = self.case.config.margin;
         let tolerance = given
             .iter()
@@ -137,7 +137,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn faults_of_answer(&self, given: &GivenAnswer<'_>, evidence: Option<Evidence>) -> Faults {
+    fn faults_of_answer(&self, given: &MethodAnswer<'_>, evidence: Option<Evidence>) -> Faults {
         let answer = &given.answer;
         let mut faults = self.check_expected_outcome(&answer.outcome);
         let mut say = |fault, text| faults.push((fault, text));
@@ -204,7 +204,7 @@ impl<'a> Judge<'a> {
     /// `StartPolicy::Leave`. Then it is at most the distance at the start, less rounding.
     fn required_distance(&self, margin: f64) -> f64 {
         match self.case.config.start {
-            StartPolicy::Leave => smaller(
+            StartPolicy::Leave => minimum(
                 margin,
                 self.start.distance - MAX_RESTING_DECREASE * self.rounding,
             ),
@@ -228,7 +228,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Checks the distance, the bounds and the witnesses of a contact at a time.
-    fn check_contact(&self, given: &GivenAnswer<'_>, contact: &Contact, time: f64) -> Faults {
+    fn check_contact(&self, given: &MethodAnswer<'_>, contact: &Contact, time: f64) -> Faults {
         let mut faults = Vec::new();
         let (scene, error) = (&self.scene, self.scene.error());
         let found = contact.separation;
@@ -314,7 +314,7 @@ impl<'a> Judge<'a> {
         let pairs = a
             .iter()
             .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
-        Some(pairs.fold(f64::INFINITY, smaller))
+        Some(pairs.fold(f64::INFINITY, minimum))
     }
 
     fn piece_triangles(
@@ -341,7 +341,7 @@ impl<'a> Judge<'a> {
         Some([side(0, contact.piece_a)?, side(1, contact.piece_b)?])
     }
 
-    fn check_overlap(&self, given: &GivenAnswer<'_>, overlap: &Overlap) -> Faults {
+    fn check_overlap(&self, given: &MethodAnswer<'_>, overlap: &Overlap) -> Faults {
         let text = || {
             format!(
                 "distance {:e}, {:?}",
@@ -385,7 +385,7 @@ impl<'a> Judge<'a> {
 
     /// Returns the contradictions between answers: one answer has a contact well within the tolerance, and another one
     /// proves that there is none until later.
-    fn disagreements(&self, given: &[GivenAnswer<'_>]) -> Vec<(usize, Fault, String)> {
+    fn disagreements(&self, given: &[MethodAnswer<'_>]) -> Vec<(usize, Fault, String)> {
         let mut faults = Vec::new();
         if self.case.config.start == StartPolicy::Leave {
             return faults;
@@ -396,7 +396,7 @@ impl<'a> Judge<'a> {
             };
             let d = self.scene.distance(time);
             for (k, other) in given.iter().enumerate() {
-                let tolerance = smaller(one.answer.tolerance, other.answer.tolerance);
+                let tolerance = minimum(one.answer.tolerance, other.answer.tolerance);
                 let near = d < self.case.config.margin + 0.5 * tolerance - self.scene.error();
                 if near && self.proven_free_until(&other.answer.outcome) > time {
                     let text = format!("{d:e} apart at {time:e}, {:?}", other.answer.outcome);

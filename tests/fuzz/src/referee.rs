@@ -10,7 +10,7 @@ use crate::case::Case;
 use crate::double::Double;
 use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::{Snapshot, Track};
-use crate::vector::{Number, Vector, larger, smaller};
+use crate::vector::{Number, Vector, larger, minimum};
 use search::Search;
 
 /// The largest error of the referee's distances, as a fraction of a scene's size.
@@ -147,11 +147,11 @@ impl Scene {
         let near = self.near_pairs(&a, &b);
         let best = near
             .iter()
-            .fold(f64::INFINITY, |best, &(d, ..)| smaller(best, d));
+            .fold(f64::INFINITY, |best, &(d, ..)| minimum(best, d));
         let noise = RECHECK_DISTANCE * self.scale;
         let nearest = near.into_iter().filter(|&(d, ..)| d <= best + noise);
         let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).rounded());
-        exact.fold(f64::INFINITY, smaller)
+        exact.fold(f64::INFINITY, minimum)
     }
 
     /// Returns pairs of triangles with their distances in f64, including the nearest pair.
@@ -174,7 +174,7 @@ impl Scene {
                 let kept = (best + radii) * (1.0 + 1e-9) + RECHECK_DISTANCE * self.scale;
                 if way.dot(way) < kept * kept {
                     let d = distance(s, t);
-                    best = smaller(best, d);
+                    best = minimum(best, d);
                     near.push((d, i, j));
                 }
             }
@@ -189,7 +189,7 @@ impl Scene {
         let pairs = a
             .iter()
             .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
-        pairs.fold(f64::INFINITY, smaller)
+        pairs.fold(f64::INFINITY, minimum)
     }
 
     /// Returns the greatest penetration depth of any two triangles at a time.

@@ -2,7 +2,7 @@
 
 use crate::double::Double;
 use crate::nearest::{Triangle, distance, normal};
-use crate::vector::{Number, Vector, larger, smaller};
+use crate::vector::{Number, Vector, larger, minimum};
 use std::collections::HashMap;
 
 /// The location of a point relative to a closed surface.
@@ -154,7 +154,7 @@ fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
 /// Returns the distance from a point to a surface.
 pub fn distance_to_surface(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
     let apart = triangles.iter().map(|t| distance(&[p; 3], t).rounded());
-    apart.fold(f64::INFINITY, smaller)
+    apart.fold(f64::INFINITY, minimum)
 }
 
 /// Returns two points for every triangle that has an area, close to it on either side. Their distance is a fraction of

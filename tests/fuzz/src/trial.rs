@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Form, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
-use crate::judge::{Fault, GivenAnswer, Judge};
+use crate::judge::{Fault, Judge, MethodAnswer};
 use ccd_core::{Outcome, Settings};
 use std::collections::HashMap;
 use std::fmt;
@@ -14,7 +14,7 @@ pub struct Trial {
     pub methods: Vec<(Kind, Method)>,
     pub outcomes: Vec<Outcome>,
     /// The reason why the engine or the decomposition rejected the case, if it did.
-    pub refused: Option<String>,
+    pub refusal_reason: Option<String>,
     pub failures: Vec<Failure>,
     /// Whether the referee's search for an earlier contact was complete.
     pub proven: bool,
@@ -64,7 +64,7 @@ pub fn run_methods(case: Case, methods: Vec<(Kind, Method)>) -> Trial {
         case,
         methods: Vec::new(),
         outcomes: Vec::new(),
-        refused: None,
+        refusal_reason: None,
         failures: Vec::new(),
         proven: true,
     };
@@ -86,7 +86,7 @@ fn build(trial: &mut Trial, methods: &[(Kind, Method)]) -> Vec<((Kind, Trees), B
         }
         match catch_unwind(|| Bodies::new(&trial.case, key.0, key.1)) {
             Ok(Ok(bodies)) => built.push((key, bodies)),
-            Ok(Err(why)) => trial.refused = Some(why),
+            Ok(Err(why)) => trial.refusal_reason = Some(why),
             Err(panic) => trial
                 .failures
                 .push(failure_of_panic(&*panic, (*kind, *method))),
@@ -100,7 +100,7 @@ fn answers<'b>(
     trial: &mut Trial,
     built: &'b [((Kind, Trees), Bodies)],
     methods: Vec<(Kind, Method)>,
-) -> Vec<GivenAnswer<'b>> {
+) -> Vec<MethodAnswer<'b>> {
     let mut given = Vec::new();
     for (kind, method) in methods {
         let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
@@ -109,12 +109,12 @@ fn answers<'b>(
         let problem = match bodies.problem(&trial.case, &settings) {
             Ok(problem) => problem,
             Err(why) => {
-                trial.refused = Some(why);
+                trial.refusal_reason = Some(why);
                 continue;
             }
         };
         match catch_unwind(AssertUnwindSafe(|| method.solve(&problem))) {
-            Ok(answer) => given.push(GivenAnswer {
+            Ok(answer) => given.push(MethodAnswer {
                 bodies,
                 method,
                 answer,
@@ -128,7 +128,7 @@ fn answers<'b>(
 }
 
 /// Judges the answers, and records their faults in the trial.
-fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
+fn judge(trial: &mut Trial, given: &[MethodAnswer<'_>]) {
     let Some(first) = given.first() else { return };
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
     let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));

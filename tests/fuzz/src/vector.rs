@@ -125,7 +125,7 @@ pub fn larger(a: f64, b: f64) -> f64 {
 
 /// Returns the smaller of two numbers; `a` if either is NaN.
 #[inline]
-pub fn smaller(a: f64, b: f64) -> f64 {
+pub fn minimum(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 

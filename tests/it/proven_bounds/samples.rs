@@ -49,9 +49,9 @@ impl Scene {
 
     /// Samples the distance at even times, at and beside all knots, and more finely near its least values.
     pub(super) fn samples(&self) -> Samples {
-        const EVEN_INTERVALS: u32 = 48;
-        let mut times: Vec<f64> = (0..=EVEN_INTERVALS)
-            .map(|k| f64::from(k) / f64::from(EVEN_INTERVALS))
+        const INTERVAL_COUNT: u32 = 48;
+        let mut times: Vec<f64> = (0..=INTERVAL_COUNT)
+            .map(|k| f64::from(k) / f64::from(INTERVAL_COUNT))
             .collect();
         let mut corners = Vec::new();
         for way in &self.trajectories {

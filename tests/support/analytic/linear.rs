@@ -1,6 +1,6 @@
 //! Scenes of translation, in which the distance falls at a constant rate.
 
-use super::{Expect, Scene};
+use super::{ExpectedOutcome, Scene};
 use crate::models::{
     comb, cuboid, icosphere, inradius, needles, parallel_plate, slit_plate, torus, u_hook,
 };
@@ -37,7 +37,7 @@ fn falling_cube() -> Scene {
     Scene::new(
         "T1 falling cube",
         [cube, slab()],
-        Expect::hit_at(|g| (2.5 - g) / 4.0),
+        ExpectedOutcome::exact_hit(|g| (2.5 - g) / 4.0),
     )
 }
 
@@ -54,12 +54,12 @@ fn tilted_cubes() -> [Scene; 2] {
         Scene::new(
             "T8 edge on edge",
             [falls(upper), MovingShape::still(lower, DVec3::ZERO)],
-            Expect::hit_at(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
+            ExpectedOutcome::exact_hit(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
         ),
         Scene::new(
             "T8 corner on slab",
             [falls(corner_down), slab()],
-            Expect::hit_at(|g| (3.0 - 3.0_f64.sqrt() / 2.0 - g) / 4.0),
+            ExpectedOutcome::exact_hit(|g| (3.0 - 3.0_f64.sqrt() / 2.0 - g) / 4.0),
         ),
     ]
 }
@@ -73,7 +73,7 @@ pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     Scene::new(
         format!("T10 sliding at {gap:.0e}"),
         [cube, slab()],
-        Expect::Free { gap },
+        ExpectedOutcome::Free { gap },
     )
 }
 
@@ -85,7 +85,7 @@ fn bullet_and_sheet() -> Scene {
     Scene::new(
         "T13 bullet",
         [bullet, paper],
-        Expect::hit_at(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0),
+        ExpectedOutcome::exact_hit(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0),
     )
 }
 
@@ -95,7 +95,7 @@ fn hooks_closing() -> Scene {
     Scene::new(
         "T15 hooks closing",
         hooks(-DVec3::Z),
-        Expect::hit_at(|g| 0.3 - g),
+        ExpectedOutcome::exact_hit(|g| 0.3 - g),
     )
 }
 
@@ -105,7 +105,7 @@ fn hooks_parting() -> Scene {
     Scene::new(
         "T15 hooks parting",
         hooks(DVec3::Z),
-        Expect::Free { gap: 0.2 },
+        ExpectedOutcome::Free { gap: 0.2 },
     )
 }
 
@@ -129,14 +129,14 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
     let speed = 5.0;
     let plate = MovingShape::straight(plate, -2.0 * DVec3::X, speed * DVec3::X);
     let expect = if top.z < half_height {
-        Expect::Free {
+        ExpectedOutcome::Free {
             gap: half_height - top.z,
         }
     } else {
         // The slit's upper edge meets the front face, at the edge's height.
         let part = (half_height - bottom.z) / (top.z - bottom.z);
         let front = bottom.x + part * (top.x - bottom.x);
-        Expect::hit_at(move |g| (2.0 - front - g / phi.cos()) / speed)
+        ExpectedOutcome::exact_hit(move |g| (2.0 - front - g / phi.cos()) / speed)
     };
     let slit = MovingShape::still(slit_plate(half_height), DVec3::ZERO);
     Scene::new(format!("T16 slit {half_height}"), [plate, slit], expect)
@@ -153,9 +153,9 @@ fn linked_tori() -> Scene {
     // Around each vertex the other ring is a concave edge: it is nearer by the cosine of the angle between
     // sections, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
-    let expect = Expect::Hit {
-        earliest: Box::new(move |g| major - 2.0 * minor - g / nearer),
-        latest: major - 2.0 * minor,
+    let expect = ExpectedOutcome::Hit {
+        earliest_time: Box::new(move |g| major - 2.0 * minor - g / nearer),
+        latest_time: major - 2.0 * minor,
     };
     Scene::new(
         "T17 linked tori",
@@ -176,7 +176,7 @@ pub fn combs(teeth: usize) -> Scene {
     Scene::new(
         format!("T19 combs of {teeth}"),
         [upper, lower],
-        Expect::hit_at(move |g| (apart - g) / speed),
+        ExpectedOutcome::exact_hit(move |g| (apart - g) / speed),
     )
 }
 
@@ -186,7 +186,7 @@ fn needles_on_slab(width: f64) -> Scene {
     Scene::new(
         format!("T21 needles of {width:.0e}"),
         [fall, slab()],
-        Expect::hit_at(|g| 0.75 - g),
+        ExpectedOutcome::exact_hit(|g| 0.75 - g),
     )
 }
 
@@ -194,7 +194,11 @@ fn needles_on_slab(width: f64) -> Scene {
 fn parallel_plates() -> Scene {
     let falling = MovingShape::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
     let lying = MovingShape::still(parallel_plate(16), DVec3::ZERO);
-    Scene::new("plates", [falling, lying], Expect::hit_at(|g| 0.5 - g))
+    Scene::new(
+        "plates",
+        [falling, lying],
+        ExpectedOutcome::exact_hit(|g| 0.5 - g),
+    )
 }
 
 /// Returns T22: a rotating icosphere that falls onto a slab. Its inscribed and circumscribed balls bound the time of
@@ -205,9 +209,9 @@ fn spinning_icosphere() -> Scene {
     let inner = inradius(&ball.mesh);
     let spin = DVec3::new(1.0, 2.0, 3.0);
     let ball = MovingShape::moving(ball, height * DVec3::Z, -speed * DVec3::Z, spin);
-    let expect = Expect::Hit {
-        earliest: Box::new(move |g| (height - radius - g) / speed),
-        latest: (height - inner) / speed,
+    let expect = ExpectedOutcome::Hit {
+        earliest_time: Box::new(move |g| (height - radius - g) / speed),
+        latest_time: (height - inner) / speed,
     };
     Scene::new("T22 spinning icosphere", [ball, slab()], expect)
 }

@@ -1,6 +1,6 @@
 //! Scenes of rounded pieces without a mesh: balls, capsules and rounded boxes.
 
-use super::{Expect, Scene};
+use super::{ExpectedOutcome, Scene};
 use crate::models::{Mesh, Shape, cuboid};
 use crate::query::MovingShape;
 use ccd_core::glam::DVec3;
@@ -11,7 +11,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     vec![
         balls_passing(),
         balls_head_on(),
-        ball_on_slab(),
+        ball_on_wall(),
         capsule_on_wall(),
         rounded_box(),
     ]
@@ -62,7 +62,7 @@ fn balls_passing() -> Scene {
     Scene::new(
         "balls passing",
         [moving, still],
-        Expect::Free { gap: 1.1 - 1.0 },
+        ExpectedOutcome::Free { gap: 1.1 - 1.0 },
     )
 }
 
@@ -71,16 +71,20 @@ fn balls_head_on() -> Scene {
     let left = MovingShape::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = MovingShape::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
     let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
-    Scene::new("balls head-on", [left, right], Expect::hit_at(time))
+    Scene::new(
+        "balls head-on",
+        [left, right],
+        ExpectedOutcome::exact_hit(time),
+    )
 }
 
 /// Returns a rotating ball that flies at a wall.
-fn ball_on_slab() -> Scene {
+fn ball_on_wall() -> Scene {
     let falling = MovingShape::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
     Scene::new(
         "ball on wall",
         [falling, wall()],
-        Expect::hit_at(|g| (1.0 - g) / 2.0),
+        ExpectedOutcome::exact_hit(|g| (1.0 - g) / 2.0),
     )
 }
 
@@ -91,7 +95,7 @@ fn capsule_on_wall() -> Scene {
     Scene::new(
         "capsule on wall",
         [turning, wall()],
-        Expect::hit_at(|g| ((1.5 - 0.25 - g) / 2.0_f64).asin() / PI),
+        ExpectedOutcome::exact_hit(|g| ((1.5 - 0.25 - g) / 2.0_f64).asin() / PI),
     )
 }
 
@@ -101,5 +105,9 @@ fn rounded_box() -> Scene {
     shape.parts[0].radius = 0.125;
     let flying = MovingShape::straight(shape, -DVec3::X, 4.0 * DVec3::X);
     let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;
-    Scene::new("rounded box", [flying, wall()], Expect::hit_at(time))
+    Scene::new(
+        "rounded box",
+        [flying, wall()],
+        ExpectedOutcome::exact_hit(time),
+    )
 }

@@ -1,6 +1,6 @@
 //! Scenes of one or two bodies that rotate about a fixed axis.
 
-use super::{Expect, Scene};
+use super::{ExpectedOutcome, Scene};
 use crate::models::{cuboid, frame_plate, mace, post, rod, wall_at};
 use crate::query::MovingShape;
 use ccd_core::glam::{DQuat, DVec3};
@@ -8,11 +8,11 @@ use ccd_core::{Motion, Pose};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// The half length of a rod, in units of length.
-const LENGTH: f64 = 2.0;
+const ROD_HALF_LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 
 fn corner_distance() -> f64 {
-    LENGTH.hypot(WIDTH)
+    ROD_HALF_LENGTH.hypot(WIDTH)
 }
 
 pub(super) fn scenes() -> Vec<Scene> {
@@ -38,18 +38,22 @@ pub(super) fn scenes() -> Vec<Scene> {
 /// Returns the time at which a corner of a rod, rotating at `speed`, is first at the distance `height` from the plane
 /// through the axis.
 fn corner_time(height: f64, speed: f64) -> f64 {
-    ((height / corner_distance()).asin() - WIDTH.atan2(LENGTH)) / speed
+    ((height / corner_distance()).asin() - WIDTH.atan2(ROD_HALF_LENGTH)) / speed
 }
 
 /// Returns T2: a rod that rotates until its end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
-    let spinning = MovingShape::turning(rod(LENGTH, WIDTH), height * DVec3::Z, PI * DVec3::Y);
+    let spinning = MovingShape::turning(
+        rod(ROD_HALF_LENGTH, WIDTH),
+        height * DVec3::Z,
+        PI * DVec3::Y,
+    );
     let slab = MovingShape::still(cuboid(DVec3::new(4.0, 4.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T2 rod on slab",
         [spinning, slab],
-        Expect::hit_at(move |g| corner_time(height - g, PI)),
+        ExpectedOutcome::exact_hit(move |g| corner_time(height - g, PI)),
     )
 }
 
@@ -59,12 +63,12 @@ fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     Scene::new(
         format!("{name} rod by {half_turns} half turns, wall at {wall:.7}"),
         upright_rod_and_wall(speed, wall, Pose::IDENTITY),
-        Expect::hit_at(move |g| corner_time(wall - g, speed)),
+        ExpectedOutcome::exact_hit(move |g| corner_time(wall - g, speed)),
     )
 }
 
 fn upright_rod_and_wall(speed: f64, wall: f64, pose: Pose) -> [MovingShape; 2] {
-    let shape = cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
+    let shape = cuboid(DVec3::new(WIDTH, 0.3, ROD_HALF_LENGTH));
     let motion = Motion::new(pose, DVec3::ZERO, pose.rotation() * (speed * DVec3::Y));
     let still = Motion::still(pose);
     [
@@ -91,7 +95,7 @@ fn pre_rotated_rod() -> Scene {
     Scene::new(
         "T3 pre-rotated rod",
         [rod, wall],
-        Expect::hit_at(|g| corner_time(1.25 - g, PI)),
+        ExpectedOutcome::exact_hit(|g| corner_time(1.25 - g, PI)),
     )
 }
 
@@ -101,18 +105,22 @@ fn grazing_miss(depth: f64) -> Scene {
     Scene::new(
         format!("T6 grazing miss {depth:.0e}"),
         upright_rod_and_wall(PI, corner_distance() + gap, Pose::IDENTITY),
-        Expect::Free { gap },
+        ExpectedOutcome::Free { gap },
     )
 }
 
 /// Returns T7: a rod whose side edge meets the parallel edge of a post.
 fn rod_on_post() -> Scene {
     let (radius, angle, speed, width) = (1.3, 1.0, 1.5, 0.1);
-    let shape = cuboid(DVec3::new(LENGTH, width, 0.1));
+    let shape = cuboid(DVec3::new(ROD_HALF_LENGTH, width, 0.1));
     let spinning = MovingShape::turning(shape, DVec3::ZERO, speed * DVec3::Z);
     let post = MovingShape::still(post(radius, angle), DVec3::ZERO);
     let time = move |g: f64| (angle - ((width + g) / radius).asin()) / speed;
-    Scene::new("T7 rod on post", [spinning, post], Expect::hit_at(time))
+    Scene::new(
+        "T7 rod on post",
+        [spinning, post],
+        ExpectedOutcome::exact_hit(time),
+    )
 }
 
 /// Returns T9: a mace that rotates about its heavy head until the end of its long arm reaches a wall. Bounds that use
@@ -126,7 +134,11 @@ fn swinging_mace() -> Scene {
         DVec3::ZERO,
     );
     let time = move |g: f64| (length.atan2(width) + ((1.0 - g) / reach).asin()) / speed;
-    Scene::new("T9 mace", [swinging, wall], Expect::hit_at(time))
+    Scene::new(
+        "T9 mace",
+        [swinging, wall],
+        ExpectedOutcome::exact_hit(time),
+    )
 }
 
 /// Returns T12: a square peg that rotates in a square hole, with four contacts at once.
@@ -135,17 +147,25 @@ fn peg_in_hole() -> Scene {
     let turning = MovingShape::turning(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
     let plate = MovingShape::still(frame_plate(hole), DVec3::ZERO);
     let time = move |g: f64| ((hole - g) / (peg * 2.0_f64.sqrt())).asin() - FRAC_PI_4;
-    Scene::new("T12 peg in hole", [turning, plate], Expect::hit_at(time))
+    Scene::new(
+        "T12 peg in hole",
+        [turning, plate],
+        ExpectedOutcome::exact_hit(time),
+    )
 }
 
 /// Returns T14: two upright rods that rotate towards each other, as mirror images.
 fn two_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
-    let upright = || cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
+    let upright = || cuboid(DVec3::new(WIDTH, 0.3, ROD_HALF_LENGTH));
     let left = MovingShape::turning(upright(), DVec3::ZERO, speed * DVec3::Y);
     let right = MovingShape::turning(upright(), apart * DVec3::X, -speed * DVec3::Y);
     let time = move |g: f64| corner_time(0.5 * (apart - g), speed);
-    Scene::new("T14 two rods", [left, right], Expect::hit_at(time))
+    Scene::new(
+        "T14 two rods",
+        [left, right],
+        ExpectedOutcome::exact_hit(time),
+    )
 }
 
 /// Returns T20: T4 far from the origin. The offsets are powers of two, so that the scene itself is not rounded.
@@ -154,7 +174,7 @@ fn far_rod(offset: f64) -> Scene {
     Scene::new(
         format!("T20 rod at {offset}"),
         upright_rod_and_wall(PI, 1.25, pose),
-        Expect::hit_at(|g| corner_time(1.25 - g, PI)),
+        ExpectedOutcome::exact_hit(|g| corner_time(1.25 - g, PI)),
     )
 }
 
@@ -166,7 +186,7 @@ fn scaled_rod(scale: f64) -> Scene {
     Scene::new(
         format!("T20 rod times {scale:.0e}"),
         [rod, wall],
-        Expect::hit_at(move |g| corner_time(1.25 - g / scale, PI)),
+        ExpectedOutcome::exact_hit(move |g| corner_time(1.25 - g / scale, PI)),
     )
 }
 
@@ -186,6 +206,6 @@ fn rigidly_turning_pair() -> Scene {
     Scene::new(
         "turntable",
         [on_table(-1.0), on_table(1.0)],
-        Expect::Free { gap: 1.0 },
+        ExpectedOutcome::Free { gap: 1.0 },
     )
 }

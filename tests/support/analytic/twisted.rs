@@ -1,6 +1,6 @@
 //! Scenes with simultaneous translation and rotation, or with other difficulties.
 
-use super::{Expect, Scene};
+use super::{ExpectedOutcome, Scene};
 use crate::models::{Mesh, PITCH, Shape, cuboid, nut, screw};
 use crate::query::MovingShape;
 use ccd_core::glam::{DQuat, DVec3};
@@ -13,17 +13,17 @@ pub(super) fn scenes() -> Vec<Scene> {
         screw_in_nut("T18 screw, wrong pitch", 0.5 * PITCH, 1),
         degenerate_cube(),
         two_shells(),
-        cuboids_in_the_distance(),
+        far_cuboids(),
         deep_overlap(),
-        nested("T24 nested solids", Shape::closed, Expect::Overlap),
+        nested("T24 nested solids", Shape::closed, ExpectedOutcome::Overlap),
         nested(
             "T24 nested surfaces",
             Shape::open,
-            Expect::Free { gap: 1.5 },
+            ExpectedOutcome::Free { gap: 1.5 },
         ),
-        resting(),
+        cubes_at_rest(),
     ];
-    out.extend([0.0, 1e-12, PI].map(slow_turn));
+    out.extend([0.0, 1e-12, PI].map(slowly_turning_cube));
     out
 }
 
@@ -41,7 +41,7 @@ pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     // Turned ahead by the angle that corresponds to the screw's low start.
     let turned = DQuat::from_rotation_z(START_DEPTH / PITCH * TAU);
     let still = MovingShape::still(nut(0.1, fineness).placed(turned, DVec3::ZERO), DVec3::ZERO);
-    Scene::new(name, [turning, still], Expect::Unknown)
+    Scene::new(name, [turning, still], ExpectedOutcome::Unknown)
 }
 
 /// Returns T21: T1 with a cube that has faces of no area, repeated faces and reversed faces.
@@ -56,7 +56,7 @@ fn degenerate_cube() -> Scene {
     Scene::new(
         "T21 dirty cube",
         [cube, slab],
-        Expect::hit_at(|g| (2.5 - g) / 4.0),
+        ExpectedOutcome::exact_hit(|g| (2.5 - g) / 4.0),
     )
 }
 
@@ -76,13 +76,13 @@ fn two_shells() -> Scene {
     Scene::new(
         "T21 two shells",
         [falling, slab],
-        Expect::hit_at(|g| (2.5 - g) / 4.0),
+        ExpectedOutcome::exact_hit(|g| (2.5 - g) / 4.0),
     )
 }
 
 /// Returns T26: two cuboids at coordinates of some thousands, one of which flies and rotates about a centre far from
 /// it. The numbers are from a bug report to parry (its issue 317).
-fn cuboids_in_the_distance() -> Scene {
+fn far_cuboids() -> Scene {
     let flying = Motion::about(
         Pose::new(
             DVec3::new(6458.7905, -209.1331, 1014.52124),
@@ -113,7 +113,7 @@ fn cuboids_in_the_distance() -> Scene {
     Scene::new(
         "T26 cuboids in the distance",
         [flying, still],
-        Expect::Unknown,
+        ExpectedOutcome::Unknown,
     )
 }
 
@@ -125,12 +125,12 @@ fn deep_overlap() -> Scene {
     Scene::new(
         "T24 overlap",
         [leaving, MovingShape::still(cube(), DVec3::ZERO)],
-        Expect::Overlap,
+        ExpectedOutcome::Overlap,
     )
 }
 
 /// Returns T24: a small cube inside a big one, with separate surfaces.
-fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
+fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: ExpectedOutcome) -> Scene {
     let small = MovingShape::turning(
         shape(cuboid(DVec3::splat(0.5)).mesh),
         DVec3::ZERO,
@@ -138,7 +138,7 @@ fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
     );
     // Turned by 1e-3, the small cube's edges come 2.5e-7 nearer than 1.5.
     let gap = match expect {
-        Expect::Free { gap } => Expect::Free {
+        ExpectedOutcome::Free { gap } => ExpectedOutcome::Free {
             gap: gap + 0.5 - 0.5 * 2.0_f64.sqrt() * (PI / 4.0 - 1e-3).cos(),
         },
         other => other,
@@ -148,23 +148,23 @@ fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
 }
 
 /// Returns T25: two cubes at rest, one unit apart.
-fn resting() -> Scene {
+fn cubes_at_rest() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let bodies = [
         MovingShape::still(cube(), DVec3::ZERO),
         MovingShape::still(cube(), 2.0 * DVec3::X),
     ];
-    Scene::new("T25 at rest", bodies, Expect::Free { gap: 1.0 })
+    Scene::new("T25 at rest", bodies, ExpectedOutcome::Free { gap: 1.0 })
 }
 
 /// Returns T25: a cube that falls onto a slab while it rotates about the vertical by zero, by a tiny angle or by π.
-fn slow_turn(angle: f64) -> Scene {
+fn slowly_turning_cube(angle: f64) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = MovingShape::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, angle * DVec3::Z);
     let slab = MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         format!("T25 falling, turning by {angle:.2e}"),
         [cube, slab],
-        Expect::hit_at(|g| (2.5 - g) / 4.0),
+        ExpectedOutcome::exact_hit(|g| (2.5 - g) / 4.0),
     )
 }

@@ -1,9 +1,9 @@
 //! Lists the solids for tests of decompositions.
 
 use super::{
-    Shape, blob, both, boulder, cuboid, dented_cube, divided_cube, gear, hollow, icosphere,
-    l_block, l_prism, meshed_combs, perforated_plate, pile, post, slotted_plate, terrain, torus,
-    torus_knot,
+    Shape, blob, boulder, cuboid, dented_cube, divided_cube, gear, hollow, icosphere, l_block,
+    l_prism, meshed_combs, perforated_plate, pile, post, slotted_plate, terrain, torus, torus_knot,
+    two_solids,
 };
 use ccd_core::glam::{DQuat, DVec3};
 
@@ -71,7 +71,7 @@ pub fn flat_solids() -> Vec<Model> {
         ),
         Model::new(
             "two cubes",
-            both(
+            two_solids(
                 &cuboid(DVec3::ONE),
                 &cuboid(DVec3::ONE).moved(2.5 * DVec3::X),
             ),
@@ -90,7 +90,7 @@ fn curved_solids() -> Vec<Model> {
         Model::new("hollow ball", hollow(&ball(1.0), &ball(0.9))),
         Model::new(
             "ball in a cavity",
-            both(&hollow(&ball(1.0), &ball(0.8)), &ball(0.7)),
+            two_solids(&hollow(&ball(1.0), &ball(0.8)), &ball(0.7)),
         ),
     ]
 }

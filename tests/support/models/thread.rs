@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 pub const PITCH: f64 = 0.5;
 
 /// The number of segments around the axis of the coarsest thread.
-const SEGMENTS: usize = 16;
+const SEGMENTS_PER_TURN: usize = 16;
 /// The number of segments along the axis of the coarsest thread, for each pitch.
 const ROWS_PER_PITCH: usize = 6;
 
@@ -27,7 +27,7 @@ pub fn nut(clearance: f64, fineness: usize) -> Shape {
 /// Returns a helical surface: a rotation by an angle and a lift by the same fraction of the pitch map it to itself, up
 /// to its facets.
 fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
-    let (segments, rows_per_pitch) = (SEGMENTS * fineness, ROWS_PER_PITCH * fineness);
+    let (segments, rows_per_pitch) = (SEGMENTS_PER_TURN * fineness, ROWS_PER_PITCH * fineness);
     let rows = pitches * rows_per_pitch + 1;
     let vertex = |i: usize, j: usize| {
         let turn = j as f64 / segments as f64;

@@ -1,7 +1,7 @@
 //! Runs one step of rapier's simulation in double precision over the whole query, with continuous collision detection.
 
 use crate::method::peer::contact_claim_at;
-use crate::method::peer::parry::double::shapes::{pose_at, to_parry_vector, tri_mesh};
+use crate::method::peer::parry::double::shapes::{pose_at, to_parry_vector, to_tri_mesh};
 use crate::method::solver::{Claim, Reply, Solver};
 use anyhow::Result;
 use ccd_core::Motion;
@@ -35,7 +35,7 @@ pub struct TwoBodySimulation {
 /// The largest distance at which a hit is reported, as a multiple of the allowed error.
 const MAX_HIT_DISTANCE_IN_ERRORS: f64 = 1.25;
 /// The fraction of A's motion from which a step counts as not stopped; it is below 1 because poses are rounded.
-const COMPLETE_SHARE: f64 = 1.0 - 1e-9;
+const MIN_COMPLETE_FRACTION: f64 = 1.0 - 1e-9;
 
 impl TwoBodySimulation {
     /// Creates a rapier world with the triangles of A as one free body, and the mesh of B as a fixed body.
@@ -45,20 +45,20 @@ impl TwoBodySimulation {
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::ZERO;
-        let triangles = tri_mesh(a)?
+        let triangles = to_tri_mesh(a)?
             .triangles()
             .map(|t| (Pose::IDENTITY, SharedShape::triangle(t.a, t.b, t.c)))
             .collect();
         // The density is zero: the mass is set for each query, about its centre.
         let flying = ColliderBuilder::new(SharedShape::compound(triangles)).density(0.0);
-        let fixed = ColliderBuilder::new(SharedShape::new(tri_mesh(b)?));
+        let fixed = ColliderBuilder::new(SharedShape::new(to_tri_mesh(b)?));
         let (a, _) = world.insert(RigidBodyBuilder::dynamic().can_sleep(false), flying);
         let (b, _) = world.insert(RigidBodyBuilder::fixed(), fixed);
         Ok(TwoBodySimulation { world, a, b })
     }
 
     /// Sets the start poses of both bodies, the velocity of A relative to B, and the allowed error.
-    fn pose(&mut self, query: &Motions, tolerance: f64) {
+    fn set_query(&mut self, query: &Motions, tolerance: f64) {
         let parameters = &mut self.world.integration_parameters;
         parameters.dt = query.duration;
         parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_DISTANCE_IN_ERRORS;
@@ -88,11 +88,11 @@ impl Solver for TwoBodySimulation {
             let claim = Claim::Refused;
             return Reply::new(claim, 0);
         }
-        self.pose(query, tolerance);
+        self.set_query(query, tolerance);
         self.world.step();
         let claim = match self.world.bodies.get(self.a) {
             Some(a) => match completed_motion_fraction(query, a.position()) {
-                share if share >= COMPLETE_SHARE => Claim::NoContact,
+                share if share >= MIN_COMPLETE_FRACTION => Claim::NoContact,
                 share => contact_claim_at(share * query.duration, query.duration),
             },
             None => Claim::Unresolved { safe_until: 0.0 },

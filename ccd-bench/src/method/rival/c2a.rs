@@ -104,7 +104,12 @@ impl Solver for C2a {
             let setup = DescentSetup {
                 placement: &b.at(time).relative_to(&frame),
                 remaining_time: query.duration - time,
-                max_relative_excess: excess(steps, last.as_ref(), query.duration, tolerance),
+                max_relative_excess: max_relative_excess(
+                    steps,
+                    last.as_ref(),
+                    query.duration,
+                    tolerance,
+                ),
                 tolerance,
             };
             self.closing_speeds.set_frame(&frame);
@@ -161,7 +166,7 @@ impl C2a {
             let Some(candidate) = self.pairs.pop() else {
                 return DescentOutcome::Done(found);
             };
-            if candidate.may_stop(&mut found, setup) {
+            if candidate.stop_descent_at(&mut found, setup) {
                 continue;
             }
             if *pairs_left == 0 || found.distance.is_nan() {
@@ -227,7 +232,7 @@ impl C2a {
 impl CandidatePair {
     /// Returns true if the descent may stop at this pair, whose step is then accounted for in `found`.
     #[inline]
-    fn may_stop(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
+    fn stop_descent_at(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
         if self.step >= lesser(found.step, setup.remaining_time) {
             return true;
         }
@@ -240,25 +245,30 @@ impl CandidatePair {
 }
 
 /// Returns the allowed relative excess of the distance in a step: large in the first steps, and 0 near a contact.
-fn excess(step: u64, last: Option<&DescentResult>, duration: f64, tolerance: f64) -> f64 {
+fn max_relative_excess(
+    step: u64,
+    last: Option<&DescentResult>,
+    duration: f64,
+    tolerance: f64,
+) -> f64 {
     /// The number of coarse steps at the start, and the excess that they are allowed.
     const COARSE_STEPS: (u64, f64) = (3, 3.0);
     /// The number of the last finer step, after which all steps are exact, and the excess that the finer steps are
     /// allowed.
-    const FINER_STEPS: (u64, f64) = (6, 0.5);
+    const LAST_FINER_STEP: (u64, f64) = (6, 0.5);
     /// The length of a step at and below which the next step is exact, as a fraction of the duration.
-    const EXACT_BELOW_STEP: f64 = 0.005;
+    const EXACT_STEP_FRACTION: f64 = 0.005;
     /// The distance at and below which the next step is exact, as a multiple of the tolerance.
-    const EXACT_BELOW_DISTANCE: f64 = 16.0;
+    const EXACT_DISTANCE_IN_TOLERANCES: f64 = 16.0;
 
     let exact = last.is_some_and(|last| {
-        !(last.step > EXACT_BELOW_STEP * duration
-            && last.distance > EXACT_BELOW_DISTANCE * tolerance)
+        !(last.step > EXACT_STEP_FRACTION * duration
+            && last.distance > EXACT_DISTANCE_IN_TOLERANCES * tolerance)
     });
     match step {
         _ if exact => 0.0,
         _ if step <= COARSE_STEPS.0 => COARSE_STEPS.1,
-        _ if step <= FINER_STEPS.0 => FINER_STEPS.1,
+        _ if step <= LAST_FINER_STEP.0 => LAST_FINER_STEP.1,
         _ => 0.0,
     }
 }

@@ -18,7 +18,7 @@ use boxes::{BoxRelation, relate_boxes};
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 use clock::{HalvedInterval, MotionEncloser};
-use elementary::{Facet, TrianglePair};
+use elementary::{TestTriangle, TrianglePair};
 use leaf::{FirstTouch, first_touch};
 use relative::RelativeMotion;
 use rigid_ccd::table::motions::Motions;
@@ -49,8 +49,8 @@ const MAX_RELATIVE_SPREAD: f64 = 0.2;
 pub struct Contact {
     trees: [ObbTree; 2],
     limits: Limits,
-    stack: Vec<Pair>,
-    static_stack: Vec<(u32, u32)>,
+    stack: Vec<NodePair>,
+    overlap_stack: Vec<(u32, u32)>,
 }
 
 /// The limits on the work of one query, which let it run for some seconds.
@@ -70,7 +70,7 @@ const LIMITS: Limits = Limits {
 
 /// A pair of nodes, one of each tree, over an interval of time.
 #[derive(Clone, Copy, Debug)]
-struct Pair {
+struct NodePair {
     nodes: [u32; 2],
     interval: HalvedInterval,
 }
@@ -82,7 +82,7 @@ impl Contact {
             trees: [a, b].map(ObbTree::new),
             limits: LIMITS,
             stack: Vec::new(),
-            static_stack: Vec::new(),
+            overlap_stack: Vec::new(),
         }
     }
 
@@ -92,7 +92,7 @@ impl Contact {
         let resolution = resolution(&courses, &self.trees, tolerance);
         let [a, b] = &self.trees;
         let start = courses[0].at(0.0).relative_to(&courses[1].at(0.0));
-        if trees_intersect(a, b, &start, &mut self.static_stack) {
+        if trees_intersect(a, b, &start, &mut self.overlap_stack) {
             let claim = Claim::Contact { time: 0.0 };
             return Reply::new(claim, 0);
         }
@@ -109,7 +109,7 @@ impl Contact {
             motion_encloser: MotionEncloser::new(relative, resolution, self.limits.max_halvings),
             max_pairs: self.limits.pairs,
             stack: &mut self.stack,
-            end: query.duration,
+            search_end: query.duration,
         };
         let claim = search.run();
         Reply::new(claim, search.motion_encloser.halvings)
@@ -131,34 +131,34 @@ struct Search<'a> {
     trees: [&'a ObbTree; 2],
     motion_encloser: MotionEncloser,
     max_pairs: u64,
-    stack: &'a mut Vec<Pair>,
+    stack: &'a mut Vec<NodePair>,
     /// The end of the time to search: the earliest contact found so far, or else the duration.
-    end: f64,
+    search_end: f64,
 }
 
 impl Search<'_> {
     fn run(&mut self) -> Claim {
         let mut found = None;
-        let interval = HalvedInterval::whole_duration(self.end);
+        let interval = HalvedInterval::whole_duration(self.search_end);
         let nodes = [0, 0];
         self.stack.clear();
-        self.stack.push(Pair { nodes, interval });
+        self.stack.push(NodePair { nodes, interval });
         for _ in 0..self.max_pairs {
             let Some(mut pair) = self.stack.pop() else {
                 return found.map_or(Claim::NoContact, |time| Claim::Contact { time });
             };
-            let ahead = pair.interval.span.start < self.end;
+            let ahead = pair.interval.span.start < self.search_end;
             if !ahead && found.is_some() {
                 continue;
             }
-            pair.interval.span.end = lesser(pair.interval.span.end, self.end);
+            pair.interval.span.end = lesser(pair.interval.span.end, self.search_end);
             if self.motion_encloser.is_at_limit() {
                 self.stack.push(pair);
                 break;
             }
             match self.visit_pair(pair) {
                 FirstTouch::AtTime(time) => {
-                    self.end = time;
+                    self.search_end = time;
                     found = Some(time);
                 }
                 FirstTouch::Never => {}
@@ -170,14 +170,14 @@ impl Search<'_> {
         }
         let starts = self.stack.iter().map(|pair| pair.interval.span.start);
         Claim::Unresolved {
-            safe_until: starts.fold(self.end, lesser),
+            safe_until: starts.fold(self.search_end, lesser),
         }
     }
 
     /// Examines a pair: drops it if its boxes stay apart, pushes halves or children onto the stack, or tests its two
     /// triangles.
-    fn visit_pair(&mut self, pair: Pair) -> FirstTouch {
-        let Pair { nodes, interval } = pair;
+    fn visit_pair(&mut self, pair: NodePair) -> FirstTouch {
+        let NodePair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
         let spread = match relate_boxes(
@@ -194,30 +194,30 @@ impl Search<'_> {
             self.motion_encloser.halvings += 1;
             let [early, late] = interval.halves();
             self.stack
-                .extend([late, early].map(|interval| Pair { nodes, interval }));
+                .extend([late, early].map(|interval| NodePair { nodes, interval }));
             return FirstTouch::Never;
         }
         let open = match (a.content, b.content) {
             (NodeContent::Triangle(p), NodeContent::Triangle(q)) => {
                 return self.visit_leaves([p, q], interval);
             }
-            (NodeContent::Nodes(children), NodeContent::Triangle(_)) => {
+            (NodeContent::Children(children), NodeContent::Triangle(_)) => {
                 children.map(|child| [child, nodes[1]])
             }
-            (NodeContent::Nodes(children), NodeContent::Nodes(_)) if size[0] > size[1] => {
+            (NodeContent::Children(children), NodeContent::Children(_)) if size[0] > size[1] => {
                 children.map(|child| [child, nodes[1]])
             }
-            (_, NodeContent::Nodes(children)) => children.map(|child| [nodes[0], child]),
+            (_, NodeContent::Children(children)) => children.map(|child| [nodes[0], child]),
         };
         self.stack
-            .extend(open.map(|nodes| Pair { nodes, interval }));
+            .extend(open.map(|nodes| NodePair { nodes, interval }));
         FirstTouch::Never
     }
 
     fn visit_leaves(&mut self, [p, q]: [u32; 2], interval: HalvedInterval) -> FirstTouch {
         let triangles = TrianglePair {
-            a: Facet::new(self.trees[0].triangle(p)),
-            b: Facet::new(self.trees[1].triangle(q)),
+            a: TestTriangle::new(self.trees[0].triangle(p)),
+            b: TestTriangle::new(self.trees[1].triangle(q)),
         };
         first_touch(&triangles, interval, &mut self.motion_encloser)
     }

@@ -71,7 +71,7 @@ enum LowerBound {
     Apart(f64),
     Touching,
     /// The work limit was reached, or a computed distance was NaN.
-    GaveUp,
+    LimitReached,
 }
 
 /// The motions of one query, their bounds on speed, and the remaining work.
@@ -126,14 +126,14 @@ impl DynamicChecker {
     fn search_first_contact(&mut self, duration: f64, task: &mut QueryTask) -> Claim {
         let path = task.speed * duration;
         let distance_at_from =
-            match self.distance_lower_bound(0.0, RequiredPrecision::coarse_up_to(path), task) {
+            match self.distance_lower_bound(0.0, RequiredPrecision::coarse_precision(path), task) {
                 LowerBound::Apart(distance) => distance,
                 LowerBound::Touching => return Claim::Contact { time: 0.0 },
-                LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
+                LowerBound::LimitReached => return Claim::Unresolved { safe_until: 0.0 },
             };
         let distance_at_to = match self.distance_lower_bound(
             duration,
-            RequiredPrecision::coarse_up_to(path - distance_at_from),
+            RequiredPrecision::coarse_precision(path - distance_at_from),
             task,
         ) {
             LowerBound::Apart(distance) => distance,
@@ -141,7 +141,7 @@ impl DynamicChecker {
                 task.earliest_touch = Some(duration);
                 0.0
             }
-            LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
+            LowerBound::LimitReached => return Claim::Unresolved { safe_until: 0.0 },
         };
         self.segments.clear();
         self.segments.push(Segment {
@@ -184,16 +184,17 @@ impl DynamicChecker {
         if path <= task.tolerance || !(from < middle && middle < to) {
             return match self.distance_lower_bound(
                 from,
-                RequiredPrecision::exact_up_to(path - distance_at_to),
+                RequiredPrecision::exact_precision(path - distance_at_to),
                 task,
             ) {
                 LowerBound::Apart(distance) if path < distance + distance_at_to => None,
                 LowerBound::Apart(_) | LowerBound::Touching => Some(Claim::Contact { time: from }),
-                LowerBound::GaveUp => Some(gave_up),
+                LowerBound::LimitReached => Some(gave_up),
             };
         }
-        let precision =
-            RequiredPrecision::coarse_up_to(0.5 * path - lesser(distance_at_from, distance_at_to));
+        let precision = RequiredPrecision::coarse_precision(
+            0.5 * path - lesser(distance_at_from, distance_at_to),
+        );
         let at_middle = match self.distance_lower_bound(middle, precision, task) {
             LowerBound::Apart(distance) => {
                 self.segments.push(Segment {
@@ -210,7 +211,7 @@ impl DynamicChecker {
                 task.earliest_touch = Some(middle);
                 0.0
             }
-            LowerBound::GaveUp => return Some(gave_up),
+            LowerBound::LimitReached => return Some(gave_up),
         };
         self.segments.push(Segment {
             start: from,
@@ -245,7 +246,7 @@ impl DynamicChecker {
                 continue;
             }
             if task.pairs_left == 0 {
-                return LowerBound::GaveUp;
+                return LowerBound::LimitReached;
             }
             task.pairs_left -= 1;
             match self.trees.children(&pair) {
@@ -257,7 +258,7 @@ impl DynamicChecker {
                         .vector_from_a_to_b()
                         .length();
                     if apart.is_nan() {
-                        return LowerBound::GaveUp;
+                        return LowerBound::LimitReached;
                     }
                     if apart == 0.0 {
                         return LowerBound::Touching;
@@ -289,7 +290,7 @@ impl DynamicChecker {
 }
 
 impl RequiredPrecision {
-    fn coarse_up_to(sufficient: f64) -> Self {
+    fn coarse_precision(sufficient: f64) -> Self {
         /// The ratio of the nodes' size to their distance above which they are opened; this value is the fastest on the
         /// scenes. At 0, three times as much work goes into distances that are better than needed. Without a bound, as
         /// published, up to twenty times as much work goes into halvings.
@@ -300,7 +301,7 @@ impl RequiredPrecision {
         }
     }
 
-    fn exact_up_to(sufficient: f64) -> Self {
+    fn exact_precision(sufficient: f64) -> Self {
         RequiredPrecision {
             sufficient_distance: sufficient,
             coarseness: 0.0,

@@ -86,7 +86,7 @@ impl<T: Add<Output = T> + Sub<Output = T>> Sub for Interval<T> {
 impl IntervalVec {
     /// Returns the interval of the dot products of this interval's vectors with a vector.
     #[inline]
-    pub(super) fn dot_point(self, other: DVec3) -> Interval {
+    pub(super) fn dot_vector(self, other: DVec3) -> Interval {
         Interval {
             middle: self.middle.dot(other),
             radius: self.radius.dot(other.abs()),
@@ -105,10 +105,10 @@ impl IntervalVec {
 
     /// Returns the interval of the cross products of this interval's vectors with a vector.
     #[inline]
-    pub(super) fn cross_point(self, other: DVec3) -> IntervalVec {
+    pub(super) fn cross_vector(self, other: DVec3) -> IntervalVec {
         IntervalVec {
             middle: self.middle.cross(other),
-            radius: cross_sum(self.radius, other.abs()),
+            radius: cross_radius(self.radius, other.abs()),
         }
     }
 
@@ -117,8 +117,8 @@ impl IntervalVec {
     pub(super) fn cross(self, other: IntervalVec) -> IntervalVec {
         IntervalVec {
             middle: self.middle.cross(other.middle),
-            radius: cross_sum(self.middle.abs(), other.radius)
-                + cross_sum(self.radius, other.middle.abs() + other.radius),
+            radius: cross_radius(self.middle.abs(), other.radius)
+                + cross_radius(self.radius, other.middle.abs() + other.radius),
         }
     }
 
@@ -146,7 +146,7 @@ impl IntervalVec {
 
 /// Returns the cross product with sums in place of differences, which bounds the radius of a cross product.
 #[inline]
-pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
+pub(super) fn cross_radius(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(
         a.y * b.z + a.z * b.y,
         a.z * b.x + a.x * b.z,

@@ -9,7 +9,7 @@ pub struct RivalMotion {
     /// The centre of rotation in the body's frame.
     pub centre: DVec3,
     /// The position of the centre at the start, in the world frame.
-    pub from: DVec3,
+    pub start_position: DVec3,
     /// The velocity of the centre, in the world frame.
     pub velocity: DVec3,
     /// The orientation of the body at the start.
@@ -36,7 +36,7 @@ impl RivalMotion {
         let rate = motion.spin().length();
         RivalMotion {
             centre: motion.centre(),
-            from: motion.start().translation() + orientation * motion.centre(),
+            start_position: motion.start().translation() + orientation * motion.centre(),
             velocity: motion.velocity(),
             orientation,
             axis: motion.spin().try_normalize().unwrap_or(DVec3::Z),
@@ -50,7 +50,7 @@ impl RivalMotion {
         let rotation = turn * self.orientation;
         Placement {
             rotation,
-            translation: self.from + time * self.velocity - rotation * self.centre,
+            translation: self.start_position + time * self.velocity - rotation * self.centre,
         }
     }
 }

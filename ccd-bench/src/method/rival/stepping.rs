@@ -20,28 +20,28 @@ const MAX_SAMPLES: u64 = 1 << 20;
 /// # Source
 /// Boxes and their tests: \[OBBTREE96\].
 #[derive(Clone, Debug)]
-pub struct Stepping {
+pub struct FixedTimeSteps {
     trees: [ObbTree; 2],
     stack: Vec<(u32, u32)>,
 }
 
-impl Stepping {
+impl FixedTimeSteps {
     /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
-        Stepping {
+        FixedTimeSteps {
             trees: [a, b].map(ObbTree::new),
             stack: Vec::new(),
         }
     }
 
-    fn crosses(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
+    fn bodies_cross(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
         let placement = courses[0].at(time).relative_to(&courses[1].at(time));
         let [a, b] = &self.trees;
         trees_intersect(a, b, &placement, &mut self.stack)
     }
 }
 
-impl Solver for Stepping {
+impl Solver for FixedTimeSteps {
     /// Answers a query; the reply counts samples as steps, from the start of the motions to their end.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
@@ -51,7 +51,7 @@ impl Solver for Stepping {
         let mut before = 0.0;
         for k in 0..=steps.min(MAX_SAMPLES - 1) {
             let time = query.duration * (k as f64 / steps as f64);
-            if self.crosses(&courses, time) {
+            if self.bodies_cross(&courses, time) {
                 let claim = Claim::Contact { time };
                 return Reply::new(claim, k + 1);
             }

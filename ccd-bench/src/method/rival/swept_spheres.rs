@@ -187,13 +187,13 @@ impl Trees {
             (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
                 PairChildren::Triangles(TrianglePair { a, b })
             }
-            (NodeContent::Nodes(below), NodeContent::Nodes(_))
+            (NodeContent::Children(below), NodeContent::Children(_))
                 if a.diameter_bound() > b.diameter_bound() =>
             {
                 self.split_a(pair, below)
             }
-            (_, NodeContent::Nodes(below)) => self.split_b(pair, below),
-            (NodeContent::Nodes(below), NodeContent::Triangle(_)) => self.split_a(pair, below),
+            (_, NodeContent::Children(below)) => self.split_b(pair, below),
+            (NodeContent::Children(below), NodeContent::Triangle(_)) => self.split_a(pair, below),
         }
     }
 

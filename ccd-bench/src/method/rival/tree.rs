@@ -6,7 +6,7 @@ use super::triangles_apart::Triangle;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NodeContent {
     /// The node has two children, given by their indices.
-    Nodes([u32; 2]),
+    Children([u32; 2]),
     /// The node is a leaf, and contains the triangle with this index.
     Triangle(u32),
 }
@@ -39,7 +39,7 @@ pub(super) fn build_binary_tree<N>(
             .clone()
             .map(|part| fit(&triangles[part], Some(parent)));
         let left = nodes.len();
-        nodes[index].1 = NodeContent::Nodes([left as u32, left as u32 + 1]);
+        nodes[index].1 = NodeContent::Children([left as u32, left as u32 + 1]);
         nodes.extend(children.map(leaf));
         open.extend((left..).zip(parts));
     }

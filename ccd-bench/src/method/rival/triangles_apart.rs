@@ -39,7 +39,7 @@ impl NearestPoints {
 /// \[PQP99 §4\], with the three features of one triangle at a time.
 pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
     let (face_a, face_b) = (TrianglePlane::new(a), TrianglePlane::new(b));
-    let (over_a, over_b) = (face_a.heights(b), face_b.heights(a));
+    let (over_a, over_b) = (face_a.scaled_heights(b), face_b.scaled_heights(a));
     // Nothing is above or below the plane of a needle, which has no normal.
     let cut = |face: &TrianglePlane, heights| face.is_needle() || have_both_signs(heights);
     if cut(&face_a, over_a) && cut(&face_b, over_b) {
@@ -155,7 +155,7 @@ impl TrianglePlane {
 
     /// Returns the heights of points above the triangle's plane, times |normal|; all zero for a needle.
     #[inline(always)]
-    fn heights(&self, points: &Triangle) -> f64x4 {
+    fn scaled_heights(&self, points: &Triangle) -> f64x4 {
         pack_vectors(points)
             .minus(Vec3x4::splat(self.corners[0]))
             .dot(self.normal)

@@ -3,7 +3,7 @@
 use super::MAX_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{GuardSettings, GuardedMethod, Programs, QueryOutcome};
 use crate::method::solver::{Solver, answer_timed};
-use crate::method::{Method, Ours, PAPER_TOLERANCE};
+use crate::method::{Method, PAPER_TOLERANCE, ProjectSolver};
 use crate::scene::Scene;
 use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;
@@ -36,7 +36,11 @@ impl<'s> Session<'s> {
                 let Some(bodies) = scene.bodies_with_pieces(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
-                Runner::InProcess(Box::new(Ours::new(kind, bodies, Settings::DEFAULT.margin)))
+                Runner::InProcess(Box::new(ProjectSolver::new(
+                    kind,
+                    bodies,
+                    Settings::DEFAULT.margin,
+                )))
             }
             Method::Rival(kind) => {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());

@@ -18,7 +18,7 @@ fn cube() -> TriangleMesh {
 
 /// Returns a query in which a cube flies at speed 8 towards another cube, whose centre is 4 away, so that they touch at
 /// 3/8.
-fn flight() -> Motions {
+fn flight_query() -> Motions {
     let start = Pose::at(-4.0 * DVec3::X).unwrap();
     Motions {
         id: "flight".to_owned(),
@@ -58,7 +58,7 @@ fn claims_get_expected_verdicts(
     let surface = Surface::new(&cube());
     let referee = Referee::new(&surface, &surface);
     // The distance at time t is 3 − 8 t.
-    let judged = judge(&referee, &flight(), truth, claim, 0.05);
+    let judged = judge(&referee, &flight_query(), truth, claim, 0.05);
     assert_eq!(judged.verdict, verdict);
     match error {
         Some(error) => assert!((judged.time_error.unwrap() - error).abs() < 1e-12),
@@ -80,7 +80,7 @@ const NO_LIMITS: MeasurementLimits = MeasurementLimits {
     patience: Duration::MAX,
     max_rows: usize::MAX,
     min_rows: 1,
-    preparation: Duration::MAX,
+    preparation_limit: Duration::MAX,
 };
 
 #[test]

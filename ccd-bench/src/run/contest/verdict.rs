@@ -30,7 +30,7 @@ pub enum Verdict {
     /// The claim is that there is no contact, but there is one.
     Missed,
     /// The process of the method ended instead of answering.
-    Died,
+    Crashed,
     /// The query exceeded the time limit and was stopped.
     #[value(name = "cut off")]
     CutOff,
@@ -58,7 +58,7 @@ const MAX_LATENESS: f64 = 1e-12;
 const MAX_BRACKET_WIDTH: f64 = 1e-9;
 
 /// The allowed excess of the bodies' distance over the tolerance due to rounding, as a fraction of the tolerance.
-const ROUNDING: f64 = 1e-6;
+const DISTANCE_ROUNDING: f64 = 1e-6;
 
 impl Judgement {
     /// Returns a judgement without a time error, for a claim whose time is not compared with the exact one.
@@ -75,7 +75,7 @@ pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judge
     match outcome {
         QueryOutcome::Answered(timed) => judge(&timed.reply),
         QueryOutcome::CutOff => Judgement::without_error(Verdict::CutOff),
-        QueryOutcome::Crashed => Judgement::without_error(Verdict::Died),
+        QueryOutcome::Crashed => Judgement::without_error(Verdict::Crashed),
     }
 }
 
@@ -116,7 +116,7 @@ pub fn is_within_tolerance(
     time: f64,
     tolerance: f64,
 ) -> bool {
-    referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING)
+    referee.distance(query, time).lower <= tolerance * (1.0 + DISTANCE_ROUNDING)
 }
 
 /// Judges a claim about bodies whose exact first contact is between `lo` and `hi`; `near` tells whether the bodies are

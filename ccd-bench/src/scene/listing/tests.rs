@@ -28,7 +28,7 @@ fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
 fn missing_data_is_named_in_the_error() {
     let mut listing = listings().unwrap().remove(0);
     listing.rows = Some(0..10_000);
-    let make = |listing: &Listing| {
+    let make = |listing: &SceneEntry| {
         format!(
             "{:#}",
             listing.make_scene(&mut ModelCache::default()).unwrap_err()

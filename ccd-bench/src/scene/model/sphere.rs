@@ -8,16 +8,16 @@ use std::f64::consts::{PI, TAU};
 /// Circles of latitude at equal spacing hold vertices in proportion to their length, and are joined
 /// by strips of triangles. The construction needs about 12 vertices.
 pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let counts = ring_counts(vertices);
+    let counts = ring_vertex_counts(vertices);
     let mut points = vec![DVec3::Z];
     let mut faces = Vec::with_capacity(2 * vertices);
     let mut above = Ring {
-        first: 0,
+        first_vertex: 0,
         vertex_count: 1,
     };
     for (k, &count) in counts.iter().enumerate() {
         let ring = Ring {
-            first: points.len() as u32,
+            first_vertex: points.len() as u32,
             vertex_count: count,
         };
         let (sin, cos) = (PI * (k + 1) as f64 / (counts.len() + 1) as f64).sin_cos();
@@ -29,7 +29,7 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         above = ring;
     }
     let south = Ring {
-        first: points.len() as u32,
+        first_vertex: points.len() as u32,
         vertex_count: 1,
     };
     points.push(DVec3::NEG_Z);
@@ -40,13 +40,13 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
 /// A circle of latitude: vertices with consecutive indices, counted eastward; a pole is a circle of one vertex.
 #[derive(Clone, Copy)]
 struct Ring {
-    first: u32,
+    first_vertex: u32,
     vertex_count: usize,
 }
 
 impl Ring {
     fn vertex(&self, i: usize) -> u32 {
-        self.first + (i % self.vertex_count) as u32
+        self.first_vertex + (i % self.vertex_count) as u32
     }
 
     /// Returns the number of edges of the circle; a pole has none.
@@ -60,7 +60,7 @@ impl Ring {
 }
 
 /// Returns the number of vertices on each circle of latitude from north to south, without the poles.
-fn ring_counts(vertices: usize) -> Vec<usize> {
+fn ring_vertex_counts(vertices: usize) -> Vec<usize> {
     let between_poles = vertices.saturating_sub(2) as f64;
     // The height of equilateral triangles of area 4π / (2 · vertices).
     let height = (2.0 * PI * 3f64.sqrt() / vertices as f64).sqrt();

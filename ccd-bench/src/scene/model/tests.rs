@@ -3,7 +3,7 @@ use ccd_core::order::greater;
 use std::collections::HashSet;
 
 /// Returns the volume that a closed mesh encloses.
-fn sextuple_volume(mesh: &TriangleMesh) -> f64 {
+fn enclosed_volume(mesh: &TriangleMesh) -> f64 {
     let v = mesh.vertices();
     let tetrahedron =
         |[a, b, c]: &[u32; 3]| v[*a as usize].dot(v[*b as usize].cross(v[*c as usize])) / 6.0;
@@ -61,7 +61,7 @@ fn models_are_closed_and_face_outwards() {
     for model in Model::value_variants() {
         let mesh = model.generate().unwrap();
         assert_closed(&mesh, &model.name());
-        assert!(sextuple_volume(&mesh) > 0.0, "{}", model.name());
+        assert!(enclosed_volume(&mesh) > 0.0, "{}", model.name());
         let degenerate = mesh.faces().iter().find(|[a, b, c]| {
             let [a, b, c] = [a, b, c].map(|v| mesh.vertices()[*v as usize]);
             (b - a).cross(c - a).length() < 1e-9
@@ -82,10 +82,10 @@ fn models_are_the_same_every_time() {
 #[test]
 fn volumes_approach_the_closed_forms() {
     use std::f64::consts::PI;
-    let ring = sextuple_volume(&Model::Ring.generate().unwrap());
+    let ring = enclosed_volume(&Model::Ring.generate().unwrap());
     let torus = 2.0 * PI * PI * 0.8 * 0.2 * 0.2;
     assert!(ring < torus && ring > 0.98 * torus, "{ring} of {torus}");
-    let board = sextuple_volume(&Model::Board.generate().unwrap());
+    let board = enclosed_volume(&Model::Board.generate().unwrap());
     assert!((board - 3.0 * 3.0 * 0.02).abs() < 1e-12);
 }
 

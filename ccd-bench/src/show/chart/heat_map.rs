@@ -38,14 +38,14 @@ pub struct HeatRow {
 pub struct HeatMapKind {
     title: &'static str,
     /// The two lines of text below the title.
-    remark: [&'static str; 2],
+    remark_lines: [&'static str; 2],
     legend: &'static [(&'static str, RGBColor)],
 }
 
 /// The kind of map that shows how far each method is right in each family; it has cells of [`HeatCell::reach`].
 pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
     title: "How far each method follows each family: bluer is better",
-    remark: [
+    remark_lines: [
         "A cell has the colour of the worst answer, and names the first value at which it came. The bar shows the share of",
         "the steps, from the easy ones, before the first that is not right.",
     ],
@@ -55,7 +55,7 @@ pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
         ("early", EARLY_COLOUR),
         ("false contact", FALSE_CONTACT_COLOUR),
         ("late or missed", MISSED_COLOUR),
-        ("died or cut off", BLACK),
+        ("died or cut off", STOPPED_COLOUR),
     ],
 };
 
@@ -63,7 +63,7 @@ pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
 /// [`HeatCell::cost_growth`].
 pub const COST_GROWTH: &HeatMapKind = &HeatMapKind {
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
-    remark: [
+    remark_lines: [
         "The largest mean number of steps of a query and one for the query itself, as a multiple of that of the family's",
         "easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
     ],
@@ -84,7 +84,7 @@ const GROWTH_COLOURS: [RGBColor; 4] = [
 ];
 
 /// The width of the column of family names, in pixels.
-const NAMES_WIDTH: f64 = 196.0;
+const NAME_COLUMN_WIDTH: f64 = 196.0;
 /// The height of a row, in pixels.
 const ROW_HEIGHT: f64 = 24.0;
 /// The height of the bar in a cell, in pixels.
@@ -106,12 +106,12 @@ const EARLY_COLOUR: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
 const FALSE_CONTACT_COLOUR: RGBColor = COLOURS[4];
 /// The colour of cells whose worst answer is a late or a missed contact.
 const MISSED_COLOUR: RGBColor = COLOURS[1];
-const BLACK: RGBColor = COLOURS[6];
+const STOPPED_COLOUR: RGBColor = COLOURS[6];
 
 /// A cell of a heat map: a colour, two lines of text, and a bar.
 #[derive(Clone, Debug)]
 pub struct HeatCell {
-    fill: RGBColor,
+    fill_colour: RGBColor,
     text_colour: RGBColor,
     lines: [String; 2],
     /// The length of the bar, as a share of the cell's width.
@@ -122,10 +122,10 @@ impl HeatCell {
     /// Returns the cell that shows how far a method is right in a family. `worst` is its worst verdict, `share` is the
     /// share of the values before the first wrong answer, and `limit` is the first value with the worst verdict, empty
     /// if all are right.
-    pub fn reach(worst: Verdict, share: f64, limit: String) -> Self {
+    pub fn solved_range(worst: Verdict, share: f64, limit: String) -> Self {
         let (fill, word, ink) = verdict_style(worst);
         HeatCell {
-            fill,
+            fill_colour: fill,
             text_colour: ink,
             lines: [word.to_owned(), limit],
             bar_length: share,
@@ -143,7 +143,7 @@ impl HeatCell {
             _ => format!("{factor:.0e}"),
         };
         HeatCell {
-            fill: GROWTH_COLOURS[darkness],
+            fill_colour: GROWTH_COLOURS[darkness],
             text_colour: if darkness < 2 { TEXT_COLOUR } else { WHITE },
             lines: [String::new(), number],
             bar_length: 0.0,
@@ -177,11 +177,11 @@ impl HeatMap {
 
     /// Returns the width of a method's column, in pixels.
     fn column_width(&self) -> f64 {
-        (CHART_WIDTH - 2.0 * CHART_MARGIN - NAMES_WIDTH) / self.methods.len() as f64
+        (CHART_WIDTH - 2.0 * CHART_MARGIN - NAME_COLUMN_WIDTH) / self.methods.len() as f64
     }
 
     fn column_left(&self, column: usize) -> f64 {
-        CHART_MARGIN + NAMES_WIDTH + self.column_width() * column as f64
+        CHART_MARGIN + NAME_COLUMN_WIDTH + self.column_width() * column as f64
     }
 
     fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
@@ -225,7 +225,7 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
         ..small_text_format()
     };
     draw_text(sheet, kind.title, (CHART_MARGIN, 18.0), &title)?;
-    for (line, words) in kind.remark.iter().enumerate() {
+    for (line, words) in kind.remark_lines.iter().enumerate() {
         draw_text(
             sheet,
             words,
@@ -245,7 +245,7 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
 /// Draws a cell with the given upper left corner and width, in pixels.
 fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW_HEIGHT - 1.0;
-    fill_rect(sheet, (x, y), (width, height), cell.fill)?;
+    fill_rect(sheet, (x, y), (width, height), cell.fill_colour)?;
     let bar = (width * cell.bar_length, BAR_HEIGHT);
     fill_rect(sheet, (x, y + height - BAR_HEIGHT), bar, CORRECT_COLOUR)?;
     let format = TextFormat {
@@ -271,8 +271,8 @@ fn verdict_style(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
         Verdict::FalseContact => (FALSE_CONTACT_COLOUR, "false", TEXT_COLOUR),
         Verdict::Late => (MISSED_COLOUR, "late", WHITE),
         Verdict::Missed => (MISSED_COLOUR, "missed", WHITE),
-        Verdict::Died => (BLACK, "died", WHITE),
-        Verdict::CutOff => (BLACK, "cut off", WHITE),
+        Verdict::Crashed => (STOPPED_COLOUR, "died", WHITE),
+        Verdict::CutOff => (STOPPED_COLOUR, "cut off", WHITE),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Draws the chart of time against error: one plane for each scene, with a strip for unsafe methods.
 
 use super::plane::{
-    HEAD_HEIGHT, PlotArea, PlotPoint, decades, draw_footer, draw_header, draw_marker, draw_series,
-    footer_height,
+    HEAD_HEIGHT, PlotAxes, PlotPoint, decade_range, draw_footer, draw_header, draw_marker,
+    draw_series, footer_height,
 };
 use super::sheet::{CHART_WIDTH, FONT_SIZE, Sheet, TEXT_COLOUR, draw_svg, font, to_drawing_units};
 use super::style::WARNING_COLOUR;
@@ -15,7 +15,7 @@ use plotters::prelude::*;
 /// The least error on the axis; smaller ones are due to rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
 /// The number of planes side by side, and their height in pixels.
-const PANELS_AND_HEIGHT: (usize, f64) = (3, 260.0);
+const PLANES_PER_ROW_AND_HEIGHT: (usize, f64) = (3, 260.0);
 /// The width of a method's lane in the strip of unsafe methods, and the least width of the strip, in pixels.
 const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 
@@ -35,11 +35,11 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
     let errors = cells(|(_, style)| !style.is_unsafe);
     let errors = errors.iter().filter_map(|cell| cell.mean_error);
     // A plane without points is still drawn: the strip shows the methods.
-    let errors = decades(errors.filter(|error| *error > LEAST_ERROR));
-    let Some(times) = decades(all.iter().map(|cell| cell.median_us)) else {
+    let errors = decade_range(errors.filter(|error| *error > LEAST_ERROR));
+    let Some(times) = decade_range(all.iter().map(|cell| cell.median_us)) else {
         return Ok(None);
     };
-    let plane = PlotArea {
+    let plane = PlotAxes {
         x: (
             errors.unwrap_or(LEAST_ERROR..1.0),
             "mean error, share of duration",
@@ -58,8 +58,8 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
         );
     }
     let title = "Time against error: lower left is better";
-    let rows = scenes.len().div_ceil(PANELS_AND_HEIGHT.0);
-    let bottom = HEAD_HEIGHT + PANELS_AND_HEIGHT.1 * rows as f64;
+    let rows = scenes.len().div_ceil(PLANES_PER_ROW_AND_HEIGHT.0);
+    let bottom = HEAD_HEIGHT + PLANES_PER_ROW_AND_HEIGHT.1 * rows as f64;
     let height = bottom + footer_height(&shown, &remarks);
     let svg = draw_svg(title, (CHART_WIDTH, height), |sheet| {
         draw_header(
@@ -70,7 +70,7 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
         )?;
         let (panels, _) = sheet.split_vertically(to_drawing_units(bottom));
         let (_, panels) = panels.split_vertically(to_drawing_units(HEAD_HEIGHT));
-        let panels = panels.split_evenly((rows, PANELS_AND_HEIGHT.0));
+        let panels = panels.split_evenly((rows, PLANES_PER_ROW_AND_HEIGHT.0));
         for (scene, panel) in scenes.iter().zip(&panels) {
             draw_scene(charts, panel, scene, &plane, &shown)?;
         }
@@ -83,7 +83,7 @@ fn draw_scene(
     charts: &ChartData<'_>,
     panel: &Sheet<'_>,
     scene: &str,
-    plane: &PlotArea,
+    plane: &PlotAxes,
     shown: &[Shown<'_>],
 ) -> Result<()> {
     let (hollow, solid): (Vec<_>, Vec<_>) = shown.iter().partition(|(_, style)| style.is_unsafe);

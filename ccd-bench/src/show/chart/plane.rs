@@ -17,13 +17,13 @@ pub(super) const LINE_HEIGHT: f64 = 18.0;
 /// The height of the chart's title and subtitle, in pixels.
 pub(super) const HEAD_HEIGHT: f64 = 50.0;
 /// The number of columns of the legend, and the width of each in pixels.
-const LEGEND: (usize, f64) = (2, 400.0);
+const LEGEND_COLUMNS_AND_WIDTH: (usize, f64) = (2, 400.0);
 /// The colour of grid lines behind the data.
 const GRID_COLOUR: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 
 /// The two axes of a plane, with their labels and ranges.
 #[derive(Clone)]
-pub(super) struct PlotArea {
+pub(super) struct PlotAxes {
     pub(super) x: (Range<f64>, &'static str),
     pub(super) y: (Range<f64>, &'static str),
 }
@@ -45,7 +45,7 @@ pub(super) type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
 
 /// Returns the range of whole decades that has all positive values, at least one decade; `None` without positive
 /// values.
-pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
+pub(super) fn decade_range(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     let exponents = values.map(f64::log10).filter(|value| value.is_finite());
     let exponents: Vec<f64> = exponents.collect();
     let low = exponents.iter().copied().reduce(lesser)?.floor();
@@ -53,7 +53,7 @@ pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     Some(10f64.powf(low)..10f64.powf(greater(high, low + 1.0)))
 }
 
-impl PlotArea {
+impl PlotAxes {
     /// Draws the axes of the plane on a sheet.
     pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<Drawn<'a, 's>> {
         let mut drawn = self.empty_plane_beside(sheet, self.x.0.clone())?;
@@ -95,7 +95,7 @@ impl PlotArea {
 /// Draws a line through points, with a marker on each. Values beyond the axes are at the edge.
 pub(super) fn draw_series(
     drawn: &mut Drawn<'_, '_>,
-    plane: &PlotArea,
+    plane: &PlotAxes,
     points: &[PlotPoint],
     style: &MethodStyle,
 ) -> Result<()> {
@@ -173,7 +173,8 @@ pub(super) fn draw_header(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Res
 
 /// Returns the height of the legend and the remarks, in pixels.
 pub(super) fn footer_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
-    LINE_HEIGHT * (shown.len().div_ceil(LEGEND.0) + remarks.len()) as f64 + CHART_MARGIN
+    LINE_HEIGHT * (shown.len().div_ceil(LEGEND_COLUMNS_AND_WIDTH.0) + remarks.len()) as f64
+        + CHART_MARGIN
 }
 
 /// Draws the legend, and the remarks below it.
@@ -183,7 +184,7 @@ pub(super) fn draw_footer(
     remarks: &[&str],
     top: f64,
 ) -> Result<()> {
-    let (columns, width) = LEGEND;
+    let (columns, width) = LEGEND_COLUMNS_AND_WIDTH;
     for (index, (method, style)) in shown.iter().enumerate() {
         let left = CHART_MARGIN + width * (index % columns) as f64;
         let middle = top + LINE_HEIGHT * ((index / columns) as f64 + 0.5);

@@ -1,4 +1,4 @@
-use super::plane::decades;
+use super::plane::decade_range;
 use super::*;
 use plotters::style::RGBColor;
 
@@ -60,7 +60,7 @@ fn cells() -> Vec<Cell> {
     cells
 }
 
-fn charts(cells: &[Cell]) -> ChartData<'_> {
+fn chart_data(cells: &[Cell]) -> ChartData<'_> {
     ChartData {
         cells,
         scenes: &SCENES,
@@ -69,7 +69,7 @@ fn charts(cells: &[Cell]) -> ChartData<'_> {
 }
 
 fn svg(cells: &[Cell]) -> String {
-    charts(cells).draw_pareto_chart().unwrap().unwrap()
+    chart_data(cells).draw_pareto_chart().unwrap().unwrap()
 }
 
 #[test]
@@ -123,16 +123,16 @@ fn an_unsafe_method_is_in_the_strip_only() {
 
 #[test]
 fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
-    let empty = charts(&[]).draw_pareto_chart();
+    let empty = chart_data(&[]).draw_pareto_chart();
     assert!(empty.unwrap_err().to_string().contains("nothing to draw"));
     let unknown_cells = [cell("elsewhere", "nobody", 1e-3)];
-    let unknown = charts(&unknown_cells).draw_pareto_chart();
+    let unknown = chart_data(&unknown_cells).draw_pareto_chart();
     assert!(unknown.unwrap_err().to_string().contains("nothing to draw"));
     let mut lost = [cell("knot2880", "ours", f64::NAN)];
     lost[0].median_us = f64::NAN;
     lost[0].mean_error = None;
     lost[0].mean_steps = f64::NAN;
-    assert_eq!(charts(&lost).draw_pareto_chart().unwrap(), None);
+    assert_eq!(chart_data(&lost).draw_pareto_chart().unwrap(), None);
 }
 
 #[test]
@@ -149,13 +149,13 @@ fn no_two_methods_look_alike() {
 
 #[test]
 fn axes_cover_their_values() {
-    let range = decades([3e-7, 0.5].into_iter()).unwrap();
+    let range = decade_range([3e-7, 0.5].into_iter()).unwrap();
     assert!(range.start <= 3e-7 && range.start > 3e-8, "{range:?}");
     assert!(range.end >= 0.5 && range.end < 5.0, "{range:?}");
-    let range = decades([10.0].into_iter()).unwrap();
+    let range = decade_range([10.0].into_iter()).unwrap();
     assert!(
         range.end > 9.0 * range.start,
         "at least a decade: {range:?}"
     );
-    assert!(decades([0.0, f64::NAN, f64::INFINITY].into_iter()).is_none());
+    assert!(decade_range([0.0, f64::NAN, f64::INFINITY].into_iter()).is_none());
 }

@@ -22,7 +22,7 @@ pub(super) fn families() -> Vec<Family> {
             "play against pitch",
             vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
         ),
-        family("sheet between two sheets", between)
+        family("sheet between two sheets", sheet_between_sheets)
             .with_values("gap", negative_powers_of_ten(1..=12)),
         family("plate through a slit", plate_through_slit)
             .with_values("gap", negative_powers_of_ten(1..=12)),
@@ -44,7 +44,7 @@ fn hooks(slack: f64) -> Result<FamilyStep> {
         |x, z| z == 0 || x != 1,
     )?;
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
-    let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
+    let holding = BodyMotion::straight_motion((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .with_orientation(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
     let step = FamilyStep::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
     step.with_rotated_queries(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
@@ -53,7 +53,7 @@ fn hooks(slack: f64) -> Result<FamilyStep> {
 /// Makes a ring that falls flat onto an equal ring, and meets it all around.
 fn ring_onto_ring(way: f64) -> Result<FamilyStep> {
     let (radius, tube) = (1.0, 0.25);
-    let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
+    let falling = BodyMotion::straight_motion((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(way, 1e-14))
@@ -71,16 +71,16 @@ fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyStep> {
     // here: the flanks keep more than half of their play.
     let sides = 64;
     let flank = helicoid(THREAD_RADII, PITCH, sides, 3)?;
-    let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
+    let turning = BodyMotion::straight_motion(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .with_spin(TAU * turns * DVec3::Z);
     let step = FamilyStep::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
     step.with_rotated_queries(turning, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a sheet that slides between two other sheets, at a gap from each.
-fn between(gap: f64) -> Result<FamilyStep> {
-    let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
-    free_step(
+fn sheet_between_sheets(gap: f64) -> Result<FamilyStep> {
+    let sliding = BodyMotion::straight_motion(-3.0 * DVec3::X, 6.0 * DVec3::X);
+    contact_free_step(
         FamilyStep::new(
             sheet(4)?,
             stacked_squares(&sheet(4)?, [-gap, gap].into_iter())?,
@@ -94,16 +94,16 @@ fn between(gap: f64) -> Result<FamilyStep> {
 fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
-    let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
+    let moving = BodyMotion::straight_motion(-3.0 * DVec3::X, 6.0 * DVec3::X)
         .with_orientation(DQuat::from_rotation_y(tilt));
-    free_step(
+    contact_free_step(
         FamilyStep::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
         gap,
         moving,
     )
 }
 
-fn free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilyStep> {
+fn contact_free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilyStep> {
     let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
     step.with_rotated_queries_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
@@ -120,7 +120,7 @@ fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
     let expected = contact_at(rod_angle_at_wall(wall) / PI, 1e-14);
     step.with_rotated_queries(
         turning,
-        BodyMotion::resting_at((wall + 1.0) * DVec3::X),
+        BodyMotion::resting_motion((wall + 1.0) * DVec3::X),
         expected,
     )
 }

@@ -36,41 +36,42 @@ fn comb_into_comb(teeth: f64) -> Result<FamilyStep> {
     // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
     // TOOTH of the step.
     let shift = 1.0 - (0.5 - TOOTH_SHARE) / teeth;
-    let falling = BodyMotion::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
+    let falling = BodyMotion::straight_motion(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
         .with_orientation(DQuat::from_rotation_y(PI));
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
 /// Makes a ball with a vertex at its pole that falls onto a slab (case T22).
 fn ball_onto_slab(triangles: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING.with_spin(2.0 * DVec3::Z);
+    let falling = BodyMotion::FALLING_MOTION.with_spin(2.0 * DVec3::Z);
     fall_onto_slab(ball(0.5, triangles as usize / 2 + 2)?, falling, 0.625)
 }
 
 /// Makes a cone that falls onto a slab, tip first.
 fn tip_onto_slab(sides: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z).with_spin(2.0 * DVec3::Z);
+    let falling =
+        BodyMotion::straight_motion(2.5 * DVec3::Z, -4.0 * DVec3::Z).with_spin(2.0 * DVec3::Z);
     fall_onto_slab(cone(sides as u32, 0.7)?, falling, 0.625)
 }
 
 /// Makes a cube that falls onto the first of many open sheets.
 fn cube_onto_layers(count: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, layers(count as u32)?);
-    let falling = BodyMotion::FALLING;
+    let falling = BodyMotion::FALLING_MOTION;
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube with repeated and collapsed faces that falls onto a slab (case T21).
 fn cube_with_bad_faces(count: f64) -> Result<FamilyStep> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
-    fall_onto_slab(cube, BodyMotion::FALLING, 0.625)
+    fall_onto_slab(cube, BodyMotion::FALLING_MOTION, 0.625)
 }
 
 /// Makes a cube that falls onto a sliver triangle of a slab.
 fn cube_onto_sliver(width: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, sliver_slab(width)?);
     let expected = contact_at(0.625, 1e-14);
-    step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::SLAB_BELOW, expected)
+    step.with_rotated_queries(BodyMotion::FALLING_MOTION, BodyMotion::SLAB_BELOW, expected)
 }
 
 /// Makes a cube that falls onto one mesh of many cubes, every other one of which is inside out.
@@ -78,7 +79,7 @@ fn field_of_solids(count: f64) -> Result<FamilyStep> {
     // The cube covers the middle of the field, where at least four others are.
     let step = FamilyStep::new(cube()?, field_of_cubes(count as u32)?);
     let expected = contact_at(0.625, 1e-14);
-    step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::STILL, expected)
+    step.with_rotated_queries(BodyMotion::FALLING_MOTION, BodyMotion::STILL, expected)
 }
 
 /// Makes two cones of which each meets a face of the other with its tip, slightly beside the other's tip.
@@ -88,7 +89,7 @@ fn tip_onto_tip(aside: f64) -> Result<FamilyStep> {
     let half_side = PI / f64::from(sides);
     let cone = cone(sides, radius)?.transformed(DAffine3::from_rotation_z(half_side))?;
     let slope = 1.0 / (radius * half_side.cos());
-    let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
+    let falling = BodyMotion::straight_motion(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
     let upside_down = BodyMotion::STILL.with_orientation(DQuat::from_rotation_y(PI));
     let step = FamilyStep::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
     let expected = contact_at((2.0 + aside * slope) / 4.0, 1e-14);

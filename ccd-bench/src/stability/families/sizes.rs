@@ -15,22 +15,23 @@ pub(super) fn families() -> Vec<Family> {
             .collect()
     };
     vec![
-        family("small against large", size_against_size)
+        family("small against large", cubes_of_unequal_size)
             .with_values("size against size", sizes(1..=9)),
-        family("unit of length", unit_of_length).with_values("size of the scene", sizes(2..=9)),
-        family("far from the origin", far_from_the_origin)
+        family("unit of length", scene_in_length_unit)
+            .with_values("size of the scene", sizes(2..=9)),
+        family("far from the origin", cubes_far_from_origin)
             .with_values("distance in sizes", powers_of_ten(0..=12)),
-        family("slender triangles", slender_needle)
+        family("slender triangles", thin_box)
             .with_values("length against width", powers_of_ten(0..=12)),
         family("bullet and paper", bullet_and_paper)
             .with_values("way against thickness", powers_of_ten(0..=9)),
         family("margin", margin).with_values("margin against size", margins()),
         family("one inside the other", cube_inside_cube)
             .with_values("size against size", negative_powers_of_ten(0..=9)),
-        family("unit of time", unit_of_time).with_values("duration", sizes(1..=9)),
+        family("unit of time", scene_in_time_unit).with_values("duration", sizes(1..=9)),
         family("moving together", cubes_moving_together)
             .with_values("common travel", powers_of_ten(0..=9)),
-        family("far centre of rotation", far_centre)
+        family("far centre of rotation", cube_about_far_centre)
             .with_values("distance in sizes", powers_of_ten(0..=9)),
         family("needle tip first", needle).with_values("width", negative_powers_of_ten(0..=12)),
     ]
@@ -44,9 +45,9 @@ fn margins() -> Vec<f64> {
 }
 
 /// Makes a cube that falls onto a larger or smaller cube, and reaches it at half the duration.
-fn size_against_size(size: f64) -> Result<FamilyStep> {
+fn cubes_of_unequal_size(size: f64) -> Result<FamilyStep> {
     let way = greater(size, 1.0);
-    let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
+    let falling = BodyMotion::straight_motion((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step = FamilyStep::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
@@ -54,21 +55,21 @@ fn size_against_size(size: f64) -> Result<FamilyStep> {
 
 /// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
 /// `tests/it/scenes.rs`.
-fn unit_of_length(size: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
+fn scene_in_length_unit(size: f64) -> Result<FamilyStep> {
+    let falling = BodyMotion::straight_motion(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
     let step = FamilyStep::new(
         cuboid(half, half, half)?,
         cuboid(9.0 * size, 9.0 * size, size)?,
     )
     .with_tolerance(1e-6 * size);
-    let slab = BodyMotion::resting_at(-size * DVec3::Z);
+    let slab = BodyMotion::resting_motion(-size * DVec3::Z);
     step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
-fn unit_of_time(duration: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING;
+fn scene_in_time_unit(duration: f64) -> Result<FamilyStep> {
+    let falling = BodyMotion::FALLING_MOTION;
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { duration, ..step };
     let slab = BodyMotion::SLAB_BELOW;
@@ -77,14 +78,14 @@ fn unit_of_time(duration: f64) -> Result<FamilyStep> {
 
 /// Makes a cube that falls onto another cube while both move sideways by `travel`.
 fn cubes_moving_together(travel: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
-    let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
+    let falling = BodyMotion::straight_motion(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
+    let fleeing = BodyMotion::straight_motion(DVec3::ZERO, travel * DVec3::X);
     let step = FamilyStep::new(cube()?, cube()?);
     step.with_query(falling, fleeing, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that rotates about a centre far below it, so that it moves towards a wall nearly in a straight line.
-fn far_centre(distance: f64) -> Result<FamilyStep> {
+fn cube_about_far_centre(distance: f64) -> Result<FamilyStep> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
         angular_velocity: spin * DVec3::Y,
@@ -96,33 +97,37 @@ fn far_centre(distance: f64) -> Result<FamilyStep> {
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = FamilyStep::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-14);
-    step.with_query(turning, BodyMotion::resting_at(2.0 * DVec3::X), expected)
+    step.with_query(
+        turning,
+        BodyMotion::resting_motion(2.0 * DVec3::X),
+        expected,
+    )
 }
 
 /// Makes a cone that falls onto a slab with its tip first; the sides of the cone are long and thin triangles.
 fn needle(width: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = BodyMotion::straight_motion(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     fall_onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
 
 /// Makes a cube that falls onto another cube, both at coordinates of about `distance` in the world frame.
-fn far_from_the_origin(distance: f64) -> Result<FamilyStep> {
+fn cubes_far_from_origin(distance: f64) -> Result<FamilyStep> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
-    let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = BodyMotion::straight_motion(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let step = FamilyStep::new(cube()?, cube()?);
     step.with_query(
         falling,
-        BodyMotion::resting_at(origin),
+        BodyMotion::resting_motion(origin),
         contact_at(0.5, 1e-14),
     )
 }
 
 /// Makes a long and thin box that falls onto a slab; the sides of the box are long and thin triangles.
-fn slender_needle(ratio: f64) -> Result<FamilyStep> {
+fn thin_box(ratio: f64) -> Result<FamilyStep> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
-    let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_x(0.3));
+    let falling = BodyMotion::FALLING_MOTION.with_orientation(DQuat::from_rotation_x(0.3));
     let reach = thin * (sin + cos);
     fall_onto_slab(cuboid(1.0, thin, thin)?, falling, (3.0 - reach) / 4.0)
 }
@@ -131,8 +136,8 @@ fn slender_needle(ratio: f64) -> Result<FamilyStep> {
 /// of `tests/it/scenes.rs`.
 fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
     let (bullet, half) = (0.005, 0.05 / ratio);
-    let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
-    let paper = BodyMotion::resting_at(0.5 * DVec3::X);
+    let flying = BodyMotion::straight_motion(DVec3::ZERO, DVec3::X);
+    let paper = BodyMotion::resting_motion(0.5 * DVec3::X);
     let step = FamilyStep::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = contact_at(0.5 - half - bullet, 1e-14);
     step.with_rotated_queries(flying, paper, expected)
@@ -142,7 +147,7 @@ fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
 fn margin(margin: f64) -> Result<FamilyStep> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
-    let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
+    let falling = BodyMotion::straight_motion(height * DVec3::Z, -speed * DVec3::Z);
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { margin, ..step };
     let slab = BodyMotion::SLAB_BELOW;
@@ -154,6 +159,6 @@ fn margin(margin: f64) -> Result<FamilyStep> {
 fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
     let half = 0.9 * size;
     let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
-    let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
+    let moving = BodyMotion::straight_motion(DVec3::ZERO, 0.05 * DVec3::X);
     step.with_rotated_queries(moving, BodyMotion::STILL, Truth::ContactAtStart)
 }

@@ -39,7 +39,7 @@ fn cube_falling_onto_slab(time: f64) -> Result<(FamilyStep, BodyMotion)> {
     let step = FamilyStep::new(cube()?, slab()?);
     Ok((
         step,
-        BodyMotion::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
+        BodyMotion::straight_motion((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
     ))
 }
 
@@ -65,7 +65,7 @@ fn contact_after_end(after: f64) -> Result<FamilyStep> {
 
 /// Makes two flat sheets without thickness that start at a small distance and meet face to face.
 fn sheet_onto_sheet(way: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
+    let falling = BodyMotion::straight_motion(way * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyStep::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }

@@ -24,7 +24,7 @@ pub(super) fn families() -> Vec<Family> {
 
 /// Makes a cube that falls flat onto a slab while it rotates about the vertical.
 fn cube_falling_while_spinning(turns: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING.with_spin(TAU * turns * DVec3::Z);
+    let falling = BodyMotion::FALLING_MOTION.with_spin(TAU * turns * DVec3::Z);
     fall_onto_slab(cube()?, falling, 0.625)
 }
 
@@ -51,7 +51,7 @@ fn swinging_arm(spin: f64) -> Result<FamilyStep> {
     let expected = contact_at(angle / spin, 1e-15);
     step.with_rotated_queries(
         swinging,
-        BodyMotion::resting_at((wall + 1.0) * DVec3::Y),
+        BodyMotion::resting_motion((wall + 1.0) * DVec3::Y),
         expected,
     )
 }
@@ -61,7 +61,7 @@ fn swinging_arm(spin: f64) -> Result<FamilyStep> {
 fn counter_rotating_rods(turns: f64) -> Result<FamilyStep> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning =
-        |spin: f64, x: f64| BodyMotion::resting_at(x * DVec3::X).with_spin(spin * DVec3::Y);
+        |spin: f64, x: f64| BodyMotion::resting_motion(x * DVec3::X).with_spin(spin * DVec3::Y);
     let angle = rod_angle_at_wall(0.5 * apart);
     debug_assert!(angle < PI);
     let step = FamilyStep::new(rod()?, rod()?);

@@ -1,7 +1,7 @@
 //! Tests that the referee brackets first contacts and distances that are known exactly.
 
 use super::super::{DistanceBounds, Referee, Surface, Truth};
-use super::{at, cuboid, judge, query, still};
+use super::{cuboid, judge, pose_at, query, still_motion};
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
 use rigid_ccd::table::motions::Motions;
@@ -33,33 +33,33 @@ fn assert_hit(bodies: [&Surface; 2], query: &Motions, exact: f64) {
     assert!(lo <= h && l <= hi, "{lo} {hi} and {l} {h}");
 }
 
-fn falling(rotation: DQuat, height: f64, spin: DVec3) -> Motion {
-    let start = at(DVec3::new(0.03, 0.11, height), rotation);
+fn falling_motion(rotation: DQuat, height: f64, spin: DVec3) -> Motion {
+    let start = pose_at(DVec3::new(0.03, 0.11, height), rotation);
     Motion::new(start, -4.0 * DVec3::Z, spin).unwrap()
 }
 
-fn spinning(position: DVec3, spin: DVec3) -> Motion {
-    Motion::new(at(position, DQuat::IDENTITY), DVec3::ZERO, spin).unwrap()
+fn spinning_motion(position: DVec3, spin: DVec3) -> Motion {
+    Motion::new(pose_at(position, DQuat::IDENTITY), DVec3::ZERO, spin).unwrap()
 }
 
 #[test]
 fn a_cube_falls_flat_on_a_slab() {
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
     for spin in [0.0, 1.0, 50.0, -300.0] {
-        let fall = falling(DQuat::IDENTITY, 3.0, spin * DVec3::Z);
+        let fall = falling_motion(DQuat::IDENTITY, 3.0, spin * DVec3::Z);
         assert_hit(
             [&cube, &slab],
-            &query(fall, still(0.0, 0.0, -1.0), 1.0),
+            &query(fall, still_motion(0.0, 0.0, -1.0), 1.0),
             0.625,
         );
     }
     // Corners fall on the diagonal that divides the slab's top.
     let straight = Motion::new(
-        at(3.0 * DVec3::Z, DQuat::IDENTITY),
+        pose_at(3.0 * DVec3::Z, DQuat::IDENTITY),
         -4.0 * DVec3::Z,
         DVec3::ZERO,
     );
-    let straight = query(straight.unwrap(), still(0.0, 0.0, -1.0), 1.0);
+    let straight = query(straight.unwrap(), still_motion(0.0, 0.0, -1.0), 1.0);
     assert_hit([&cube, &slab], &straight, 0.625);
 }
 
@@ -67,9 +67,9 @@ fn a_cube_falls_flat_on_a_slab() {
 fn a_cube_falls_far_from_the_origin_or_for_long() {
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
     for far in [1e3, 1e6] {
-        let start = at(DVec3::new(far, far, far + 3.0), DQuat::IDENTITY);
+        let start = pose_at(DVec3::new(far, far, far + 3.0), DQuat::IDENTITY);
         let fall = Motion::new(start, DVec3::new(0.0, 0.0, -0.004), DVec3::ZERO).unwrap();
-        let query = query(fall, still(far, far, far - 1.0), 1000.0);
+        let query = query(fall, still_motion(far, far, far - 1.0), 1000.0);
         let Truth::Hit { lo, hi } = judge([&cube, &slab], &query) else {
             panic!("no hit at {far}");
         };
@@ -86,8 +86,8 @@ fn a_rod_turns_down_onto_a_slab() {
     let rod = cuboid(l, 0.3, w);
     let exact = (f64::asin(h / f64::hypot(l, w)) - f64::atan2(w, l)) / PI;
     assert!((exact - 0.196802112).abs() < 1e-9);
-    let turn = spinning(h * DVec3::Z, PI * DVec3::Y);
-    let query = query(turn, still(0.0, 0.0, -1.0), 1.0);
+    let turn = spinning_motion(h * DVec3::Z, PI * DVec3::Y);
+    let query = query(turn, still_motion(0.0, 0.0, -1.0), 1.0);
     assert_hit([&rod, &cuboid(9.0, 9.0, 1.0)], &query, exact);
 }
 
@@ -97,10 +97,10 @@ fn a_rod_turns_to_a_wall_at_any_speed() {
     let (rod, wall) = (cuboid(w, 0.3, l), cuboid(1.0, 9.0, 9.0));
     for half_turns in [1.0, 1.9, 2.0, 7.3, 40.0] {
         let exact = (f64::asin(h / f64::hypot(l, w)) - f64::atan2(w, l)) / (half_turns * PI);
-        let turn = spinning(DVec3::ZERO, half_turns * PI * DVec3::Y);
+        let turn = spinning_motion(DVec3::ZERO, half_turns * PI * DVec3::Y);
         assert_hit(
             [&rod, &wall],
-            &query(turn, still(h + 1.0, 0.0, 0.0), 1.0),
+            &query(turn, still_motion(h + 1.0, 0.0, 0.0), 1.0),
             exact,
         );
     }
@@ -110,11 +110,15 @@ fn a_rod_turns_to_a_wall_at_any_speed() {
 fn a_rod_all_but_misses_a_wall_or_just_misses_it() {
     let (l, w) = (2.0, 0.05);
     let (rod, wall) = (cuboid(w, 0.3, l), cuboid(1.0, 9.0, 9.0));
-    let turn = spinning(DVec3::ZERO, PI * DVec3::Y);
+    let turn = spinning_motion(DVec3::ZERO, PI * DVec3::Y);
     let reach = f64::hypot(l, w);
     for part in [1e-3, 1e-6] {
         let exact = (f64::asin(1.0 - part) - f64::atan2(w, l)) / PI;
-        let near = query(turn, still(reach * (1.0 - part) + 1.0, 0.0, 0.0), 1.0);
+        let near = query(
+            turn,
+            still_motion(reach * (1.0 - part) + 1.0, 0.0, 0.0),
+            1.0,
+        );
         let Truth::Hit { lo, hi } = judge([&rod, &wall], &near) else {
             panic!("no hit at {part}");
         };
@@ -124,7 +128,11 @@ fn a_rod_all_but_misses_a_wall_or_just_misses_it() {
             lo - off <= exact && exact <= hi + off && hi - lo < 1e-9,
             "{lo} {exact} {hi}"
         );
-        let far = query(turn, still(reach * (1.0 + part) + 1.0, 0.0, 0.0), 1.0);
+        let far = query(
+            turn,
+            still_motion(reach * (1.0 + part) + 1.0, 0.0, 0.0),
+            1.0,
+        );
         assert_eq!(judge([&rod, &wall], &far), Truth::Free);
     }
 }
@@ -140,22 +148,22 @@ fn an_edge_meets_a_parallel_edge() {
         DVec3::new(psi.cos(), psi.sin(), 0.0),
     );
     let position = r * edge + 0.1 * f64::sqrt(2.0) * ahead;
-    let post_motion = Motion::still(at(position, DQuat::from_rotation_z(psi + FRAC_PI_4)));
-    let turn = spinning(DVec3::ZERO, 1.5 * DVec3::Z);
+    let post_motion = Motion::still(pose_at(position, DQuat::from_rotation_z(psi + FRAC_PI_4)));
+    let turn = spinning_motion(DVec3::ZERO, 1.5 * DVec3::Z);
     assert_hit([&rod, &post], &query(turn, post_motion, 1.0), exact);
 }
 
 #[test]
 fn edges_cross_and_a_corner_comes_down() {
     let cube = cuboid(0.5, 0.5, 0.5);
-    let above = falling(DQuat::from_rotation_x(FRAC_PI_4), 3.0, DVec3::ZERO);
-    let below = Motion::still(at(DVec3::ZERO, DQuat::from_rotation_y(FRAC_PI_4)));
+    let above = falling_motion(DQuat::from_rotation_x(FRAC_PI_4), 3.0, DVec3::ZERO);
+    let below = Motion::still(pose_at(DVec3::ZERO, DQuat::from_rotation_y(FRAC_PI_4)));
     let crossing = query(above, below, 1.0);
     assert_hit([&cube, &cube], &crossing, (3.0 - f64::sqrt(2.0)) / 4.0);
     let corner_down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let corner = query(
-        falling(corner_down, 3.0, DVec3::ZERO),
-        still(0.0, 0.0, -1.0),
+        falling_motion(corner_down, 3.0, DVec3::ZERO),
+        still_motion(0.0, 0.0, -1.0),
         1.0,
     );
     let exact = (3.0 - f64::sqrt(3.0) / 2.0) / 4.0;
@@ -168,7 +176,7 @@ fn two_rods_turn_towards_each_other() {
     let rod = cuboid(w, 0.3, l);
     let exact = (f64::asin(apart / 2.0 / f64::hypot(l, w)) - f64::atan2(w, l)) / 2.0;
     assert!((exact - 0.411356590).abs() < 1e-9);
-    let turn = |side: f64| spinning(side * apart / 2.0 * DVec3::X, -side * 2.0 * DVec3::Y);
+    let turn = |side: f64| spinning_motion(side * apart / 2.0 * DVec3::X, -side * 2.0 * DVec3::Y);
     assert_hit([&rod, &rod], &query(turn(-1.0), turn(1.0), 1.0), exact);
 }
 
@@ -176,9 +184,12 @@ fn two_rods_turn_towards_each_other() {
 fn parallel_motions_are_free_and_flush_ones_graze() {
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
     let slide = |height: f64| {
-        let start = at(DVec3::new(-10.5, 0.0, height), DQuat::IDENTITY);
+        let start = pose_at(DVec3::new(-10.5, 0.0, height), DQuat::IDENTITY);
         let motion = Motion::new(start, 20.0 * DVec3::X, DVec3::ZERO).unwrap();
-        judge([&cube, &slab], &query(motion, still(0.0, 0.0, -1.0), 1.0))
+        judge(
+            [&cube, &slab],
+            &query(motion, still_motion(0.0, 0.0, -1.0), 1.0),
+        )
     };
     for gap in [1e-6, 1e-9, 1e-12] {
         assert_eq!(slide(0.5 + gap), Truth::Free, "{gap}");
@@ -191,7 +202,7 @@ fn parallel_motions_are_free_and_flush_ones_graze() {
     );
     let along = |x: f64| {
         Motion::new(
-            at(x * DVec3::X, DQuat::IDENTITY),
+            pose_at(x * DVec3::X, DQuat::IDENTITY),
             1e3 * DVec3::X,
             DVec3::ZERO,
         )
@@ -206,14 +217,18 @@ fn contact_at_the_start_is_found_and_the_inside_is_free() {
     let start = |x: f64| {
         judge(
             [&cube, &cube],
-            &query(still(x, 0.1, 0.2), still(0.0, 0.0, 0.0), 1.0),
+            &query(still_motion(x, 0.1, 0.2), still_motion(0.0, 0.0, 0.0), 1.0),
         )
     };
     assert_eq!(
         [start(0.9), start(1.0), start(1.0 + 1e-9)],
         [Truth::ContactAtStart, Truth::ContactAtStart, Truth::Free]
     );
-    let inside = query(still(0.0, 0.0, 0.0), still(0.1, 0.2, 0.3), 1.0);
+    let inside = query(
+        still_motion(0.0, 0.0, 0.0),
+        still_motion(0.1, 0.2, 0.3),
+        1.0,
+    );
     assert_eq!(judge([&cube, &shell], &inside), Truth::Free);
     let distance = Referee::new(&cube, &shell).distance(&inside, 0.5);
     let DistanceBounds { lower, upper } = distance;
@@ -227,9 +242,17 @@ fn contact_at_the_start_is_found_and_the_inside_is_free() {
 fn invalid_durations_are_undecided() {
     let cube = cuboid(0.5, 0.5, 0.5);
     for duration in [f64::NAN, f64::INFINITY, -1.0] {
-        let query = query(still(3.0, 0.0, 0.0), still(0.0, 0.0, 0.0), duration);
+        let query = query(
+            still_motion(3.0, 0.0, 0.0),
+            still_motion(0.0, 0.0, 0.0),
+            duration,
+        );
         assert_eq!(judge([&cube, &cube], &query), Truth::Undecided { lo: 0.0 });
     }
-    let query = query(still(3.0, 0.0, 0.0), still(0.0, 0.0, 0.0), 0.0);
+    let query = query(
+        still_motion(3.0, 0.0, 0.0),
+        still_motion(0.0, 0.0, 0.0),
+        0.0,
+    );
     assert_eq!(judge([&cube, &cube], &query), Truth::Free);
 }

@@ -11,7 +11,13 @@ fn lengths_are_taken_and_all_else_is_refused() {
     for bad in [-1e-300, 1.1e12, f64::INFINITY, f64::NAN] {
         let refused = cube.clone().with_excess(bad);
         assert!(
-            matches!(refused, Err(InputError::OutOfRange { what: "excess", .. })),
+            matches!(
+                refused,
+                Err(InputError::OutOfRange {
+                    quantity: "excess",
+                    ..
+                })
+            ),
             "{bad}"
         );
     }
@@ -29,8 +35,8 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
         // The triangles that replace the body represent the same shape.
         let ball = Body::sphere(1.0).unwrap();
         assert_eq!(
-            Excess::of_bodies(&body, &ball),
-            Excess::of_bodies(&ball, &body)
+            Excess::sum_of_bodies(&body, &ball),
+            Excess::sum_of_bodies(&ball, &body)
         );
     }
     assert!(Body::cylinder(1.0, 2.0).unwrap().excess() > 1e-5);
@@ -40,7 +46,7 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
 #[test]
 fn a_sum_is_rounded_away_from_what_is_claimed() {
     let exceeding = |excess| Body::sphere(1.0).unwrap().with_excess(excess).unwrap();
-    let exact = Excess::of_bodies(&exceeding(0.0), &exceeding(0.0));
+    let exact = Excess::sum_of_bodies(&exceeding(0.0), &exceeding(0.0));
     // Exact bodies keep their bits.
     assert_eq!(
         (
@@ -49,7 +55,7 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
         ),
         (0.3, 0.3)
     );
-    let both = Excess::of_bodies(&exceeding(0.1), &exceeding(0.2));
+    let both = Excess::sum_of_bodies(&exceeding(0.1), &exceeding(0.2));
     assert!(both.distance_of_overlap() > 0.1 + 0.2);
     assert!(both.upper_bound_of_shapes(0.3) > 0.3 + both.distance_of_overlap());
     assert!(

@@ -2,7 +2,7 @@
 
 use super::Facing;
 use crate::body::{Body, Volume};
-use crate::tests::meshes::{cube, inside_out, translated_triangles};
+use crate::tests::meshes::{cube, reversed_triangles, translated_triangles};
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::pieces;
 use glam::DVec3;
@@ -12,7 +12,7 @@ fn solid_body(triangles: &[Triangle]) -> Body {
 }
 
 /// Asserts that every face's outward normal agrees with the direction that `out_of` gives for the face's centroid.
-fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
+fn assert_outward_normals(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
     for piece in 0..body.pieces().len() as u32 {
         let out = out_of(body.centroid(piece));
         let Facing::OutwardNormal(normal) = body.facing(piece) else {
@@ -27,9 +27,9 @@ fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
 #[test]
 fn shells_side_by_side_need_not_agree() {
     let middles = [DVec3::ZERO, 10.0 * DVec3::X];
-    let mut shells = inside_out(&cube(0.5, 2));
+    let mut shells = reversed_triangles(&cube(0.5, 2));
     shells.extend(translated_triangles(&cube(1.5, 2), middles[1]));
-    check(&solid_body(&shells), |p| {
+    assert_outward_normals(&solid_body(&shells), |p| {
         if p.x < 5.0 { p } else { p - middles[1] }
     });
 }
@@ -37,9 +37,9 @@ fn shells_side_by_side_need_not_agree() {
 #[test]
 fn a_cavity_faces_inward_however_the_whole_is_wound() {
     let mut shells = cube(3.0, 2);
-    shells.extend(inside_out(&cube(2.0, 2)));
-    for shells in [inside_out(&shells), shells] {
-        check(&solid_body(&shells), |p| {
+    shells.extend(reversed_triangles(&cube(2.0, 2)));
+    for shells in [reversed_triangles(&shells), shells] {
+        assert_outward_normals(&solid_body(&shells), |p| {
             if p.abs().max_element() > 2.5 { p } else { -p }
         });
     }

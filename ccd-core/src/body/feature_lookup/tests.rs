@@ -57,7 +57,7 @@ fn names_agree_with_a_scan_of_all_facets() {
             corner + 60,
             (corner + 1) % 60 + 60,
         ];
-        let mut point = Combination::EMPTY;
+        let mut point = ConvexCombination::EMPTY;
         for _ in 0..rng.random_range(1..=3) {
             point.push(near[rng.random_range(0..4)], rng.random_range(0.1..1.0));
         }

@@ -15,7 +15,7 @@ use crate::body::pieces::Pieces;
 use crate::body::pieces::builder::{PiecesBuilder, PolytopeParts};
 use crate::body::polytope::Polytope;
 use crate::error::InputError;
-use crate::math::exact::too_fine;
+use crate::math::exact::first_too_fine_point;
 use crate::math::order::greater;
 use crate::math::vector::bounding_box;
 use glam::DVec3;
@@ -102,7 +102,7 @@ fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
 
 /// Creates the leaf node for a piece, whose hull is the piece itself.
 fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
-    if let Some(point) = too_fine(&piece.points) {
+    if let Some(point) = first_too_fine_point(&piece.points) {
         let point = point as u32;
         return Err(HullFault::CoordinateTooSmall { point }.at(at));
     }

@@ -3,7 +3,7 @@
 use crate::body::facets::{edges_of, fan_of};
 use crate::body::piece::Piece;
 use crate::body::support::Support;
-use crate::math::exact::{side, too_fine};
+use crate::math::exact::{first_too_fine_point, side};
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -13,7 +13,7 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     if is_convex(hull) {
         Support::new(hull.points, hull.facets)
     } else {
-        Support::of_points(hull.points)
+        Support::from_points(hull.points)
     }
 }
 
@@ -27,7 +27,7 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
 /// convex part of a face. From every corner of the facet an edge then leads up along any direction that goes up from
 /// there in that face.
 fn is_convex(hull: &Piece<'_>) -> bool {
-    if hull.facets.is_empty() || too_fine(hull.points).is_some() {
+    if hull.facets.is_empty() || first_too_fine_point(hull.points).is_some() {
         return false;
     }
     let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;

@@ -51,7 +51,7 @@ impl EdgeMap {
 
     /// Returns the value of a directed edge; `None` if the map does not have the edge.
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
-        let from = self.0.of(from as usize);
+        let from = self.0.list(from as usize);
         let up_to = from.partition_point(|edge| edge.0 <= to);
         let last = from[..up_to].last()?;
         (last.0 == to).then_some(last.1)

@@ -81,7 +81,7 @@ pub(super) fn inherit_facet_data(
     positions: &[DVec3],
     children: [Child<'_>; 2],
 ) -> Vec<FacetData> {
-    let triangles = children.map(|child| lone_triangle(&child));
+    let triangles = children.map(|child| single_triangle_facet_data(&child));
     let sides =
         [0, 1].map(|k| ChildFacets::new(children[k], triangles[k].as_ref(), positions.len()));
     let facet = |corners: &[u32]| {
@@ -89,7 +89,7 @@ pub(super) fn inherit_facet_data(
             .each_ref()
             .map(|side| side.facet_sharing_edge(corners));
         match parts {
-            [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.facet.clone(),
+            [Some(part), _] | [_, Some(part)] if is_same_loop(&part, corners) => part.facet.clone(),
             [Some(one), Some(other)] if tiles_facet(positions, corners, [&one, &other]) => {
                 FacetData::merge_facets([&one, &other])
             }
@@ -187,7 +187,7 @@ impl<'a> ChildFacets<'a> {
 }
 
 /// Returns the facet data of a child that is a single triangle; `None` for other children.
-fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
+fn single_triangle_facet_data(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.facets.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
         origin: match child.node.leaf_faces.as_deref().unwrap_or_default() {
@@ -211,7 +211,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
 }
 
 /// Returns whether a child's facet has the same corners, in the same cyclic order, as a facet of the hull.
-fn same_loop(part: &ChildFacet<'_>, other: &[u32]) -> bool {
+fn is_same_loop(part: &ChildFacet<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
     }

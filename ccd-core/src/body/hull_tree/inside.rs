@@ -13,7 +13,7 @@ pub(super) struct PreparedHull<'a> {
     /// The facets as fans of triangles.
     fans: Vec<[DVec3; 3]>,
     /// The corners of the first facet, which decide if the hull is flat.
-    first: Vec<DVec3>,
+    first_facet_corners: Vec<DVec3>,
 }
 
 impl<'a> PreparedHull<'a> {
@@ -25,7 +25,7 @@ impl<'a> PreparedHull<'a> {
         PreparedHull {
             points,
             fans: fans.map(|fan| fan.map(|v| at(&v))).collect(),
-            first: facets
+            first_facet_corners: facets
                 .get(0)
                 .map_or(Vec::new(), |corners| corners.iter().map(at).collect()),
         }
@@ -42,7 +42,9 @@ impl<'a> PreparedHull<'a> {
     /// O(n log n) for n points and facets in all, if few points are near each facet.
     pub(super) fn first_point_outside(&self, positions: &[DVec3]) -> Option<usize> {
         if self.fans.is_empty() {
-            return positions.iter().position(|&p| !in_simplex(self.points, p));
+            return positions
+                .iter()
+                .position(|&p| !is_in_simplex(self.points, p));
         }
         if positions.is_empty() {
             return None;
@@ -60,25 +62,25 @@ impl<'a> PreparedHull<'a> {
         }
         (0..positions.len()).find(|&k| {
             let behind = level[k] < self.fans.len();
-            outside[k] || !(behind || in_polygon(&self.first, positions[k]))
+            outside[k] || !(behind || is_in_polygon(&self.first_facet_corners, positions[k]))
         })
     }
 }
 
 /// Returns whether a point is equal to one point, on a segment of two points, or in a triangle of three points.
-fn in_simplex(points: &[DVec3], point: DVec3) -> bool {
+fn is_in_simplex(points: &[DVec3], point: DVec3) -> bool {
     match *points {
         [a] => a == point,
-        [a, b] => on_segment(a, b, point),
+        [a, b] => is_on_segment(a, b, point),
         [a, b, c] => {
             let edges = [(a, b), (b, c), (c, a)];
-            edges.iter().any(|&(a, b)| on_segment(a, b, point)) || in_polygon(points, point)
+            edges.iter().any(|&(a, b)| is_on_segment(a, b, point)) || is_in_polygon(points, point)
         }
         _ => false,
     }
 }
 
-fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
+fn is_on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
     let between = point.cmpge(a.min(b)).all() && point.cmple(a.max(b)).all();
     between && is_degenerate([a, b, point])
 }
@@ -109,7 +111,7 @@ fn projectable_corners(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
 }
 
 /// Returns whether a point is in the plane of a polygon and in the convex hull of its corners.
-fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
+fn is_in_polygon(corners: &[DVec3], point: DVec3) -> bool {
     let Some((fan, axis)) = projectable_corners(corners) else {
         return false;
     };

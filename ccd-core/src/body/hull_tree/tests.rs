@@ -83,12 +83,12 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     assert_eq!(root.facets.origins()[..2], origins);
     assert_eq!(root.facets.origins()[2..], [FacetOrigin::Faces; 4]);
     // The mesh's faces are found again on a tiled side.
-    let top = Combination::segment([4, 7], 0.25);
+    let top = ConvexCombination::segment([4, 7], 0.25);
     assert_eq!(whole.hulls().feature(0, &top), Feature::Face(5));
-    let top = Combination::segment([4, 7], 0.75);
+    let top = ConvexCombination::segment([4, 7], 0.75);
     assert_eq!(whole.hulls().feature(0, &top), Feature::Face(11));
     assert_eq!(
-        whole.hulls().feature(0, &Combination::point(7)),
+        whole.hulls().feature(0, &ConvexCombination::point(7)),
         Feature::Vertex(67)
     );
     // The boxes are apart: the sides are bridges.
@@ -125,7 +125,7 @@ fn features_take_the_best_class_of_their_facets() {
     )
     .unwrap();
     let class = |node, support: &[u32]| {
-        let mut point = Combination::EMPTY;
+        let mut point = ConvexCombination::EMPTY;
         support.iter().for_each(|&v| point.push(v, 1.0));
         gap.class_of(node, &point)
     };
@@ -152,7 +152,10 @@ fn thick_and_thin_pieces_are_bridged_everywhere() {
     let whole = tree(&[box_between(0.0, 1.0, 0), thick], box_hull(0.0, 3.0)).unwrap();
     assert_eq!(whole.hulls().get(0).radius, 0.5);
     assert_eq!(whole.facet_classes(0), [FacetClass::Free; 6]);
-    assert_eq!(whole.class_of(0, &Combination::point(0)), FacetClass::Free);
+    assert_eq!(
+        whole.class_of(0, &ConvexCombination::point(0)),
+        FacetClass::Free
+    );
     assert_eq!(whole.facet_classes(2), [FacetClass::Original; 6]);
 }
 
@@ -180,7 +183,7 @@ fn triangles_segments_and_points_join() {
     };
     let whole = HullTree::new(&pieces, &nodes(square)).unwrap();
     assert_eq!(whole.facet_classes(0), [FacetClass::Original; 2]);
-    let inside = Combination::segment([1, 3], 0.25);
+    let inside = ConvexCombination::segment([1, 3], 0.25);
     assert_eq!(whole.hulls().feature(0, &inside), Feature::Face(8));
 
     let along = |x: f64| x * DVec3::X;
@@ -384,7 +387,7 @@ fn values_are_made_ahead_for_pieces_and_hulls_once() {
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
     let never = |_: &Piece<'_>| -> PointCount { panic!("it is there") };
     for list in [body.pieces(), body.hull_tree().unwrap().hulls()] {
-        assert!(list.iter().all(|p| p.cached(never).unwrap().0 == 8));
+        assert!(list.iter().all(|p| p.cached_value(never).unwrap().0 == 8));
     }
     // A copy has its own pieces, and shares the hulls.
     body.clone().precompute(make);

@@ -182,8 +182,8 @@ proptest! {
 }
 
 /// Returns the combination of some corners with equal weights.
-fn mean(corners: &[u32]) -> Combination {
-    let mut mean = Combination::EMPTY;
+fn mean(corners: &[u32]) -> ConvexCombination {
+    let mut mean = ConvexCombination::EMPTY;
     corners.iter().for_each(|&corner| mean.push(corner, 1.0));
     mean
 }
@@ -219,7 +219,7 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
     };
     let pieces = Pieces::polytopes(&[polytope]).unwrap();
     let weighted = |terms: &[(u32, f64)]| {
-        let mut point = Combination::EMPTY;
+        let mut point = ConvexCombination::EMPTY;
         terms
             .iter()
             .for_each(|&(corner, weight)| point.push(corner, weight));

@@ -90,7 +90,9 @@ fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
 #[test]
 fn enclosures_touch_their_shapes_along_the_axes() {
     for round in cylinder_and_cone(1.0, 2.0) {
-        let about = round.enclose(round.usual_excess()).expect("it can be had");
+        let about = round
+            .enclose(round.default_excess())
+            .expect("it can be had");
         for axis in [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y] {
             let heights = about.polytope().points.iter().map(|p| p.dot(axis));
             let reach = heights.fold(0.0, greater);
@@ -129,7 +131,7 @@ fn facets_close_the_polytope_and_point_outward() {
 #[test]
 fn what_is_no_length_is_refused_by_its_name() {
     let named = |made: Result<SolidOfRevolution, InputError>, name: &str| match made {
-        Err(InputError::OutOfRange { what, .. }) => assert_eq!(what, name),
+        Err(InputError::OutOfRange { quantity: what, .. }) => assert_eq!(what, name),
         other => panic!("{other:?}"),
     };
     for bad in [-1.0, f64::NAN, f64::INFINITY, 1.1e12] {
@@ -140,7 +142,13 @@ fn what_is_no_length_is_refused_by_its_name() {
     for bad in [0.0, 1e-12, 1e-8, -1.0, f64::NAN] {
         let refused = cylinder.enclose(bad);
         assert!(
-            matches!(refused, Err(InputError::OutOfRange { what: "excess", .. })),
+            matches!(
+                refused,
+                Err(InputError::OutOfRange {
+                    quantity: "excess",
+                    ..
+                })
+            ),
             "{refused:?}"
         );
     }
@@ -148,7 +156,10 @@ fn what_is_no_length_is_refused_by_its_name() {
     let widest = Body::cylinder(MAX_COORDINATE, 1.0);
     assert!(matches!(
         widest,
-        Err(InputError::OutOfRange { what: "radius", .. })
+        Err(InputError::OutOfRange {
+            quantity: "radius",
+            ..
+        })
     ));
 }
 

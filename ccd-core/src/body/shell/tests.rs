@@ -1,6 +1,6 @@
 //! Tests that pieces belong to the same connected part exactly if shared points connect them.
 
-use super::{DisjointSets, Shell, shells};
+use super::{DisjointSets, ExtremePoints, shells};
 use crate::body::pieces::Pieces;
 use crate::tests::meshes::{cube, translated_triangles};
 use crate::tests::scene::{RngExt, direction, pieces, rng};
@@ -52,7 +52,7 @@ fn a_chain_of_many_is_one_part_in_any_order() {
 }
 
 /// Finds the connected parts by comparing all pairs of points, as a reference.
-fn shells_by_brute_force(pieces: &Pieces) -> Vec<Shell> {
+fn shells_by_brute_force(pieces: &Pieces) -> Vec<ExtremePoints> {
     let points = pieces.points();
     let mut parts = DisjointSets((0..points.len() as u32).collect());
     for piece in 0..pieces.len() {
@@ -64,7 +64,7 @@ fn shells_by_brute_force(pieces: &Pieces) -> Vec<Shell> {
             .filter(|&j| points[j] == *point)
             .for_each(|j| _ = parts.join(j, k));
     }
-    let mut found: Vec<(usize, Shell)> = Vec::new();
+    let mut found: Vec<(usize, ExtremePoints)> = Vec::new();
     for (k, &point) in points.iter().enumerate() {
         let root = parts.root(k);
         let known = found.iter().position(|shell| shell.0 == root);

@@ -4,7 +4,7 @@ use glam::DVec3;
 use std::f64::consts::FRAC_PI_8;
 
 /// The number of directions: both poles, and 16 on each of seven circles of latitude.
-pub const DIRECTIONS: usize = 2 + 7 * 16;
+pub const TABLE_DIRECTION_COUNT: usize = 2 + 7 * 16;
 
 /// The squared cosines of the angles from the pole that are halfway between circles: 11.25, 33.75, 56.25 and 78.75
 /// degrees.
@@ -54,7 +54,7 @@ pub(super) fn nearest_direction(v: DVec3) -> usize {
     };
     match latitude {
         0 => 0,
-        8 => DIRECTIONS - 1,
+        8 => TABLE_DIRECTION_COUNT - 1,
         _ => 1 + 16 * (latitude - 1) + longitude,
     }
 }

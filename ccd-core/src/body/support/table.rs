@@ -1,6 +1,6 @@
 //! Finds extremal corners of a polytope by climbing along its edges, from a start that a table of directions gives.
 
-use super::directions::{self, DIRECTIONS};
+use super::directions::{self, TABLE_DIRECTION_COUNT};
 use super::tree::bounding_ball;
 use crate::body::adjacency::AdjacencyLists;
 use crate::body::facets::{Facets, edges_of};
@@ -21,7 +21,7 @@ pub struct SupportTable {
     reach: f64,
     ball: (DVec3, f64),
     neighbours: AdjacencyLists<u32>,
-    starts: [u32; DIRECTIONS],
+    start_corners: [u32; TABLE_DIRECTION_COUNT],
 }
 
 impl SupportTable {
@@ -40,12 +40,12 @@ impl SupportTable {
             reach: points.iter().map(reach).fold(0.0, greater),
             ball: bounding_ball(points),
             neighbours: AdjacencyLists::new(points.len(), edges.into_iter()),
-            starts: [first; DIRECTIONS],
+            start_corners: [first; TABLE_DIRECTION_COUNT],
         };
         let mut at = first;
         for (number, direction) in directions::all_directions().enumerate() {
             at = table.hill_climb(at, direction);
-            table.starts[number] = at;
+            table.start_corners[number] = at;
         }
         Some(table)
     }
@@ -56,9 +56,9 @@ impl SupportTable {
     /// The guarantee of [`Support::extremal`](crate::Support::extremal), provided that the facets are those of
     /// the hull.
     #[inline]
-    pub fn extremal(&self, direction: DVec3) -> u32 {
+    pub fn extremal_point(&self, direction: DVec3) -> u32 {
         self.hill_climb(
-            self.starts[directions::nearest_direction(direction)],
+            self.start_corners[directions::nearest_direction(direction)],
             direction,
         )
     }
@@ -66,9 +66,9 @@ impl SupportTable {
     /// Like `SupportTable::extremal`, but starts at a given corner, such as the last answer. If that corner is on no
     /// facet, the start is taken from the table.
     #[inline]
-    pub fn extremal_from(&self, start: u32, direction: DVec3) -> u32 {
+    pub fn extremal_point_from(&self, start: u32, direction: DVec3) -> u32 {
         match self.neighbours(start) {
-            [] => self.extremal(direction),
+            [] => self.extremal_point(direction),
             _ => self.hill_climb(start, direction),
         }
     }
@@ -76,7 +76,7 @@ impl SupportTable {
     /// Returns the corners that share an edge with a corner; empty for a point on no facet.
     #[inline]
     pub fn neighbours(&self, corner: u32) -> &[u32] {
-        self.neighbours.of(corner as usize)
+        self.neighbours.list(corner as usize)
     }
 
     /// Returns the centre and radius of a ball around the points.

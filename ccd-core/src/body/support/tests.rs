@@ -117,9 +117,9 @@ fn climbing_agrees_with_a_scan() {
             let slack = 2.0 * HEIGHT_ERROR_F64 * reach * look.abs().element_sum();
             let start = rng.random_range(0..piece.points.len() as u32);
             for found in [
-                table.extremal(look),
-                table.extremal_from(start, look),
-                scan.extremal(look),
+                table.extremal_point(look),
+                table.extremal_point_from(start, look),
+                scan.extremal_point(look),
             ] {
                 assert!(
                     height(found) >= highest - slack,
@@ -144,7 +144,7 @@ fn scanning_takes_the_first_of_the_highest() {
             let height = |p: &DVec3| look.dot(*p);
             let highest = points.iter().map(height).fold(f64::NEG_INFINITY, greater);
             let first = points.iter().position(|p| height(p) == highest);
-            assert_eq!(Some(scan.extremal(look) as usize), first);
+            assert_eq!(Some(scan.extremal_point(look) as usize), first);
         }
     }
 }
@@ -152,7 +152,7 @@ fn scanning_takes_the_first_of_the_highest() {
 #[test]
 fn directions_are_their_own_nearest_and_none_is_far() {
     let all: Vec<DVec3> = directions::all_directions().collect();
-    assert_eq!(all.len(), DIRECTIONS);
+    assert_eq!(all.len(), TABLE_DIRECTION_COUNT);
     for (number, direction) in all.iter().enumerate() {
         for scale in [1e-150, 1.0, 1e150] {
             assert_eq!(directions::nearest_direction(*direction * scale), number);
@@ -193,9 +193,9 @@ fn invalid_directions_give_some_corner() {
     let table = SupportTable::new(pieces.get(0).points, pieces.get(0).facets).unwrap();
     let scan = SupportScan::new(pieces.points());
     for look in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO, -DVec3::INFINITY] {
-        assert!(table.extremal(look) < 1600);
-        assert!(table.extremal_from(9999, look) < 1600);
-        assert!(scan.extremal(look) < 1600);
+        assert!(table.extremal_point(look) < 1600);
+        assert!(table.extremal_point_from(9999, look) < 1600);
+        assert!(scan.extremal_point(look) < 1600);
     }
 }
 
@@ -208,5 +208,8 @@ fn points_on_no_facet_are_no_dead_end() {
     let pieces = polytope(points, facets);
     let table = SupportTable::new(pieces.get(0).points, pieces.get(0).facets).unwrap();
     assert!(table.neighbours(9).is_empty());
-    assert_eq!(table.extremal_from(9, DVec3::X + DVec3::Y + DVec3::Z), 8);
+    assert_eq!(
+        table.extremal_point_from(9, DVec3::X + DVec3::Y + DVec3::Z),
+        8
+    );
 }

@@ -33,7 +33,7 @@ pub struct SupportTree {
 struct Block {
     points: [[f64; LANES]; 3],
     /// The indices of the block's points among the piece's points.
-    numbers: [u32; LANES],
+    point_indices: [u32; LANES],
 }
 
 /// Eight discs that bound points. Each contains the points below it: those at most `thickness` to either side of
@@ -89,7 +89,7 @@ impl SupportTree {
     ///
     /// # Complexity
     /// About logarithmic in the number of points of a curved surface; linear if all are equally far.
-    pub fn extremal(&self, direction: DVec3) -> u32 {
+    pub fn extremal_point(&self, direction: DVec3) -> u32 {
         let mut search = Search::new(direction);
         self.descend(self.level_starts.len(), 0, &mut search);
         search.highest_point
@@ -117,7 +117,7 @@ impl SupportTree {
             search.visits += 1;
         }
         let Some(below) = level.checked_sub(1) else {
-            return search.at(&self.blocks[at]);
+            return search.visit_block(&self.blocks[at]);
         };
         let mut bounds = self.groups[self.level_starts[below] + at].bounds(search.scaled_direction);
         for _ in 0..LANES {
@@ -138,7 +138,7 @@ struct Search {
     /// The direction of the search, scaled so that its largest component is 1.
     scaled_direction: Vec3,
     size: f64,
-    highest: f64,
+    max_height: f64,
     /// The height that a disc's upper bound must exceed for the disc to be visited.
     min_height: f32,
     highest_point: u32,
@@ -154,7 +154,7 @@ impl Search {
             direction,
             scaled_direction: (direction / size).as_vec3(),
             size,
-            highest: f64::NEG_INFINITY,
+            max_height: f64::NEG_INFINITY,
             min_height: f32::NEG_INFINITY,
             highest_point: 0,
             #[cfg(test)]
@@ -163,17 +163,17 @@ impl Search {
     }
 
     #[inline]
-    fn at(&mut self, block: &Block) {
+    fn visit_block(&mut self, block: &Block) {
         let ([x, y, z], d) = (&block.points, self.direction);
         let mut heights = [0.0; LANES];
         for k in 0..LANES {
             heights[k] = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
         }
         let lane = index_of_highest(&heights);
-        if heights[lane] > self.highest {
-            self.highest = heights[lane];
-            self.min_height = ((self.highest / self.size) as f32).next_down();
-            self.highest_point = block.numbers[lane];
+        if heights[lane] > self.max_height {
+            self.max_height = heights[lane];
+            self.min_height = ((self.max_height / self.size) as f32).next_down();
+            self.highest_point = block.point_indices[lane];
         }
     }
 }
@@ -184,7 +184,7 @@ impl Block {
         let row = |axis: usize| std::array::from_fn(|lane| placed[number(lane) as usize][axis]);
         Block {
             points: [0, 1, 2].map(row),
-            numbers: std::array::from_fn(number),
+            point_indices: std::array::from_fn(number),
         }
     }
 }

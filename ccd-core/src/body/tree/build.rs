@@ -17,14 +17,14 @@ use glam::DVec3;
 #[derive(Default)]
 pub(crate) struct Layout {
     nodes: Vec<NodeLayout>,
-    boxes: Vec<ChildBoxes>,
+    boxes: Vec<ChildNodes>,
     triangles: Vec<ChildTriangles>,
 }
 
 /// Returns the largest distance of the pieces' points from the body's origin, rounding radii included.
 fn max_point_distance(pieces: &Pieces) -> f64 {
     let farthest = |points: &[DVec3]| longest_length(points.iter().copied());
-    if pieces.all_triangles() {
+    if pieces.are_all_triangles() {
         return farthest(pieces.points());
     }
     let reach = |piece: Piece<'_>| farthest(piece.points) + piece.radius;
@@ -35,7 +35,7 @@ fn max_point_distance(pieces: &Pieces) -> f64 {
 struct PieceRanges {
     order: Vec<u32>,
     /// The start and the end of each hierarchy node's pieces in `order`.
-    of: Vec<(u32, u32)>,
+    node_ranges: Vec<(u32, u32)>,
 }
 
 impl PieceRanges {
@@ -63,14 +63,17 @@ impl PieceRanges {
             }
         }
         if order.len() == pieces {
-            Ok(PieceRanges { order, of })
+            Ok(PieceRanges {
+                order,
+                node_ranges: of,
+            })
         } else {
             Err(InputError::BadHierarchy { at: order.len() })
         }
     }
 
     fn len(&self, node: u32) -> usize {
-        let (start, end) = self.of[node as usize];
+        let (start, end) = self.node_ranges[node as usize];
         (end - start) as usize
     }
 }
@@ -83,7 +86,7 @@ struct NodeLayout {
 }
 
 /// A group of consecutive nodes that are the children of a node.
-struct ChildBoxes {
+struct ChildNodes {
     parent: u32,
     first: u32,
     count: u32,
@@ -112,7 +115,7 @@ impl Layout {
         hierarchy: &Hierarchy,
     ) -> Result<(Self, Pieces), InputError> {
         let ranges = PieceRanges::new(hierarchy, pieces.len())?;
-        let layout = Layout::build_layout(hierarchy, &ranges, pieces.all_triangles());
+        let layout = Layout::build_layout(hierarchy, &ranges, pieces.are_all_triangles());
         Ok((layout, pieces.with_piece_order(&ranges.order)))
     }
 
@@ -132,7 +135,7 @@ impl Layout {
         layout.push_node(&opener, 0);
         let mut waiting = vec![(0u32, 0u32)];
         while let Some((parent, at)) = waiting.pop() {
-            let (start, end) = ranges.of[at as usize];
+            let (start, end) = ranges.node_ranges[at as usize];
             let below = if triangles && ranges.len(at) <= LANES {
                 layout.triangles.push(ChildTriangles { parent, start, end });
                 NodeChildren::Triangles(layout.triangles.len() as u32 - 1)
@@ -144,7 +147,7 @@ impl Layout {
                     waiting.push((child, member));
                 }
                 let count = count as u32;
-                layout.boxes.push(ChildBoxes {
+                layout.boxes.push(ChildNodes {
                     parent,
                     first,
                     count,
@@ -159,7 +162,7 @@ impl Layout {
     }
 
     fn push_node(&mut self, opener: &ChildChooser<'_>, at: u32) {
-        let (start, end) = opener.ranges.of[at as usize];
+        let (start, end) = opener.ranges.node_ranges[at as usize];
         // The group is created when the node is visited.
         let below = NodeChildren::Piece(start);
         self.nodes.push(NodeLayout {
@@ -174,11 +177,11 @@ impl Layout {
     pub(crate) fn fit_tree(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         parallel_for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
-            *node = self.nodes[k].fit_nodes(pieces, sample);
+            *node = self.nodes[k].fit_node(pieces, sample);
         });
         let mut boxes = vec![BoxGroup::default(); self.boxes.len()];
         parallel_for_each(&mut boxes, &(), |(), k, group| {
-            let ChildBoxes {
+            let ChildNodes {
                 parent,
                 first,
                 count,
@@ -196,14 +199,14 @@ impl Layout {
                 StoredTriangleGroup::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
-            whole: BodyBox::fit_to(
+            body_box: BodyBox::fit_to(
                 &self.nodes[0].node_points(pieces),
                 &mut Sample::EMPTY.clone(),
             ),
             slabs: self.slabs(pieces, &nodes),
             nodes,
-            boxes,
-            triangles,
+            box_groups: boxes,
+            triangle_groups: triangles,
             span: max_point_distance(pieces),
         }
     }
@@ -212,7 +215,7 @@ impl Layout {
 impl Layout {
     /// Returns the slabs around all flat nodes, with the nodes' ids; none unless all pieces are triangles.
     fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
-        if !pieces.all_triangles() {
+        if !pieces.are_all_triangles() {
             return Vec::new();
         }
         let slab = |(id, (slot, node)): (NodeId, (&NodeLayout, &Node))| {
@@ -230,14 +233,14 @@ impl Layout {
 }
 
 impl NodeLayout {
-    fn fit_nodes(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
+    fn fit_node(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
         fit(&self.node_points(pieces), self.children, sample)
     }
 
     /// Returns the points, and their rounding radius, that the node's box has to contain.
     fn node_points<'p>(&self, pieces: &'p Pieces) -> NodePoints<'p> {
         let range = self.start as usize..self.end as usize;
-        let triangles = pieces.all_triangles();
+        let triangles = pieces.are_all_triangles();
         let radii = range.clone().map(|k| pieces.get(k).radius);
         NodePoints {
             points: pieces.points_of(range),
@@ -246,7 +249,7 @@ impl NodeLayout {
             } else {
                 radii.fold(0.0, greater)
             },
-            triangles,
+            are_triangles: triangles,
         }
     }
 }

@@ -17,7 +17,7 @@ pub(crate) struct NodePoints<'a> {
     /// The largest rounding radius of the pieces.
     pub(crate) radius: f64,
     /// True if every three consecutive points are the corners of a triangle.
-    pub(crate) triangles: bool,
+    pub(crate) are_triangles: bool,
 }
 
 /// The sines and cosines of the angles by which trial frames are turned about the mean normal: 0 to 75 degrees in steps
@@ -41,7 +41,7 @@ const TRIED_ROTATIONS: [(f64, f64); 6] = [
 /// The box and the ball contain all points: the sample only chooses the frame.
 pub(crate) fn fit(node_points: &NodePoints<'_>, below: NodeChildren, sample: &mut Sample) -> Node {
     sample.fill_from(node_points);
-    let frame = best_frame(sample, node_points.triangles);
+    let frame = best_frame(sample, node_points.are_triangles);
     FittedBox::fit_along(frame, node_points.points).to_node(node_points, below)
 }
 
@@ -127,7 +127,7 @@ impl FittedBox {
             half: half.map(outward),
             radius: outward(square.sqrt() + node_points.radius),
             rounding: round_up_to_f32(node_points.radius),
-            below,
+            children: below,
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
-use crate::rounding::{FLAT_THICKNESS_F32, RAY_BOX_WIDENING_F64, SQUARES, UNIT_ROUNDOFF_F64};
+use crate::rounding::{
+    FLAT_THICKNESS_F32, RAY_BOX_WIDENING_F64, SQUARED_LENGTH_RANGE, UNIT_ROUNDOFF_F64,
+};
 use glam::{DVec3, Vec3};
 
 /// The number of children in a group.
@@ -18,7 +20,7 @@ pub(crate) struct BoxGroup {
     pub(crate) centre: Rows3,
     pub(crate) axes: [Rows3; 3],
     pub(crate) half: Rows3,
-    pub(crate) rounding: [f32; LANES],
+    pub(crate) rounding_radius: [f32; LANES],
     pub(crate) radius: [f32; LANES],
     pub(crate) header: GroupHeader,
     /// A bit for each lane, set if the child in that lane is a node with a single piece.
@@ -29,7 +31,7 @@ pub(crate) struct BoxGroup {
 /// corners are stored with the pieces.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StoredTriangleGroup {
-    pub(crate) members: GroupHeader,
+    pub(crate) header: GroupHeader,
     /// The radius of each triangle's ball, as in [`TriangleGroup`].
     radius: [f32; LANES],
 }
@@ -85,11 +87,11 @@ impl BoxGroup {
             for (row, half) in group.half.iter_mut().zip(node.half) {
                 row[lane] = (half + off).next_up();
             }
-            group.rounding[lane] = node.rounding;
+            group.rounding_radius[lane] = node.rounding;
             group.radius[lane] = (node.radius + off).next_up();
             let reach = round_up_to_f32(length(way) + f64::from(node.radius));
             group.header.reach = greater(group.header.reach, reach);
-            if matches!(node.below, NodeChildren::Piece(_)) {
+            if matches!(node.children, NodeChildren::Piece(_)) {
                 group.leaf_mask |= 1 << lane;
             }
         }
@@ -101,7 +103,7 @@ impl StoredTriangleGroup {
     /// Creates the stored data of consecutive triangles; `first` is the id of the first triangle.
     pub(crate) fn new(triangles: &[[DVec3; 3]], first: u32, origin: DVec3) -> Self {
         let mut row = StoredTriangleGroup {
-            members: GroupHeader {
+            header: GroupHeader {
                 origin,
                 reach: 0.0,
                 first,
@@ -117,7 +119,7 @@ impl StoredTriangleGroup {
             ));
         }
         let corners = triangles.as_flattened().iter();
-        row.members.reach = round_up_to_f32(longest_length(corners.map(|&p| p - origin)));
+        row.header.reach = round_up_to_f32(longest_length(corners.map(|&p| p - origin)));
         row
     }
 }
@@ -129,9 +131,9 @@ impl TriangleGroup {
         let mut group = TriangleGroup {
             corners: [[[0.0; LANES]; 3]; 3],
             radius: row.radius,
-            members: row.members,
+            members: row.header,
         };
-        let origin = row.members.origin;
+        let origin = row.header.origin;
         for (lane, triangle) in triangles.iter().enumerate() {
             for (rows, corner) in group.corners.iter_mut().zip(triangle) {
                 set_lane(rows, lane, (*corner - origin).as_vec3());
@@ -145,7 +147,7 @@ impl TriangleGroup {
 pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
     let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let square = across.length_squared();
-    if SQUARES.contains(&square) {
+    if SQUARED_LENGTH_RANGE.contains(&square) {
         (across * square.sqrt().recip()).as_vec3()
     } else {
         normal(corners).unwrap_or(DVec3::ZERO).as_vec3()
@@ -157,7 +159,7 @@ pub(super) fn longest_length(vectors: impl Iterator<Item = DVec3> + Clone) -> f6
     let squares = vectors.clone().map(DVec3::length_squared);
     let square = squares.fold(0.0, greater);
     // The square of a longer vector is not less, so that one root suffices for all.
-    if SQUARES.contains(&square) {
+    if SQUARED_LENGTH_RANGE.contains(&square) {
         square.sqrt()
     } else {
         vectors.map(length).fold(0.0, greater)
@@ -192,7 +194,7 @@ pub(crate) struct Node {
     pub(crate) radius: f32,
     /// The largest rounding radius of the pieces below, which the half extents `half` do not include.
     pub(crate) rounding: f32,
-    pub(crate) below: NodeChildren,
+    pub(crate) children: NodeChildren,
 }
 
 /// The children of a node: a group of nodes, a group of triangles, or a single piece.
@@ -214,7 +216,7 @@ impl Node {
         half: [0.0; 3],
         radius: 0.0,
         rounding: 0.0,
-        below: NodeChildren::Piece(0),
+        children: NodeChildren::Piece(0),
     };
 
     /// Returns whether the box is thin enough for the node to count as flat.

@@ -46,16 +46,16 @@ enum Leaf {
 
 /// Returns the leaves whose boxes are within about `reach` of a point.
 fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Leaf> {
-    let mut stack = NodeStack::root();
+    let mut stack = NodeStack::with_root();
     std::iter::from_fn(move || {
         while let Some(id) = stack.pop() {
             let node = &tree.nodes[id as usize];
             if !node.is_near(point, reach) {
                 continue;
             }
-            match node.below {
+            match node.children {
                 NodeChildren::Boxes(group) => {
-                    let members = &tree.boxes[group as usize].header;
+                    let members = &tree.box_groups[group as usize].header;
                     stack.extend(members.first..members.first + members.count);
                 }
                 NodeChildren::Piece(piece) => return Some(Leaf::Piece(piece)),

@@ -35,13 +35,13 @@ pub(crate) fn crossings(
     from: DVec3,
     slack: f64,
 ) -> Option<RayCrossings> {
-    let start = Start { from, slack };
+    let start = RayStart { from, slack };
     (0..MAX_RAYS).find_map(|k| crossings_along(tree, pieces, start, direction(k)))
 }
 
 /// The start point of a ray, and the distance up to which a triangle counts as containing it.
 #[derive(Clone, Copy)]
-struct Start {
+struct RayStart {
     from: DVec3,
     slack: f64,
 }
@@ -59,7 +59,7 @@ fn direction(k: u32) -> DVec3 {
 fn crossings_along(
     tree: &Tree,
     pieces: &Pieces,
-    start: Start,
+    start: RayStart,
     along: DVec3,
 ) -> Option<RayCrossings> {
     let mut found = RayCrossings {
@@ -68,15 +68,15 @@ fn crossings_along(
         triangles_at_start: 0,
         direction: along,
     };
-    let mut stack = NodeStack::root();
+    let mut stack = NodeStack::with_root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
         if !may_hit(node, start.from, along) {
             continue;
         }
-        match node.below {
+        match node.children {
             NodeChildren::Boxes(group) => {
-                let members = &tree.boxes[group as usize].header;
+                let members = &tree.box_groups[group as usize].header;
                 stack.extend(members.first..members.first + members.count);
             }
             NodeChildren::Triangles(group) => {
@@ -136,7 +136,7 @@ impl Sign {
 
 impl RayCrossings {
     /// Adds the crossing of the ray with a triangle, if any; `None` if rounding leaves it uncertain whether they cross.
-    fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
+    fn add(&mut self, triangle: [DVec3; 3], start: RayStart) -> Option<()> {
         let along = self.direction;
         let corners = triangle.map(|p| p - start.from);
         let size = |p: DVec3| p.abs().element_sum();

@@ -16,7 +16,7 @@ pub(crate) struct Slab {
     /// The unit normal of the planes.
     pub(crate) normal: DVec3,
     /// Half the distance between the planes.
-    pub(crate) half: f64,
+    pub(crate) half_thickness: f64,
 }
 
 impl Slab {
@@ -33,7 +33,10 @@ impl Slab {
         // Differences are off by 1u, products with a unit vector and their sum by 3u of √3.
         half += 16.0 * UNIT_ROUNDOFF_F64 * size;
         // Written so that NaN is not flat.
-        (half <= MAX_FLAT_THICKNESS * size).then_some(Slab { normal, half })
+        (half <= MAX_FLAT_THICKNESS * size).then_some(Slab {
+            normal,
+            half_thickness: half,
+        })
     }
 }
 

@@ -19,12 +19,12 @@ const CHECK_TOLERANCE: f64 = 1e-14;
 fn check(body: &Body) -> usize {
     let (tree, pieces) = (body.tree(), body.pieces());
     let mut seen = vec![0; pieces.len()];
-    let below_root = visit(tree, pieces, 0, &mut seen);
+    let below_root = check_subtree(tree, pieces, 0, &mut seen);
     assert!(seen.iter().all(|&n| n == 1), "each piece once: {seen:?}");
     assert_eq!(below_root.len(), pieces.len());
     assert!(tree.span() >= farthest(pieces) * (1.0 - CHECK_TOLERANCE));
     assert!(tree.bytes() >= size_of::<Node>() * tree.nodes.len());
-    tree.boxes.len() + tree.triangles.len()
+    tree.box_groups.len() + tree.triangle_groups.len()
 }
 
 fn farthest(pieces: &Pieces) -> f64 {
@@ -34,14 +34,14 @@ fn farthest(pieces: &Pieces) -> f64 {
 }
 
 /// Asserts that a node and all nodes below it bound their pieces, and returns the pieces below.
-fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
+fn check_subtree(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
     let NodeOrTriangle::Node(node) = tree.get(id) else {
         let piece = tree.piece(id).expect("a triangle");
         seen[piece as usize] += 1;
         return vec![piece];
     };
     let mut below = Vec::new();
-    match node.below {
+    match node.children {
         NodeChildren::Piece(piece) => {
             assert_eq!(tree.piece(id), Some(piece));
             seen[piece as usize] += 1;
@@ -51,7 +51,7 @@ fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32>
             let group = tree.box_group(group);
             for child in members(&group.header) {
                 let lane = (child - group.header.first) as usize;
-                let inside = visit(tree, pieces, child, seen);
+                let inside = check_subtree(tree, pieces, child, seen);
                 check_lane(group, lane, pieces, &inside);
                 let leaf = tree.piece(child).is_some();
                 assert_eq!(group.leaf_mask >> lane & 1 == 1, leaf);
@@ -62,7 +62,7 @@ fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32>
             let group = &tree.triangle_group(group, pieces);
             for child in members(&group.members) {
                 let lane = (child - group.members.first) as usize;
-                let inside = visit(tree, pieces, child, seen);
+                let inside = check_subtree(tree, pieces, child, seen);
                 let [piece] = inside[..] else {
                     panic!("one triangle");
                 };
@@ -118,7 +118,7 @@ fn check_lane(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
             assert!(way.length() + piece.radius <= f64::from(group.radius[lane]) + slack);
             for k in 0..3 {
                 let reach = way.dot(at(&group.axes[k])).abs() + piece.radius;
-                let half = f64::from(group.half[k][lane]) + f64::from(group.rounding[lane]);
+                let half = f64::from(group.half[k][lane]) + f64::from(group.rounding_radius[lane]);
                 assert!(reach <= half + slack);
             }
             let from_origin = (point - group.header.origin).length() + piece.radius;

@@ -16,7 +16,7 @@ const INLINE_CAPACITY: usize = 64;
 
 impl NodeStack {
     /// Creates a stack that contains only the tree's root.
-    pub(super) fn root() -> Self {
+    pub(super) fn with_root() -> Self {
         NodeStack {
             inline_nodes: [0; INLINE_CAPACITY],
             count: 1,

@@ -28,7 +28,7 @@ impl BodyBox {
     /// Fits the box to all points of a body, in the best frame that a sample of the points gives.
     pub(super) fn fit_to(node_points: &NodePoints<'_>, sample: &mut Sample) -> Self {
         sample.fill_from(node_points);
-        let axes = best_frame(sample, node_points.triangles);
+        let axes = best_frame(sample, node_points.are_triangles);
         let turned = axes.transpose();
         let (low, high) = bounding_box(node_points.points.iter().map(|&p| turned * p));
         let centre = axes * (0.5 * (low + high));

@@ -3,7 +3,7 @@
 use super::{Corner, Face, NearSurface, PointBits};
 use crate::body::facets::fan_of;
 use crate::body::feature::Feature;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
 use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;
@@ -42,7 +42,7 @@ impl NearSurface<'_> {
                 let nameless = corners.map(|k| (point(k), None));
                 return (Feature::Piece(index), nameless);
             }
-            let mut inside = Combination::EMPTY;
+            let mut inside = ConvexCombination::EMPTY;
             for corner in corners {
                 inside.push(corner, 1.0);
             }
@@ -115,7 +115,7 @@ impl NearSurface<'_> {
     /// Returns the mesh's number of a point of a piece; `None` if the point has none.
     fn mesh_number_of_point(&self, piece: u32, point: u32) -> Option<u32> {
         let pieces = self.body.pieces();
-        match pieces.feature(piece as usize, &Combination::point(point)) {
+        match pieces.feature(piece as usize, &ConvexCombination::point(point)) {
             Feature::Vertex(id) => Some(id),
             _ => None,
         }

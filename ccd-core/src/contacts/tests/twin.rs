@@ -85,7 +85,7 @@ impl Mesh {
         Body::new(&pieces, volume).unwrap()
     }
 
-    pub(super) fn placed(&self, pose: &Pose) -> Mesh {
+    pub(super) fn at_pose(&self, pose: &Pose) -> Mesh {
         Mesh {
             points: self
                 .points

@@ -19,7 +19,7 @@ fn cube_corner_offsets(side: DVec3) -> Vec<DVec3> {
     vec![side.x * DVec3::X, side.y * DVec3::Y, side.z * DVec3::Z]
 }
 
-fn turned(turn: DQuat, offsets: &[DVec3]) -> Vec<DVec3> {
+fn rotated_offsets(turn: DQuat, offsets: &[DVec3]) -> Vec<DVec3> {
     offsets.iter().map(|&offset| turn * offset).collect()
 }
 
@@ -33,8 +33,8 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
     let rng = &mut rng(81);
     for _ in 0..200 {
         let turn = rotation(rng);
-        let below = turned(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, -1.0)));
-        let above = turned(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, 1.0)));
+        let below = rotated_offsets(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, -1.0)));
+        let above = rotated_offsets(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, 1.0)));
         let normals = common_normals(&above, &below);
         let expected = -(turn * DVec3::Z);
         for towards in [direction(rng), expected, direction(rng)] {

@@ -2,9 +2,9 @@
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
-use crate::math::vector::across;
+use crate::math::vector::perpendicular_vector;
 use crate::math::vector::unit_or_any;
-use crate::rounding::BESIDE_EDGE_DISTANCE;
+use crate::rounding::EDGE_PROBE_DISTANCE;
 use glam::DVec3;
 
 /// Returns points on a thin piece, next to the edges of `other` that lie on it: two for each edge, on either side of
@@ -19,7 +19,7 @@ pub(crate) fn points_beside_edges(
     place: impl Fn(DVec3) -> DVec3 + Copy,
     reach: f64,
 ) -> impl Iterator<Item = DVec3> {
-    let flat = FlatOutline::of_piece(piece);
+    let flat = FlatOutline::from_piece(piece);
     let placed = move |k: u32| place(other.points[k as usize]);
     let is_level = move |flat: &FlatOutline<'_>, at: DVec3| flat.height(at).abs() <= reach;
     // For a piece within the plane, the faces beyond the edges decide.
@@ -31,7 +31,7 @@ pub(crate) fn points_beside_edges(
         let ends = edges(other).map(move |edge| edge.map(placed));
         let level = ends.filter(move |ends| ends.iter().all(|&at| is_level(&flat, at)));
         level
-            .filter_map(move |ends| flat.points_beside(ends))
+            .filter_map(move |ends| flat.points_beside_edge(ends))
             .flatten()
             .filter(move |&point| flat.contains_point(point))
     })
@@ -48,7 +48,7 @@ struct FlatOutline<'a> {
 
 impl<'a> FlatOutline<'a> {
     /// Returns the outline of a piece; `None` for a piece with fewer than three corners.
-    fn of_piece(piece: &Piece<'a>) -> Option<Self> {
+    fn from_piece(piece: &Piece<'a>) -> Option<Self> {
         let spread = |corners: &[u32]| match *corners {
             [a, b, c, ..] => {
                 let [a, b, c] = [a, b, c].map(|k| piece.points[k as usize]);
@@ -69,7 +69,7 @@ impl<'a> FlatOutline<'a> {
             return None;
         }
         let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
-        flat.normal = unit_or_any(across(b - a, c - a));
+        flat.normal = unit_or_any(perpendicular_vector(b - a, c - a));
         Some(flat)
     }
 
@@ -102,7 +102,7 @@ impl<'a> FlatOutline<'a> {
 
     /// Returns two points, one on either side of an edge, next to the middle of the edge's part inside the outline;
     /// `None` if no part is inside.
-    fn points_beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+    fn points_beside_edge(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let way = to - from;
         let (mut enter, mut leave) = (0.0, 1.0);
         for (side, inward) in self.side_points() {
@@ -116,7 +116,7 @@ impl<'a> FlatOutline<'a> {
         }
         (leave > enter).then(|| {
             let middle = from + way * (0.5 * (enter + leave));
-            let beside = self.normal.cross(way) * (BESIDE_EDGE_DISTANCE * (leave - enter));
+            let beside = self.normal.cross(way) * (EDGE_PROBE_DISTANCE * (leave - enter));
             [middle + beside, middle - beside]
         })
     }

@@ -9,7 +9,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::MovingBody;
 use crate::settings::Settings;
-use crate::tests::meshes::{cube, inside_out, translated_triangles};
+use crate::tests::meshes::{cube, reversed_triangles, translated_triangles};
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{RngExt, magnitude, pieces, point_in_ball, rng, rotation};
 use glam::DVec3;
@@ -94,7 +94,7 @@ fn regular_points_in_line_with_edges_are_decided() {
 #[test]
 fn a_cavity_is_outside_and_a_solid_in_it_inside() {
     let mut shells = cube(3.0, 2);
-    shells.extend(inside_out(&cube(2.0, 2)));
+    shells.extend(reversed_triangles(&cube(2.0, 2)));
     shells.extend(cube(1.0, 2));
     let body = solid(&shells);
     for (x, inside) in [(0.0, true), (1.5, false), (2.5, true), (3.5, false)] {
@@ -113,7 +113,7 @@ fn a_cavity_is_outside_and_a_solid_in_it_inside() {
 
 #[test]
 fn an_inside_out_mesh_contains_the_space_that_it_surrounds() {
-    let body = solid(&inside_out(&cube(1.0, 3)));
+    let body = solid(&reversed_triangles(&cube(1.0, 3)));
     assert_eq!(contains(&body, DVec3::new(0.1, 0.2, 0.3)), Some(true));
     assert_eq!(contains(&body, DVec3::new(1.1, 0.2, 0.3)), Some(false));
 }

@@ -6,21 +6,21 @@ use crate::tests::scene::{RngExt, point_in_ball, rng};
 
 #[test]
 fn terms_are_merged_dropped_and_capped() {
-    let mut out = Combination::EMPTY;
+    let mut out = ConvexCombination::EMPTY;
     for weight in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         out.push(0, weight);
     }
-    assert_eq!(out, Combination::EMPTY);
-    assert!(out.support().is_empty());
+    assert_eq!(out, ConvexCombination::EMPTY);
+    assert!(out.point_indices().is_empty());
     for (index, weight) in [(4, 1.0), (7, 2.0), (4, 3.0), (0, 1.0), (1, 1.0), (9, 1.0)] {
         out.push(index, weight);
     }
     // The fifth distinct index was dropped.
-    assert_eq!(out.support(), [4, 7, 0, 1]);
-    assert_eq!(Combination::point(3).support(), [3]);
-    assert_eq!(Combination::segment([3, 5], 0.0).support(), [3]);
-    assert_eq!(Combination::segment([3, 5], 1.0).support(), [5]);
-    assert_eq!(Combination::segment([3, 3], 0.5).support(), [3]);
+    assert_eq!(out.point_indices(), [4, 7, 0, 1]);
+    assert_eq!(ConvexCombination::point(3).point_indices(), [3]);
+    assert_eq!(ConvexCombination::segment([3, 5], 0.0).point_indices(), [3]);
+    assert_eq!(ConvexCombination::segment([3, 5], 1.0).point_indices(), [5]);
+    assert_eq!(ConvexCombination::segment([3, 3], 0.5).point_indices(), [3]);
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn a_combination_names_a_point_of_the_hull() {
     for _ in 0..1_000 {
         let points = [(); 4].map(|()| point_in_ball(&mut rng, 1e6));
         let weights = [(); 4].map(|()| rng.random_range(1e-3..1.0));
-        let mut out = Combination::EMPTY;
+        let mut out = ConvexCombination::EMPTY;
         for (k, weight) in weights.into_iter().enumerate() {
             out.push(k as u32, weight);
         }
@@ -40,14 +40,22 @@ fn a_combination_names_a_point_of_the_hull() {
             .map(|(&p, w)| p * (w / sum))
             .sum();
         assert!(out.position(&points).unwrap().distance(exact) < 1e-8);
-        let half = Combination::segment([0, 1], 0.5).position(&points).unwrap();
+        let half = ConvexCombination::segment([0, 1], 0.5)
+            .position(&points)
+            .unwrap();
         assert!(half.distance(points[0].midpoint(points[1])) < 1e-9);
     }
     let points = [DVec3::ONE];
-    assert_eq!(Combination::point(0).position(&points), Some(DVec3::ONE));
-    assert_eq!(Combination::point(1).position(&points), None);
-    assert_eq!(Combination::segment([0, 1], 0.5).position(&points), None);
-    assert_eq!(Combination::EMPTY.position(&points), None);
+    assert_eq!(
+        ConvexCombination::point(0).position(&points),
+        Some(DVec3::ONE)
+    );
+    assert_eq!(ConvexCombination::point(1).position(&points), None);
+    assert_eq!(
+        ConvexCombination::segment([0, 1], 0.5).position(&points),
+        None
+    );
+    assert_eq!(ConvexCombination::EMPTY.position(&points), None);
 }
 
 fn ask<O: DistanceOracle>(oracle: &mut O) -> Result<Claim, GiveUpReason> {
@@ -65,8 +73,8 @@ fn ask<O: DistanceOracle>(oracle: &mut O) -> Result<Claim, GiveUpReason> {
 fn the_second_oracle_is_asked_where_the_first_gives_up() {
     let claim = |axis| Claim {
         axis,
-        a: Combination::point(0),
-        b: Combination::point(0),
+        a: ConvexCombination::point(0),
+        b: ConvexCombination::point(0),
     };
     let (first, second) = (claim(DVec3::X), claim(DVec3::Y));
     let mut sure = ConstantOracle(Ok(first)).or_else(ConstantOracle(Ok(second)));

@@ -2,7 +2,7 @@
 
 use super::{InnerPolytope, Intersection, intersects};
 use crate::body::Body;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{Claim, DistanceOracle, PiecePair};
 use crate::distance::separation;
@@ -107,9 +107,9 @@ fn boxes(b_to_a: Frame) -> bool {
     };
     // The middle of the boxes' intersection is a point of each box.
     let middle = 0.5 * b_to_a.translation;
-    let named = |p: DVec3| -> Combination {
+    let named = |p: DVec3| -> ConvexCombination {
         // The point is a combination of four corners, with trilinear weights along the box's diagonal directions.
-        let mut out = Combination::EMPTY;
+        let mut out = ConvexCombination::EMPTY;
         for (corner, weight) in tetrahedron(p) {
             out.push(corner, weight);
         }
@@ -200,8 +200,8 @@ fn false_claims_do_not_change_the_decision() {
         };
         let lie = Claim {
             axis: point_in_ball(&mut rng, 1.0),
-            a: Combination::point(rng.random_range(0..8)),
-            b: Combination::point(rng.random_range(0..8)),
+            a: ConvexCombination::point(rng.random_range(0..8)),
+            b: ConvexCombination::point(rng.random_range(0..8)),
         };
         let exact = overlaps_by_separating_axes(&pair);
         assert_eq!(assert_decided(&pair, &lie), exact, "{pose:?}");
@@ -280,8 +280,8 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
     };
     let claim = Claim {
         axis: DVec3::Z,
-        a: Combination::point(0),
-        b: Combination::point(0),
+        a: ConvexCombination::point(0),
+        b: ConvexCombination::point(0),
     };
     let (checked, mut inner) = (
         separation::check(&pair, &claim, ROUNDING),

@@ -3,7 +3,7 @@
 use super::sharp::improve_axis;
 use super::*;
 use crate::body::Body;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
 use crate::body::support::Support;
 use crate::distance::oracle::DistanceOracle;
@@ -35,7 +35,7 @@ fn random_claim(rng: &mut Pcg64) -> Claim {
     let axis = DVec3::new(numbers(), numbers(), numbers());
     let weights: [f64; 6] = std::array::from_fn(|_| numbers());
     let mut combinations = weights.chunks(3).map(|weights| {
-        let mut out = Combination::EMPTY;
+        let mut out = ConvexCombination::EMPTY;
         for &weight in weights {
             out.push(rng.random_range(0..4), weight);
         }
@@ -122,7 +122,7 @@ fn overflowing_weights_are_a_false_claim() {
         b_to_a: Frame::IDENTITY,
     };
     for weight in [f64::MAX, 1e308, 5e-324, 1e-310] {
-        let mut lie = Combination::EMPTY;
+        let mut lie = ConvexCombination::EMPTY;
         for (index, share) in [(0, 1.0), (1, 0.7), (2, 0.9), (1, 1.0)] {
             lie.push(index, weight * share);
         }
@@ -157,8 +157,8 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
     };
     let claim = Claim {
         axis: DVec3::X,
-        a: Combination::point(0),
-        b: Combination::point(0),
+        a: ConvexCombination::point(0),
+        b: ConvexCombination::point(0),
     };
     let checked = check(&pair, &claim, 0.0);
     assert_eq!((checked.lower, checked.upper), (1.5, 1.5));
@@ -243,13 +243,13 @@ fn facets_have_better_axes_than_corners_across_them() {
             b,
             b_to_a: a_to_b,
         };
-        let mut across = Combination::default();
+        let mut across = ConvexCombination::default();
         for &corner in corners {
             across.push(corner, 1.0 / corners.len() as f64);
         }
         let tilted = Claim {
             axis: -DVec3::Z + point_in_ball(&mut rng, 1e-9),
-            a: Combination::point(0),
+            a: ConvexCombination::point(0),
             b: across,
         };
         poor += usize::from(check_axis_improvement(&pair, &tilted, distance));
@@ -268,7 +268,7 @@ fn searches_for_extremal_points_change_no_gap() {
     let mut apart = 0;
     for _ in 0..500 {
         let points = [round(&mut rng), round(&mut rng)];
-        let supports = [0, 1].map(|k| Support::of_points(&points[k]));
+        let supports = [0, 1].map(|k| Support::from_points(&points[k]));
         let pose = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
         let pair = |is_searched: bool| {
             let [a, b] = [0, 1].map(|k| Piece {
@@ -312,7 +312,7 @@ fn the_better_one_of_axis_and_way_counts() {
             b_to_a,
         };
         let right = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
-        let corner = Combination::point(0);
+        let corner = ConvexCombination::point(0);
         let axis = scene::direction(&mut rng);
         let wrong_axis = check(&pair, &Claim { axis, ..right }, ROUNDING);
         let points = Claim {
@@ -347,8 +347,8 @@ fn witnesses_of_coinciding_points_are_along_the_axis() {
     };
     let claim = Claim {
         axis: 3.0 * DVec3::Y,
-        a: Combination::point(0),
-        b: Combination::point(0),
+        a: ConvexCombination::point(0),
+        b: ConvexCombination::point(0),
     };
     let checked = check(&pair, &claim, ROUNDING);
     assert_eq!(checked.witness_a, 2.0 * DVec3::Y);

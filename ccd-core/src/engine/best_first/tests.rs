@@ -4,7 +4,7 @@ use super::*;
 use crate::answer::Unresolved;
 use crate::answer::{Contact, Stats};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::{Body, Volume};
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::math::order::{greater, lesser};
@@ -56,7 +56,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
                     near <= margin + tolerance + problem.rounding,
                     "{number}: {near:e}"
                 );
-                holds(&problem, time, &contact);
+                check_contact_bounds(&problem, time, &contact);
                 // Both searches stop within the tolerance of one contact: neither is much earlier than the other.
                 let (first, last) = (lesser(time, other), greater(time, other));
                 assert!(distance(&problem, first) <= margin + tolerance + problem.rounding);
@@ -104,7 +104,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
             Outcome::Contact { time, contact } => {
                 hits += 1;
                 assert!(distance(&problem, time) <= within, "{number}");
-                holds(&problem, time, &contact);
+                check_contact_bounds(&problem, time, &contact);
                 (time, problem.margin)
             }
             Outcome::Free { proven_gap } => {
@@ -136,7 +136,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
 }
 
 /// Checks that the bounds and witnesses of a contact agree with the distance of its pieces.
-fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
+fn check_contact_bounds(problem: &Problem<'_>, s: f64, contact: &Contact) {
     let placed = |side: &BodyWithPath<'_>, piece: u32| {
         let frame = side.path.frame(s);
         side.body
@@ -239,8 +239,8 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
             .find(|&s| distance(&problem, s) <= problem.margin);
         let lie = Claim {
             axis: direction(&mut rng),
-            a: Combination::point(rng.random_range(0..5)),
-            b: Combination::point(rng.random_range(0..5)),
+            a: ConvexCombination::point(rng.random_range(0..5)),
+            b: ConvexCombination::point(rng.random_range(0..5)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),

@@ -49,7 +49,7 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
         - (widest.other_extent + ADDED_THICKNESS * other.radius());
     let mut free = pairs.free(widest).max(pairs.free(passing));
     let mut revisit = mask_bits(revisit.simd_gt(0.0));
-    if let Some(past) = PassingNode::new(&pairs, widest) {
+    if let Some(past) = PassingPairs::new(&pairs, widest) {
         free = free.max(past.turning_plane_time);
         revisit |= mask_bits(past.revisit_mask(free, widest.gap - motion.slack));
     }
@@ -72,21 +72,21 @@ fn mask_bits<L: Simd>(mask: mask32x8<L>) -> u8 {
 }
 
 /// The values of eight pairs, in each of which a small node passes a much larger node of a turning body.
-struct PassingNode<L: Simd> {
+struct PassingPairs<L: Simd> {
     /// The time for which a plane that turns with the large node's body keeps the pair apart.
     turning_plane_time: f32x8<L>,
     /// The angular speed of the large node's body.
     spin: f32,
-    arm: f32x8<L>,
+    arm_length: f32x8<L>,
     /// The radius of the large node.
     large_radius: f32x8<L>,
     small_radius: f32x8<L>,
     /// Set if the large node is a single piece. Then only the size of the small node decides whether the pair is far
     /// apart.
-    other_is_piece: mask32x8<L>,
+    large_is_piece: mask32x8<L>,
 }
 
-impl<L: Simd> PassingNode<L> {
+impl<L: Simd> PassingPairs<L> {
     /// Computes the values; `None` unless a body turns whose nodes are much larger than the other body's.
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
@@ -100,22 +100,22 @@ impl<L: Simd> PassingNode<L> {
             ..
         } = *pairs;
         let level = pairs.level();
-        match motion.larger? {
-            LargerBody::SplitBody => Some(PassingNode {
-                turning_plane_time: pairs.free_with_split(axis),
+        match motion.larger_body? {
+            LargerBody::SplitBody => Some(PassingPairs {
+                turning_plane_time: pairs.free_times_with_split_body(axis),
                 spin: motion.split.rate,
-                arm: splat(level, motion.split.distance_from_centre(other.centre())),
+                arm_length: splat(level, motion.split.distance_from_centre(other.centre())),
                 large_radius: children.radius(level),
                 small_radius: splat(level, other.radius()),
-                other_is_piece: children.pieces(level),
+                large_is_piece: children.pieces(level),
             }),
-            LargerBody::OtherBody => Some(PassingNode {
-                turning_plane_time: pairs.free_with_other(axis),
+            LargerBody::OtherBody => Some(PassingPairs {
+                turning_plane_time: pairs.free_times_with_other_body(axis),
                 spin: motion.other.rate,
-                arm: motion.other.distances_from_centre(children.centre(level)),
+                arm_length: motion.other.distances_from_centre(children.centre(level)),
                 large_radius: splat(level, other.radius()),
                 small_radius: children.radius(level),
-                other_is_piece: mask32x8::splat(level, other.is_piece()),
+                large_is_piece: mask32x8::splat(level, other.is_piece()),
             }),
         }
     }
@@ -123,9 +123,9 @@ impl<L: Simd> PassingNode<L> {
     /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
     fn revisit_mask(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
-        let swept = free * self.spin * self.arm - self.large_radius * MIN_SWEEP;
+        let swept = free * self.spin * self.arm_length - self.large_radius * MIN_SWEEP;
         let clear = apart - self.small_radius * REVISIT_DISTANCE;
-        swept.simd_gt(0.0) | self.other_is_piece & clear.simd_gt(0.0)
+        swept.simd_gt(0.0) | self.large_is_piece & clear.simd_gt(0.0)
     }
 }
 
@@ -137,10 +137,10 @@ impl<L: Simd> PassingNode<L> {
 #[repr(align(32))]
 pub(crate) struct FreeTimes([u32; LANES]);
 
-const LANE_BITS: u32 = LANES as u32 - 1;
+const LANE_MASK: u32 = LANES as u32 - 1;
 
 /// The value of a finished pair, greater than all others.
-const FINISHED_BITS: u32 = f32::INFINITY.to_bits() | LANE_BITS;
+const FINISHED_BITS: u32 = f32::INFINITY.to_bits() | LANE_MASK;
 
 impl FreeTimes {
     /// Creates the times of a single pair, in the first lane, with a free time of 0.
@@ -157,13 +157,13 @@ impl FreeTimes {
         let free = free.simd_gt(0.0).select(free, splat(level, 0.0));
         let used = mask32x8::from_bitmask(level, used.into());
         let free: u32x8<L> = used.select(free, splat(level, f32::INFINITY)).bitcast();
-        FreeTimes(*(free & !LANE_BITS | lanes))
+        FreeTimes(*(free & !LANE_MASK | lanes))
     }
 
     /// Returns the least free time; infinity if all pairs are finished.
     #[inline]
-    pub(crate) fn least(&self) -> f32 {
-        time(self.least_bits())
+    pub(crate) fn least_time(&self) -> f32 {
+        unpack_time(self.least_bits())
     }
 
     /// Creates the times of a single pair in this lane, with a free time of 0.
@@ -176,7 +176,7 @@ impl FreeTimes {
     /// Returns the lane with the least free time.
     #[inline]
     pub(crate) fn least_lane(&self) -> usize {
-        (self.least_bits() & LANE_BITS) as usize
+        (self.least_bits() & LANE_MASK) as usize
     }
 
     /// Marks the pair with the least free time as finished, and returns its lane.
@@ -187,7 +187,7 @@ impl FreeTimes {
         for bits in &mut self.0 {
             *bits = if *bits == least { FINISHED_BITS } else { *bits };
         }
-        (least & LANE_BITS) as usize
+        (least & LANE_MASK) as usize
     }
 
     /// Returns the least of the eight values, by halving the lanes until one is left.
@@ -205,14 +205,14 @@ impl FreeTimes {
 
     /// Returns the free time of a lane.
     pub(crate) fn time_of_lane(&self, lane: usize) -> f32 {
-        time(self.0[lane])
+        unpack_time(self.0[lane])
     }
 }
 
 /// Returns the free time in a packed value, without the bits of its lane.
 #[inline]
-fn time(bits: u32) -> f32 {
-    f32::from_bits(bits & !LANE_BITS)
+fn unpack_time(bits: u32) -> f32 {
+    f32::from_bits(bits & !LANE_MASK)
 }
 
 #[cfg(test)]

@@ -78,7 +78,7 @@ impl<'p> NodeContext<'p> {
             rounding: round_up_to_f32(problem.rounding),
             rate_slack: RATE_ERROR_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
             closed_gap: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
-            much_larger_ratio: if problem.uses(Shortcut::TurningNodes) {
+            much_larger_ratio: if problem.uses_shortcut(Shortcut::TurningNodes) {
                 MUCH_LARGER_RATIO
             } else {
                 f32::INFINITY

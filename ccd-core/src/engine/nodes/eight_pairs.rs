@@ -28,7 +28,7 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) closed_gap: f32,
     /// A bound of the rounding of a closing rate.
     pub(crate) rate_slack: f32,
-    pub(crate) larger: Option<LargerBody>,
+    pub(crate) larger_body: Option<LargerBody>,
 }
 
 /// The body that turns and whose nodes are much larger than the other's.

@@ -37,7 +37,7 @@ pub(crate) struct Split {
 
 impl Split {
     /// Creates the split of a node in which all its children are bounded.
-    pub(crate) fn all(body: WhichBody, node: NodeId, other: NodeId) -> Self {
+    pub(crate) fn of_all_children(body: WhichBody, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
             node,
@@ -52,7 +52,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
-    bound_children(common, split, s, ClosingRate::OfMotion)
+    bound_children(common, split, s, ClosingRate::FromMotion)
 }
 
 /// Computes lower bounds of the distances of the children from the other node at clock `s`. They are returned as free
@@ -71,7 +71,7 @@ pub(crate) fn measure(common: &NodeContext<'_>, split: &Split, s: f64) -> Expans
 #[derive(Clone, Copy, Debug)]
 enum ClosingRate {
     /// The rate due to the motion of the bodies.
-    OfMotion,
+    FromMotion,
     /// One unit of length per unit of time, along every axis, so that the free time is the distance.
     Unit,
 }
@@ -102,7 +102,7 @@ fn split_node<L: Simd>(
     let NodeOrTriangle::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
     };
-    let (bounds, first) = match node.below {
+    let (bounds, first) = match node.children {
         NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
             let members = &group.header;
@@ -201,7 +201,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairBounds {
         let motion = match self.motion.closing_rate {
-            ClosingRate::OfMotion => self.motion_in_f32(other.centre(), other.radius()),
+            ClosingRate::FromMotion => self.motion_in_f32(other.centre(), other.radius()),
             ClosingRate::Unit => self.motion_at_unit_rate(other.centre(), other.radius()),
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.members.count);
@@ -217,7 +217,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             half: node.half,
             rounding: node.rounding,
             radius: node.radius,
-            piece: matches!(node.below, NodeChildren::Piece(_)),
+            piece: matches!(node.children, NodeChildren::Piece(_)),
         }
     }
 
@@ -238,7 +238,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn triangle(&self, [a, b, c]: [DVec3; 3]) -> OtherTriangle {
         let (a, b, c) = (self.placed(a), self.placed(b), self.placed(c));
-        let (a, b, c) = (a.unpacked(), b.unpacked(), c.unpacked());
+        let (a, b, c) = (a.to_dvec3(), b.to_dvec3(), c.to_dvec3());
         let centre = (a + b + c) / 3.0;
         let (p, q, r) = (a - centre, b - centre, c - centre);
         let farthest = greater(p.length_squared(), q.length_squared());
@@ -298,7 +298,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             slack,
             closed_gap: common.closed_gap,
             rate_slack: common.rate_slack,
-            larger: if split.is_turning && reach > common.much_larger_ratio * radius {
+            larger_body: if split.is_turning && reach > common.much_larger_ratio * radius {
                 Some(LargerBody::SplitBody)
             } else if other.is_turning && radius > common.much_larger_ratio * reach {
                 Some(LargerBody::OtherBody)
@@ -320,7 +320,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             slack: self.rounding(centre, radius),
             closed_gap: 0.0,
             rate_slack: 1.0,
-            larger: None,
+            larger_body: None,
         }
     }
 

@@ -90,13 +90,16 @@ impl Children for BoxGroup {
             Vec3x8::load(level, w),
         ];
         let half = [load(level, x), load(level, y), load(level, z)];
-        let grown = [load(level, &self.rounding), load(level, &self.radius)];
+        let grown = [
+            load(level, &self.rounding_radius),
+            load(level, &self.radius),
+        ];
         box_extent(n, axes, half, grown)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         // The half size was measured in the same way.
-        load(n.level(), &self.half[2]) + load(n.level(), &self.rounding)
+        load(n.level(), &self.half[2]) + load(n.level(), &self.rounding_radius)
     }
     #[inline(always)]
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {

@@ -45,7 +45,7 @@ impl NextStep {
             (None, Some(_)) => WhichBody::A,
             _ => WhichBody::B,
         };
-        NextStep::Split(Split::all(body, 0, 0))
+        NextStep::Split(Split::of_all_children(body, 0, 0))
     }
 }
 
@@ -55,7 +55,7 @@ impl Siblings {
         Siblings {
             free: FreeTimes::single_in_first_lane(),
             start_clock: 0.0,
-            split: Split::all(body, 0, 0),
+            split: Split::of_all_children(body, 0, 0),
             first: 0,
             split_child: 1,
             other_is_piece: false,
@@ -82,7 +82,7 @@ impl Siblings {
     /// Returns the least clock of the pairs, rounded down; infinite if all are finished.
     #[inline]
     pub(crate) fn clock(&self) -> f64 {
-        let free = self.free.least();
+        let free = self.free.least_time();
         if free > 0.0 {
             // One step down undoes the rounding of the sum.
             greater(
@@ -143,7 +143,7 @@ impl Siblings {
     /// Removes the pair with the least clock `s`, and returns its next step.
     // In the search's loop: a larger program, such as Python's module, would call it, and take 1 % more time.
     #[inline(always)]
-    pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> NextStep {
+    pub(crate) fn take_least_pair(&mut self, problem: &Problem<'_>, s: f64) -> NextStep {
         let advanced = s > self.start_clock;
         let lane = self.free.finish_least_lane();
         let Split {
@@ -154,7 +154,7 @@ impl Siblings {
         if advanced && self.revisit >> lane & 1 == 1 {
             return NextStep::Split(Split {
                 lane_mask: 1 << lane,
-                ..Split::all(body, node, other)
+                ..Split::of_all_children(body, node, other)
             });
         }
         let split_child = self.split_child >> lane & 1 == 1;
@@ -164,7 +164,7 @@ impl Siblings {
         // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);
         let k = usize::from(split_child);
-        NextStep::Split(Split::all(bodies[k], nodes[k], nodes[1 - k]))
+        NextStep::Split(Split::of_all_children(bodies[k], nodes[k], nodes[1 - k]))
     }
 }
 

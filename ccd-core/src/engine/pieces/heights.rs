@@ -23,7 +23,7 @@ pub(crate) struct Heights<'a> {
     /// The unit axis about which the body turns.
     axis: DVec3,
     axis_motion: AxisMotion,
-    omega: f64,
+    angular_speed: f64,
     speed: f64,
     /// The magnitude of the centre's acceleration.
     acceleration: f64,
@@ -39,7 +39,7 @@ pub(crate) struct Heights<'a> {
 /// The height of one point along the axis, its rate, and a bound of the second derivative due to rotation. For many
 /// points these are bounds over all of them, from below, and from above for the second derivative.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Point {
+pub(crate) struct PointHeight {
     pub(crate) height: f64,
     pub(crate) rate: f64,
     pub(crate) second_derivative: f64,
@@ -55,8 +55,8 @@ pub(crate) struct PointTracks([(Track, f64); MAX_TRACKED_POINTS]);
 impl PointTracks {
     /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
     #[inline]
-    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; MAX_TRACKED_POINTS] {
-        self.0.map(|(track, second_derivative)| Point {
+    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [PointHeight; MAX_TRACKED_POINTS] {
+        self.0.map(|(track, second_derivative)| PointHeight {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
             second_derivative,
@@ -82,7 +82,7 @@ impl<'a> Heights<'a> {
             axis: path.axis,
             axis_motion: AxisMotion::new(velocity, path.axis, path.rate, normal)
                 .with_acceleration(path.acceleration.dot(normal)),
-            omega: path.rate,
+            angular_speed: path.rate,
             speed: length(velocity) + length(path.acceleration),
             acceleration: length(path.acceleration),
             least_height: f64::INFINITY,
@@ -107,7 +107,7 @@ impl<'a> Heights<'a> {
             }
         }
         (self.least_height, self.point_tracks) = (least_height, few);
-        self.speed += self.omega * farthest.sqrt();
+        self.speed += self.angular_speed * farthest.sqrt();
     }
 
     fn init_many_points(&mut self, middle: DVec3, radius: f64) {
@@ -117,7 +117,7 @@ impl<'a> Heights<'a> {
         }
         let arm = self.frame.rotation * (middle - self.centre);
         let farthest = (length(arm) + radius) * (1.0 + RATE_ERROR_F64);
-        self.speed += self.omega * farthest;
+        self.speed += self.angular_speed * farthest;
         self.second_derivative = self
             .axis_motion
             .second_derivative(length(self.axis.cross(arm)) + radius)
@@ -136,12 +136,12 @@ impl<'a> Heights<'a> {
     }
 
     pub(crate) fn is_nonrotating(&self) -> bool {
-        !(self.omega > 0.0)
+        !(self.angular_speed > 0.0)
     }
 
     pub(crate) fn angle(&self, tau: f64) -> Angle {
         if tau > 0.0 && !self.is_nonrotating() {
-            Angle::new(self.omega * tau)
+            Angle::new(self.angular_speed * tau)
         } else {
             Angle::ZERO
         }
@@ -152,15 +152,15 @@ impl<'a> Heights<'a> {
     }
 
     /// Returns lower bounds of the heights and rates of all points after `tau`.
-    pub(crate) fn bound_all_points(&self, tau: f64) -> Point {
-        let start = Point {
+    pub(crate) fn bound_all_points(&self, tau: f64) -> PointHeight {
+        let start = PointHeight {
             height: f64::INFINITY,
             rate: f64::INFINITY,
             second_derivative: 0.0,
         };
         match self.piece.bounding_ball() {
-            Some(_) => self.bound_of_many(self.angle(tau), tau),
-            None => self.points_at(tau).fold(start, |bound, point| Point {
+            Some(_) => self.bound_many_points(self.angle(tau), tau),
+            None => self.points_at(tau).fold(start, |bound, point| PointHeight {
                 height: lesser(bound.height, point.height),
                 rate: lesser(bound.rate, point.rate),
                 second_derivative: greater(bound.second_derivative, point.second_derivative),
@@ -199,7 +199,7 @@ impl<'a> Heights<'a> {
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
-    pub(crate) fn least_value_after(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+    pub(crate) fn least_value_after(&self, tau: f64, of: impl Fn(&PointHeight) -> f64) -> f64 {
         match self.piece.bounding_ball() {
             Some(_) => of(&self.bound_all_points(tau)),
             None => self
@@ -209,18 +209,18 @@ impl<'a> Heights<'a> {
         }
     }
 
-    fn points_at(&self, tau: f64) -> impl Iterator<Item = Point> {
+    fn points_at(&self, tau: f64) -> impl Iterator<Item = PointHeight> {
         let angle = self.angle(tau);
-        self.tracks().map(move |(track, _)| Point {
+        self.tracks().map(move |(track, _)| PointHeight {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
             second_derivative: track.second_derivative(),
         })
     }
 
-    fn bound_of_many(&self, angle: Angle, tau: f64) -> Point {
+    fn bound_many_points(&self, angle: Angle, tau: f64) -> PointHeight {
         if self.is_nonrotating() {
-            return Point {
+            return PointHeight {
                 height: self.least_height + self.axis_motion.linear_displacement(tau),
                 rate: self.axis_motion.linear_rate() + self.axis_motion.linear_acceleration() * tau,
                 second_derivative: 0.0,
@@ -229,17 +229,19 @@ impl<'a> Heights<'a> {
         // The normal, as seen from the turning body.
         let seen = RotatingVector::new(-self.axis, self.normal);
         let (axis, derivative_length) = (seen.at(angle), seen.derivative_at(angle));
-        Point {
+        PointHeight {
             height: self.lowest_track(axis).height_at(tau, angle) - self.support_error,
             rate: self.lowest_track(derivative_length).rate_at(tau, angle)
-                - self.omega * self.support_error,
+                - self.angular_speed * self.support_error,
             second_derivative: self.second_derivative,
         }
     }
 
     /// Returns the track of the point that is lowest along a direction, in the body's current pose.
     fn lowest_track(&self, direction: DVec3) -> Track {
-        let index = self.piece.extremal(self.frame.inverse_vector(-direction));
+        let index = self
+            .piece
+            .extremal_point(self.frame.inverse_vector(-direction));
         self.track(self.piece.points[index as usize]).0
     }
 
@@ -258,9 +260,9 @@ impl<'a> Heights<'a> {
 /// Returns the least free time over all pairs of a point of `above` and a point of `below`.
 #[inline]
 pub(crate) fn least_free_time(
-    above: &[Point],
-    below: &[Point],
-    free: impl Fn(&Point, &Point) -> f64,
+    above: &[PointHeight],
+    below: &[PointHeight],
+    free: impl Fn(&PointHeight, &PointHeight) -> f64,
 ) -> f64 {
     let free = &free;
     let times = below
@@ -276,7 +278,7 @@ pub(crate) fn least_free_time_of_many_points(
     above: &Heights<'_>,
     below: &Heights<'_>,
     tau: f64,
-    free: impl Fn(&Point, &Point) -> f64,
+    free: impl Fn(&PointHeight, &PointHeight) -> f64,
 ) -> f64 {
     let of_below = || {
         let bound = above.bound_all_points(tau);

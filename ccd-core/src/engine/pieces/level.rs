@@ -30,7 +30,7 @@ impl TouchingPlane {
         let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
         let [frame_a, frame_b] = &snapshot.frames;
         let from = frame_a.inverse_point(problem.to_local_point(contact.separation.witness_a));
-        let gap = snapshot.gap_across(normal, from);
+        let gap = snapshot.gap_along_normal(normal, from);
         let resting = RESTING_DECREASE * problem.rounding;
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
@@ -55,7 +55,7 @@ impl Snapshot<'_> {
         let resting = RESTING_DECREASE * self.problem.rounding;
         let of = |plane_body: WhichBody| {
             let normal = self.plane_normal(plane_body)?;
-            let gap = self.gap_across(normal, from);
+            let gap = self.gap_along_normal(normal, from);
             let level = PlaneContact {
                 plane_body,
                 min_gap: greater(plane.least_gap, gap - resting),
@@ -77,7 +77,7 @@ impl Snapshot<'_> {
         let Some(normal) = self.plane_normal(level.plane_body) else {
             return Some(0.0);
         };
-        let slack = self.gap_across(normal, from) - level.min_gap;
+        let slack = self.gap_along_normal(normal, from) - level.min_gap;
         // Written so that NaN counts as no slack.
         if slack > MIN_RESTING_SLACK * self.problem.rounding {
             self.plane_free_time(&SeparatingPlane { normal, slack })
@@ -97,7 +97,7 @@ impl Snapshot<'_> {
     }
 
     /// Returns the gap of the pieces along a unit vector in the problem's coordinates, minus rounding.
-    fn gap_across(&self, normal: DVec3, from: DVec3) -> f64 {
+    fn gap_along_normal(&self, normal: DVec3, from: DVec3) -> f64 {
         self.gap_along(self.frames[0].inverse_vector(normal), from)
     }
 
@@ -105,7 +105,7 @@ impl Snapshot<'_> {
     /// both lie in the plane are apart on either side of it, wherever the solids are.
     fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
         let in_one_plane =
-            self.gap_across(-normal, from) >= -2.0 * RESTING_DECREASE * self.problem.rounding;
+            self.gap_along_normal(-normal, from) >= -2.0 * RESTING_DECREASE * self.problem.rounding;
         if !in_one_plane {
             return true;
         }

@@ -3,7 +3,7 @@
 use super::level::PlaneContact;
 use super::snapshot::Snapshot;
 use crate::answer::{Contact, Separation};
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::distance::separation::CheckedClaim;
@@ -20,7 +20,7 @@ use glam::DVec3;
 pub(crate) struct Pair<C> {
     pub(crate) a: u32,
     pub(crate) b: u32,
-    goal: Goal,
+    goal: ContactRule,
     /// True once the pair has been advanced.
     was_advanced: bool,
     /// What the oracle remembers for its next call on this pair.
@@ -30,7 +30,7 @@ pub(crate) struct Pair<C> {
 /// What counts as contact for a pair, and the gap that its clock proves until then. Distances are measured beyond the
 /// margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Goal {
+enum ContactRule {
     /// The pair counts as in contact once it is within the query's tolerance. The clock proves half of the tolerance.
     Apart,
     /// Like `Apart`, for a pair that was in contact at the start and has separated since.
@@ -64,7 +64,7 @@ impl<C: Default + Clone> Pair<C> {
         Pair {
             a,
             b,
-            goal: Goal::Apart,
+            goal: ContactRule::Apart,
             was_advanced: false,
             cache: C::default(),
         }
@@ -107,7 +107,7 @@ impl<C: Default + Clone> Pair<C> {
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
-                let inner = &mut meter.scratch_memory().inner;
+                let inner = &mut meter.scratch_memory().inner_polytope;
                 match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
                     Intersection::Certain => {
                         return PairStep::Overlap(contact(snapshot, ids, &checked));
@@ -120,26 +120,26 @@ impl<C: Default + Clone> Pair<C> {
             let level = || {
                 let plane = problem.touching.as_ref()?;
                 let level = snapshot.choose_plane(plane, ids, checked.witness_a)?;
-                Some(Goal::PlaneContact(level))
+                Some(ContactRule::PlaneContact(level))
             };
             let goal = match self.goal {
-                Goal::Apart => self
+                ContactRule::Apart => self
                     .goal_ignoring_start(problem, oracle, meter)
                     .or_else(level),
-                Goal::Separated => level(),
-                Goal::Resting { .. } | Goal::PlaneContact(_) => Some(self.goal),
+                ContactRule::Separated => level(),
+                ContactRule::Resting { .. } | ContactRule::PlaneContact(_) => Some(self.goal),
             };
             match goal {
                 Some(goal) => self.goal = goal,
                 None => return in_contact(&checked),
             }
-        } else if checked.lower > apart && self.goal != Goal::Apart {
-            self.goal = Goal::Separated;
+        } else if checked.lower > apart && self.goal != ContactRule::Apart {
+            self.goal = ContactRule::Separated;
         }
         let (kept, is_resting) = match self.goal {
-            Goal::Apart | Goal::Separated => (problem.gap(), false),
-            Goal::Resting { floor } => (floor, true),
-            Goal::PlaneContact(level) => {
+            ContactRule::Apart | ContactRule::Separated => (problem.gap(), false),
+            ContactRule::Resting { floor } => (floor, true),
+            ContactRule::PlaneContact(level) => {
                 let free = snapshot.plane_time(&level, checked.witness_a);
                 meter.stats.point_evaluations += snapshot.evaluations();
                 return step_after(s, free).unwrap_or_else(|| in_contact(&checked));
@@ -165,7 +165,7 @@ impl<C: Default + Clone> Pair<C> {
                 snapshot
             };
             let level = began.choose_plane(plane, ids, checked.witness_a)?;
-            self.goal = Goal::PlaneContact(level);
+            self.goal = ContactRule::PlaneContact(level);
             step_after(s, snapshot.plane_time(&level, checked.witness_a))
         });
         meter.stats.point_evaluations += snapshot.evaluations();
@@ -183,7 +183,7 @@ impl<C: Default + Clone> Pair<C> {
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Option<Goal> {
+    ) -> Option<ContactRule> {
         if problem.start == StartPolicy::Report {
             return None;
         }
@@ -196,7 +196,7 @@ impl<C: Default + Clone> Pair<C> {
         if !resting {
             return None;
         }
-        Some(Goal::Resting {
+        Some(ContactRule::Resting {
             floor: start.lower - RESTING_DECREASE * problem.rounding,
         })
     }
@@ -220,9 +220,10 @@ pub(crate) fn contact(
     checked: &CheckedClaim,
 ) -> Contact {
     let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
-    let world = |x: DVec3| problem.world(a_to_world.point(x));
-    let feature =
-        |side: &BodyWithPath<'_>, piece: u32, point: &Combination| side.body.feature(piece, point);
+    let world = |x: DVec3| problem.to_world_point(a_to_world.point(x));
+    let feature = |side: &BodyWithPath<'_>, piece: u32, point: &ConvexCombination| {
+        side.body.feature(piece, point)
+    };
     Contact {
         separation: Separation {
             lower: checked.lower,

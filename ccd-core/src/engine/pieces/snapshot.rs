@@ -1,6 +1,6 @@
 //! Two pieces at one instant, and how long planes keep them apart from then on.
 
-use super::heights::{Heights, Point, least_free_time, least_free_time_of_many_points};
+use super::heights::{Heights, PointHeight, least_free_time, least_free_time_of_many_points};
 use crate::body::facing::Facing;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{DistanceOracle, PiecePair};
@@ -14,7 +14,7 @@ use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{RATE_ERROR_F64, RESTING_DECREASE};
 use crate::shortcuts::Shortcut;
-use crate::shortcuts::turning_pieces::{MovingPiece, TurningPiece};
+use crate::shortcuts::turning_pieces::{MovingPiece, PiecePastTurningPlane};
 use crate::tuning::{
     ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_RESTING_SLACK, ROTATION_GAP_SHARE,
     SUFFICIENT_FIRST_FREE_TIME,
@@ -37,11 +37,15 @@ pub(crate) struct Snapshot<'p> {
 impl<'p> Snapshot<'p> {
     /// Creates the snapshot of piece `a` of A and piece `b` of B at a clock.
     pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
-        Snapshot::of_pieces(problem, problem.pieces([a, b]), clock)
+        Snapshot::from_pieces(problem, problem.pieces([a, b]), clock)
     }
 
     /// Creates the snapshot of any two convex pieces, of A and of B, at a clock.
-    pub(crate) fn of_pieces(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
+    pub(crate) fn from_pieces(
+        problem: &'p Problem<'_>,
+        [a, b]: [Piece<'p>; 2],
+        clock: f64,
+    ) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
         Snapshot {
@@ -78,7 +82,7 @@ impl<'p> Snapshot<'p> {
         let before = oracle.effort().steps;
         let claim = oracle.separation(&self.pieces, cache);
         stats.point_evaluations += match oracle.effort().steps.saturating_sub(before) {
-            0 => ASSUMED_ORACLE_STEPS * self.pieces.points(),
+            0 => ASSUMED_ORACLE_STEPS * self.pieces.evaluations_per_search(),
             steps => ASSUMED_ORACLE_STEPS * steps,
         };
         match claim {
@@ -157,11 +161,11 @@ impl<'p> Snapshot<'p> {
             rate += match bound {
                 VelocityBound::Sound => sound_bound(&motion, n, reach),
                 VelocityBound::Published => published_bound(&motion, n, |c| {
-                    let farthest = piece.farthest(frame.inverse_vector(c));
+                    let farthest = piece.extremal_position(frame.inverse_vector(c));
                     frame.rotation * (farthest - side.path.centre)
                 }),
             };
-            speed += length(motion.linear) + side.path.rate * reach;
+            speed += length(motion.linear_velocity) + side.path.rate * reach;
         }
         let gap = Gap {
             gap: checked.lower - kept,
@@ -280,7 +284,7 @@ impl<'p> Snapshot<'p> {
         plane: &SeparatingPlane,
         free: f64,
     ) -> Option<f64> {
-        if !self.problem.uses(Shortcut::TurningPieces) {
+        if !self.problem.uses_shortcut(Shortcut::TurningPieces) {
             return Some(0.0);
         }
         let [a, b] = members;
@@ -289,7 +293,8 @@ impl<'p> Snapshot<'p> {
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.relative_speed) && uses_up(holder.relative_speed_along(normal)) {
-                let sweep = TurningPiece::new(holder, other, normal, self.problem.rounding);
+                let sweep =
+                    PiecePastTurningPlane::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.slack, self.time_left());
                 self.count_evaluations(sweep.evaluations.get());
                 longest = greater(longest, free?);
@@ -341,7 +346,7 @@ impl<'p> Snapshot<'p> {
             MAX_NEWTON_STEPS
         };
         // The offset of the heights makes the nearest two points `slack` apart.
-        let free = |above: &Point, below: &Point| {
+        let free = |above: &PointHeight, below: &PointHeight| {
             let gap = Gap {
                 gap: slack + (above.height - b.least_height()) + (below.height - a.least_height()),
                 rate: -below.rate - above.rate + rounding,
@@ -351,7 +356,7 @@ impl<'p> Snapshot<'p> {
             };
             gap.free_time()
         };
-        let points = self.pieces.points();
+        let points = self.pieces.evaluations_per_search();
         self.count_evaluations(points);
         let crossing = match (a.few_tracks(), b.few_tracks()) {
             (Some(below), Some(above)) => first_crossing(self.time_left(), rounds, |tau| {

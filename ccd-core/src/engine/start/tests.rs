@@ -3,7 +3,7 @@
 
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::EngineSchedule;
 use crate::math::order::lesser;
@@ -236,8 +236,8 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
         let found = distance(&problem, 0.0);
         let lie = Claim {
             axis: DVec3::new(0.6, -0.8, 0.0),
-            a: Combination::point(rng.random_range(0..3)),
-            b: Combination::point(rng.random_range(0..3)),
+            a: ConvexCombination::point(rng.random_range(0..3)),
+            b: ConvexCombination::point(rng.random_range(0..3)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),

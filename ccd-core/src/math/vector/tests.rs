@@ -1,6 +1,6 @@
 //! Compares lengths and unit vectors with double-double arithmetic, for all magnitudes.
 
-use super::{across, distance, length, normal, unit};
+use super::{distance, length, normal, perpendicular_vector, unit};
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::Double3;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
@@ -117,5 +117,8 @@ fn normals_are_those_of_triangles_of_any_size() {
     // The corners are on one line, or at one point.
     assert_eq!(normal([DVec3::ZERO, DVec3::X, 3.0 * DVec3::X]), None);
     assert_eq!(normal([DVec3::X; 3]), None);
-    assert_eq!(across(DVec3::X * 1e-300, DVec3::X), DVec3::ZERO);
+    assert_eq!(
+        perpendicular_vector(DVec3::X * 1e-300, DVec3::X),
+        DVec3::ZERO
+    );
 }

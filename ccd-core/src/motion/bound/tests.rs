@@ -2,32 +2,32 @@ use super::{Velocities, published_bound, sound_bound};
 use crate::math::vector::{length, unit};
 use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::{Double, Double3};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
 /// Tests that the rounding error of [`sound_bound`] is within the allowance for rates.
 #[test]
 fn worst_sound_bound() {
-    let found = Worst::of("RATE_F64, the sound bound", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("RATE_F64, the sound bound", 40_000).search(|tape| {
         let n = unit(tape.vector(-40..=0).into())?;
         let motion = Velocities {
-            linear: DVec3::from(tape.vector(-30..=10)),
+            linear_velocity: DVec3::from(tape.vector(-30..=10)),
             spin: DVec3::from(tape.vector(-30..=10)),
         };
         let reach = tape.size(-20..=10);
-        let [n3, v, spin] = [n, motion.linear, motion.spin].map(Double3::from);
+        let [n3, v, spin] = [n, motion.linear_velocity, motion.spin].map(Double3::from);
         let exact = n3.dot(v) + n3.cross(spin).length() * Double::from(reach);
         let lost = exact - Double::from(sound_bound(&motion, n, reach));
-        let speed = length(motion.linear) + length(motion.spin) * reach;
+        let speed = length(motion.linear_velocity) + length(motion.spin) * reach;
         Some(share(lost.get(), RATE_ERROR_F64 * speed))
     });
-    found.is_within(16.0);
+    found.assert_within(16.0);
 }
 
 #[test]
 fn the_published_bound_is_the_speed_of_the_farthest_arm_at_this_instant() {
     let motion = Velocities {
-        linear: DVec3::new(-1.0, 2.0, 3.0),
+        linear_velocity: DVec3::new(-1.0, 2.0, 3.0),
         spin: DVec3::new(0.0, 0.0, 2.0),
     };
     // Here n × ω = −2 Y.

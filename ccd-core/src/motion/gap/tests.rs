@@ -2,12 +2,12 @@ use super::Gap;
 use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::Double;
 use crate::tests::scene::{RngExt, magnitude, rng};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 
 /// Compares free times, without their allowance for rounding, with the exact roots of quadratic equations.
 #[test]
 fn worst_free_time() {
-    let found = Worst::of("RATE_F64, a free time", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("RATE_F64, a free time", 40_000).search(|tape| {
         let gap = Gap {
             gap: tape.size(-200..=30),
             rate: tape.any(-60..=60),
@@ -28,7 +28,7 @@ fn worst_free_time() {
             RATE_ERROR_F64,
         ))
     });
-    found.is_within(8.0);
+    found.assert_within(8.0);
 }
 
 /// Tests that the free times of gaps that close ever slower are never late, and nearly exact. If the gap closes at all,

@@ -7,7 +7,7 @@ use crate::motion::pose::Pose;
 use crate::rounding::position_rounding;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::{DMat3, DVec3};
 
 #[test]
@@ -94,8 +94,8 @@ fn exact_position(path: &Path, s: Double, x: DVec3) -> Double3 {
 /// Compares positions on a part of a path with those on the whole path.
 #[test]
 fn worst_part() {
-    let found =
-        Worst::of("place_rounding, part of a path", 4_000).search(|tape: &mut RandomCase| {
+    let found = WorstCaseSearch::of("place_rounding, part of a path", 4_000).search(
+        |tape: &mut RandomCase| {
             let start = Pose::new(tape.vector(-20..=10).map(f64::from), rotation(tape)).ok()?;
             let spin = direction(tape) * tape.size(-10..=19);
             let centre = tape.vector(-20..=4);
@@ -113,6 +113,7 @@ fn worst_part() {
             let way = path.centre_at(0.0).length() + path.speed();
             let allowed = position_rounding(x.distance(path.centre), path.rate, way);
             Some(share(error.length().get(), allowed))
-        });
-    found.is_within(100.0);
+        },
+    );
+    found.assert_within(100.0);
 }

@@ -53,7 +53,7 @@ fn distances_change_by_no_more_than_said() {
             let count = rng.random_range(1.0..1.0 / period.length).floor();
             let s = rng.random_range(0.0..1.0 - count * period.length);
             let changed = (distance(s + count * period.length) - distance(s)).abs();
-            let said = count * period.change;
+            let said = count * period.max_distance_change;
             assert!(changed <= said + rounding, "{number} {period:?}: {changed}");
             exact += usize::from(said < 1e-9);
             drifting += usize::from(changed > 0.1 * said && said > 1e-9);

@@ -1,7 +1,7 @@
 //! Compares the relative motion with the frames of both bodies.
 
 use super::{RelativePath, RelativeState};
-use crate::math::simd::{PackedMatrix, PackedVector, rows};
+use crate::math::simd::{PackedMatrix, PackedVector, padded_columns};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
@@ -58,7 +58,7 @@ fn relative_state_of_point<L: Simd>(
         acceleration,
         spin,
     ]
-    .map(PackedVector::unpacked)
+    .map(PackedVector::to_dvec3)
 }
 
 #[test]
@@ -102,10 +102,10 @@ fn packed_products_are_those_of_the_library() {
         let (v, w) = (point_in_ball(&mut rng, 5.0), point_in_ball(&mut rng, 5.0));
         let products = |set: Instructions| {
             vectorize!(set.level(), level => {
-                let columns = rows(frame.rotation).map(|column| PackedVector::load(level, &column));
+                let columns = padded_columns(frame.rotation).map(|column| PackedVector::load(level, &column));
                 let matrix = PackedMatrix::new(columns);
                 let (a, b) = (PackedVector::new(level, v), PackedVector::new(level, w));
-                [matrix * a, a + b, a - b, -a, a * w.x].map(PackedVector::unpacked)
+                [matrix * a, a + b, a - b, -a, a * w.x].map(PackedVector::to_dvec3)
             })
         };
         let expected = [frame.rotation * v, v + w, v - w, -v, v * w.x];

@@ -10,7 +10,7 @@ use crate::motion::gap::{Gap, first_crossing};
 use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::Double;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ impl Track {
     /// Creates the track along `n` of a point that starts at `height`, with the vector `arm` from the motion's centre.
     fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
         let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
-        AxisMotion::new(motion.linear, axis, length(motion.spin), n).track(height, arm)
+        AxisMotion::new(motion.linear_velocity, axis, length(motion.spin), n).track(height, arm)
     }
 
     /// Returns the height after `tau`.
@@ -39,7 +39,7 @@ fn setting(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
         _ => magnitude(rng, -3.0, 2.0),
     };
     let motion = Velocities {
-        linear: direction(rng) * fast,
+        linear_velocity: direction(rng) * fast,
         spin: direction(rng) * turn,
     };
     (motion, direction(rng), point_in_ball(rng, 1.0))
@@ -47,7 +47,7 @@ fn setting(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
 
 fn height(motion: &Velocities, n: DVec3, height: f64, arm: DVec3, tau: f64) -> f64 {
     let turned = DQuat::from_scaled_axis(motion.spin * tau) * arm;
-    height + n.dot(motion.linear * tau + turned - arm)
+    height + n.dot(motion.linear_velocity * tau + turned - arm)
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn a_track_is_the_height_of_a_turning_point() {
         let (motion, n, arm) = setting(&mut rng);
         let track = Track::new(&motion, n, 0.3, arm);
         let tau = rng.random_range(0.0..1.0);
-        let size = 2.0 + motion.linear.length() + motion.spin.length();
+        let size = 2.0 + motion.linear_velocity.length() + motion.spin.length();
         let off = track.at(tau) - height(&motion, n, 0.3, arm, tau);
         assert!(off.abs() < 1e-14 * size, "{off:e} {motion:?}");
     }
@@ -108,7 +108,7 @@ fn the_first_crossing_is_never_late_and_near() {
         let found = crossing(&track, limit);
         let until = found.unwrap_or(1.0);
         let before = highest(&track, motion.spin.length() * until, until);
-        let size = 1.0 + motion.linear.length() + motion.spin.length();
+        let size = 1.0 + motion.linear_velocity.length() + motion.spin.length();
         assert!(
             before <= limit + 1e-14 * size,
             "{before:e} > {limit:e}: {motion:?}"
@@ -195,15 +195,15 @@ fn the_sound_bound_holds_over_intervals() {
         let reach = arms.iter().map(|r| r.reject_from_normalized(axis).length());
         let bound = sound_bound(&motion, n, reach.fold(0.0, greater));
         let instant = published_bound(&motion, n, |c| farthest(&arms, c));
-        let turning = instant - motion.linear.dot(n).abs();
-        let most = greater(0.0, bound - motion.linear.dot(n));
+        let turning = instant - motion.linear_velocity.dot(n).abs();
+        let most = greater(0.0, bound - motion.linear_velocity.dot(n));
         assert!(turning <= most + 1e-12 * (1.0 + bound.abs() + instant));
         let mut fastest = f64::NEG_INFINITY;
         for &arm in &arms {
             for k in 1..=32 {
                 let tau = f64::from(k) / 32.0;
                 let rise = height(&motion, n, 0.0, arm, tau);
-                let slack = 1e-13 * (1.0 + motion.linear.length() + motion.spin.length());
+                let slack = 1e-13 * (1.0 + motion.linear_velocity.length() + motion.spin.length());
                 assert!(rise <= bound * tau + slack, "{rise} > {bound} × {tau}");
                 fastest = greater(fastest, rise / tau);
             }
@@ -221,7 +221,7 @@ fn the_sound_bound_holds_over_intervals() {
 fn the_published_bound_lets_the_mace_through_the_wall() {
     let (length, width, wall) = (2.0, 0.02, 1.0);
     let motion = Velocities {
-        linear: DVec3::ZERO,
+        linear_velocity: DVec3::ZERO,
         spin: 3.0 * DVec3::Z,
     };
     let tips = [-width, width].map(|x| DVec3::new(x, -length, 0.0));
@@ -256,7 +256,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
     let (mut past_trough, mut before_trough) = (0, 0);
     for _ in 0..20_000 {
         let (mut motion, n, arm) = setting(&mut rng);
-        motion.linear = DVec3::ZERO;
+        motion.linear_velocity = DVec3::ZERO;
         let track = Track::new(&motion, n, 0.3, arm);
         let horizon = rng.random_range(0.0..1.0);
         let least = track.least_rotational_height(horizon, Angle::new(track.omega * horizon));
@@ -285,7 +285,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
 /// heights, and is allowed for there.
 #[test]
 fn worst_least_until() {
-    let found = Worst::of("RATE_F64, least heights of points", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("RATE_F64, least heights of points", 40_000).search(|tape| {
         let track = Track {
             height: 0.0,
             linear_rate: 0.0,
@@ -296,9 +296,9 @@ fn worst_least_until() {
         };
         // The angle is arbitrary, or next to the lowest point of the circle.
         let trough = (-track.q).atan2(-track.p).rem_euclid(TAU);
-        let horizon = match tape.pick(2) {
+        let horizon = match tape.index_below(2) {
             0 => tape.fraction(),
-            _ => lesser(1.0, tape.near(trough / track.omega)),
+            _ => lesser(1.0, tape.number_near(trough / track.omega)),
         };
         let turn = track.omega * horizon;
         let least = track.least_rotational_height(horizon, Angle::new(turn));
@@ -318,14 +318,14 @@ fn worst_least_until() {
         let above = (Double::from(least) + Double::from(allowance) - exact).get();
         (swing.get() > 0.0 && horizon > 0.0).then(|| share(above, allowance))
     });
-    found.is_within(30.0);
+    found.assert_within(30.0);
 }
 
 /// Compares the bound of the second derivative of a track, as stored, with the exact largest second derivative. Earlier
 /// rounding is an error of heights: it moves no height by more than twice as much, whatever the rotation.
 #[test]
 fn worst_bend() {
-    let found = Worst::of("RATE_F64, bends of points", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("RATE_F64, bends of points", 40_000).search(|tape| {
         let track = Track {
             height: 0.0,
             linear_rate: 0.0,
@@ -339,5 +339,5 @@ fn worst_bend() {
         let lost = exact - Double::from(track.second_derivative());
         (exact.get() > 0.0).then(|| share(lost.get(), RATE_ERROR_F64 * exact.get()))
     });
-    found.is_within(16.0);
+    found.assert_within(16.0);
 }

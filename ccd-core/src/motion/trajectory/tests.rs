@@ -8,7 +8,7 @@ use glam::DVec3;
 
 /// Returns the largest sampled deviation in a stretch of points at the distance `reach` from the centre, divided by its
 /// bound.
-fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
+fn largest_deviation_share(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch(from, to).unwrap();
     let bound = stretch.deviation.at(reach);
     let centre = stretch.motion.centre();
@@ -32,7 +32,7 @@ fn smooth_trajectories_stray_by_no_more_than_their_accelerations_allow() {
         let swing = SwingingTrajectory::draw(&mut rng, 3.0);
         let from = rng.random_range(0.0..2.0);
         let to = from + magnitude(&mut rng, -6.0, 0.0);
-        let found = worst(&swing, from, to, rng.random_range(0.0..2.0));
+        let found = largest_deviation_share(&swing, from, to, rng.random_range(0.0..2.0));
         assert!(found <= 1.0, "{found} of {swing:?} from {from} to {to}");
         tightest = greater(tightest, found);
     }
@@ -56,7 +56,7 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
         let later = motion.stretch(from, 1.0).unwrap();
         assert!(later.deviation.at(1.0) < 1e-10);
         // The compared poses are rounded, too, by about as much.
-        assert!(worst(&motion, from, 1.0, 1.0) <= 2.0);
+        assert!(largest_deviation_share(&motion, from, 1.0, 1.0) <= 2.0);
     }
 }
 
@@ -109,7 +109,7 @@ fn deviations_after_times_whose_square_is_zero_are_bounded() {
     assert_eq!(time * time, 0.0);
     let stray = AccelerationBounds {
         linear: acceleration,
-        angular: acceleration,
+        angular_acceleration: acceleration,
     }
     .deviation_after(time);
     for bound in [stray.shift, stray.turn] {

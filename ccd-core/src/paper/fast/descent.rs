@@ -25,7 +25,7 @@ pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
     pub(super) hulls: HullTreePair<'p>,
     pub(super) bound: VelocityBound,
     pub(super) front: &'s mut Front<O::Cache>,
-    pub(super) reaches: &'s mut AxisDistances,
+    pub(super) axis_distances: &'s mut AxisDistances,
     pub(super) proven_facts: &'s ProvenFacts,
     pub(super) oracle: &'s mut O,
     pub(super) meter: &'s mut Meter,
@@ -52,7 +52,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
     /// the least distance are split, and pairs that no longer may are joined. Pairs that stay apart to the end are
     /// skipped.
     pub(super) fn step(&mut self, s: f64) -> ControlFlow<Outcome, f64> {
-        let snapshot = Snapshot::of_pieces(self.problem, self.hulls.hulls([0, 0]), s);
+        let snapshot = Snapshot::from_pieces(self.problem, self.hulls.hulls([0, 0]), s);
         let mut found = DescentState {
             distance: f64::INFINITY,
             contact: None,
@@ -116,17 +116,17 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
         if depth.is_some_and(|depth| depth > SPLIT_OVERLAP) {
-            self.meter.stats.point_evaluations += snapshot.pieces.points();
-            found.open.push(node.open_unmeasured(at, s));
+            self.meter.stats.point_evaluations += snapshot.pieces.evaluations_per_search();
+            found.open.push(node.reset_unmeasured(at, s));
             return;
         }
         let Some(checked) = snapshot.query_oracle(self.oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
-            found.open.push(node.open_unmeasured(at, s));
+            found.open.push(node.reset_unmeasured(at, s));
             return;
         };
         let reaches = self
-            .reaches
+            .axis_distances
             .distances_of_pair(problem, node.pair, &snapshot);
         let free = snapshot.free_time_along_axis(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
@@ -162,7 +162,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         };
         let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
         let reaches = self
-            .reaches
+            .axis_distances
             .distances_of_pair(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
@@ -222,7 +222,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
 
 impl<C> Node<C> {
     /// Resets an unmeasured pair so that it is split whatever its distance, and returns its entry for the heap.
-    fn open_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
+    fn reset_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
         (self.lower, self.feature_owners, self.clock) =
             (f64::NEG_INFINITY, FeatureOwners::BothBridges, s);
         let lower = self.lower;

@@ -1,6 +1,6 @@
 //! The bounding volume traversal tree with its front `[FAST06 §5.1]`.
 
-use super::hull_pair::{Below, FeatureOwners, HullTreePair};
+use super::hull_pair::{FeatureOwners, HullTreePair, PairChildren};
 use crate::engine::capacity::empty;
 use crate::engine::pieces::pair::Pair;
 use crate::math::order::lesser;
@@ -14,8 +14,8 @@ pub(super) struct Front<C> {
     nodes: Vec<Node<C>>,
     /// The unused slots of `nodes`: the index of the first of every two adjacent slots.
     vacant_slots: Vec<u32>,
-    leaves: usize,
-    peak: usize,
+    leaf_count: usize,
+    peak_leaf_count: usize,
 }
 
 /// A pair of nodes of two hull trees, with the results of its last visit.
@@ -50,12 +50,12 @@ impl<C: Clone + Default> Front<C> {
         empty(&mut self.nodes);
         empty(&mut self.vacant_slots);
         self.nodes.push(Node::new(hulls, [0, 0], C::default()));
-        (self.leaves, self.peak) = (1, 1);
+        (self.leaf_count, self.peak_leaf_count) = (1, 1);
     }
 
     /// Returns the largest number of pairs that were in the front at once.
     pub(super) fn peak(&self) -> u64 {
-        self.peak as u64
+        self.peak_leaf_count as u64
     }
 
     pub(super) fn node(&mut self, at: u32) -> &mut Node<C> {
@@ -64,7 +64,7 @@ impl<C: Clone + Default> Front<C> {
 
     /// Returns the leaves, in the order of the tree.
     pub(super) fn leaves(&self) -> Vec<u32> {
-        let mut leaves = Vec::with_capacity(self.leaves);
+        let mut leaves = Vec::with_capacity(self.leaf_count);
         self.walk(|at, node| {
             if node.children.is_none() {
                 leaves.push(at);
@@ -103,7 +103,8 @@ impl<C: Clone + Default> Front<C> {
     /// Splits a leaf into two pairs that cover it, and returns the index of the first; `None` for a pair of pieces.
     pub(super) fn split(&mut self, hulls: HullTreePair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
-        let Below::Pairs(pairs) = hulls.children_of_pair(node.pair, node.feature_owners) else {
+        let PairChildren::Pairs(pairs) = hulls.children_of_pair(node.pair, node.feature_owners)
+        else {
             return None;
         };
         // Nearest points of a covering pair are a good start for the pair. This does not hold for
@@ -126,8 +127,8 @@ impl<C: Clone + Default> Front<C> {
             }
         };
         self.nodes[at as usize].children = Some(first);
-        self.leaves += 1;
-        self.peak = self.peak.max(self.leaves);
+        self.leaf_count += 1;
+        self.peak_leaf_count = self.peak_leaf_count.max(self.leaf_count);
         Some(first)
     }
 
@@ -135,7 +136,7 @@ impl<C: Clone + Default> Front<C> {
     pub(super) fn join_children(&mut self, at: u32) {
         if let Some(first) = self.nodes[at as usize].children.take() {
             self.vacant_slots.push(first);
-            self.leaves -= 1;
+            self.leaf_count -= 1;
         }
     }
 
@@ -163,8 +164,8 @@ impl<C: Default + Clone> Node<C> {
         Node {
             pair,
             item: match hulls.children_of_pair(pair, FeatureOwners::BothBridges) {
-                Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
-                Below::Pairs(_) => Item::Nodes(cache),
+                PairChildren::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
+                PairChildren::Pairs(_) => Item::Nodes(cache),
             },
             children: None,
             lower: f64::NEG_INFINITY,

@@ -3,7 +3,7 @@
 use crate::body::Body;
 use crate::body::hierarchy::HierarchyNode;
 use crate::body::hull_tree::{FacetClass, HullTree};
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::Claim;
 use crate::problem::Problem;
@@ -29,7 +29,7 @@ pub(super) enum FeatureOwners {
 
 /// The children of a pair of nodes, which replace it.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Below {
+pub(super) enum PairChildren {
     /// The pair has no children: both nodes are leaves, with these pieces.
     Pieces([u32; 2]),
     /// Two pairs that together cover this one.
@@ -38,7 +38,7 @@ pub(super) enum Below {
 
 impl<'a> HullTreePair<'a> {
     /// Creates the pair of trees; `None` if a body has more than one piece and no hull tree.
-    pub(super) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
+    pub(super) fn from_problem(problem: &Problem<'a>) -> Option<Self> {
         Some(HullTreePair {
             a: Hulls::for_body(problem.a.body)?,
             b: Hulls::for_body(problem.b.body)?,
@@ -65,18 +65,18 @@ impl<'a> HullTreePair<'a> {
     /// Returns the two pairs that replace a pair when it is split, or its pieces if both nodes are leaves. One node is
     /// replaced by its children: if only one body has a bridge, that body's node, else the larger node, or the one with
     /// children if the other has none.
-    pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: FeatureOwners) -> Below {
+    pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: FeatureOwners) -> PairChildren {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
             FeatureOwners::OneBridge(body) => body,
             FeatureOwners::Pieces | FeatureOwners::BothBridges => self.larger([a, b]),
         };
-        match (self.a.children_of_pair(a), self.b.children_of_pair(b), body) {
-            (Leaf(a), Leaf(b), _) => Below::Pieces([a, b]),
+        match (self.a.hierarchy_node(a), self.b.hierarchy_node(b), body) {
+            (Leaf(a), Leaf(b), _) => PairChildren::Pieces([a, b]),
             (Inner(left, right), Leaf(_), _) | (Inner(left, right), _, WhichBody::A) => {
-                Below::Pairs([[left, b], [right, b]])
+                PairChildren::Pairs([[left, b], [right, b]])
             }
-            (_, Inner(left, right), _) => Below::Pairs([[a, left], [a, right]]),
+            (_, Inner(left, right), _) => PairChildren::Pairs([[a, left], [a, right]]),
         }
     }
 
@@ -113,14 +113,14 @@ impl<'a> Hulls<'a> {
         }
     }
 
-    fn children_of_pair(self, node: u32) -> HierarchyNode {
+    fn hierarchy_node(self, node: u32) -> HierarchyNode {
         match self {
             Hulls::Tree(tree) => tree.hierarchy().nodes()[node as usize],
             Hulls::SinglePiece(_) => HierarchyNode::Leaf(0),
         }
     }
 
-    fn is_on_bridge(self, node: u32, point: &Combination) -> bool {
+    fn is_on_bridge(self, node: u32, point: &ConvexCombination) -> bool {
         match self {
             Hulls::Tree(tree) => tree.class_of(node, point) == FacetClass::Free,
             Hulls::SinglePiece(_) => false,

@@ -7,7 +7,7 @@ use crate::problem::Problem;
 pub(super) struct AxisDistances {
     query: u64,
     /// The cached distances by body and node, each with the number of its query.
-    known: [Vec<(u64, f64)>; 2],
+    cached_distances: [Vec<(u64, f64)>; 2],
 }
 
 impl AxisDistances {
@@ -27,7 +27,7 @@ impl AxisDistances {
         let paths = [&problem.a.path, &problem.b.path];
         let points = [snapshot.pieces.a.points, snapshot.pieces.b.points];
         [0, 1].map(|k| {
-            let (known, at) = (&mut self.known[k], pair[k] as usize);
+            let (known, at) = (&mut self.cached_distances[k], pair[k] as usize);
             if known.len() <= at {
                 known.resize(at + 1, (0, 0.0));
             }

@@ -3,7 +3,7 @@
 use super::{BestFirst, Fast};
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::hull_tree::{Hull, HullNode, HullTree, PolygonList};
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::Polytope;
 use crate::body::{Body, Volume};
@@ -138,7 +138,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
 }
 
 /// Checks an answer at sampled times, and returns the time of contact; infinite without contact.
-fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
+fn checked_contact_time(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     let holds_until = |end: f64, least: f64| {
         for k in 0..=128 {
             let near = distance(problem, end * f64::from(k) / 128.0);
@@ -178,11 +178,11 @@ fn answers_are_right_and_those_of_the_other_schedules() {
         let problem = scene.problem();
         let boxes = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
         let twin = Naive::default().solve(&problem, &mut ExhaustiveOracle);
-        let time = checked(&problem, &solve(&problem).outcome);
+        let time = checked_contact_time(&problem, &solve(&problem).outcome);
         // Every schedule that visits pieces at the start finds those within the tolerance there.
-        let twin = checked(&problem, &twin.outcome);
+        let twin = checked_contact_time(&problem, &twin.outcome);
         assert_eq!(time <= 0.0, twin <= 0.0, "{number}");
-        for other in [twin, checked(&problem, &boxes.outcome)] {
+        for other in [twin, checked_contact_time(&problem, &boxes.outcome)] {
             let kind = |time: f64| (time < 0.0, time <= 0.0, time.is_finite());
             // If they differ, the bodies graze each other: within the tolerance, but not within half of it.
             if kind(other) != kind(time) {
@@ -292,8 +292,8 @@ fn false_claims_and_give_ups_never_make_it_late() {
             .find(|&s| distance(&problem, s) <= problem.margin);
         let lie = Claim {
             axis: direction(&mut rng),
-            a: Combination::point(rng.random_range(0..3)),
-            b: Combination::point(rng.random_range(0..3)),
+            a: ConvexCombination::point(rng.random_range(0..3)),
+            b: ConvexCombination::point(rng.random_range(0..3)),
         };
         let wrong = [
             ConstantOracle(Ok(lie)),

@@ -11,7 +11,7 @@ use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::questions::any::start_contact_as_any;
+use crate::questions::any::touching_as_contact;
 use crate::questions::depth_first::DepthFirst;
 use std::ops::ControlFlow;
 
@@ -66,7 +66,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
                 self.proven.undecided = lesser(self.proven.undecided, known.safe_until);
                 return Ok(ControlFlow::Continue(()));
             }
-            return Ok(ControlFlow::Break(start_contact_as_any(found)));
+            return Ok(ControlFlow::Break(touching_as_contact(found)));
         }
         let scratch = &mut self.schedule.scratch;
         let length = 2.0 * length(stretches, motions, seen, oracle, scratch)?;

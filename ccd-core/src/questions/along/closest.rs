@@ -26,15 +26,15 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let answer = match query.terms.clearance {
+        let answer = match query.settings.clearance {
             Some(distance) => self.decide_clearance_along(query, distance, oracle)?,
-            None => self.approach_of_bodies_along(&query.for_distances(), oracle)?,
+            None => self.least_distance_of_bodies_along(&query.for_distances(), oracle)?,
         };
         Ok(answer.widened_by_excess(query.excess()))
     }
 
     /// Computes bounds of the least distance of the bodies, without a correction for their excess over the shapes.
-    fn approach_of_bodies_along(
+    fn least_distance_of_bodies_along(
         &mut self,
         query: &Query<'_>,
         oracle: &mut O,
@@ -56,14 +56,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let required = RequiredClearance {
             distance,
-            tolerance: query.terms.tolerance,
-            budget: query.terms.budget,
-            deadline: query.terms.deadline,
+            tolerance: query.settings.tolerance,
+            budget: query.settings.budget,
+            deadline: query.settings.deadline,
             excess: query.excess(),
         };
         required.decide(|rung, deadline| {
             let mut query = query.contact_query(rung);
-            query.terms.deadline = deadline;
+            query.settings.deadline = deadline;
             self.any_contact_along(&query, oracle)
         })
     }
@@ -85,14 +85,14 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let found = &mut self.found;
         let work = stretches.stats.work();
         let (Some(rung), Ok(left)) = (
-            found.ladder.next_rung_if_due(work, found.upper()),
+            found.lower_bounds.next_attempt_if_due(work, found.upper()),
             stretches.remaining_settings(),
         ) else {
             return Ok(());
         };
         let mut query = self.query.contact_query(rung);
-        query.terms.budget = rung.budget;
-        query.terms.deadline = left.deadline;
+        query.settings.budget = rung.budget;
+        query.settings.deadline = left.deadline;
         let answer = self.schedule.any_contact_along(&query, oracle)?;
         stretches.add_uncharged_work(&answer.stats);
         let proven = match answer.outcome {
@@ -103,7 +103,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             }
             _ => None,
         };
-        found.ladder.climb(proven);
+        found.lower_bounds.record_attempt(proven);
         Ok(())
     }
 
@@ -137,11 +137,11 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let (found, query) = (&mut self.found, self.query);
         // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
         // the upper bound.
-        let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance;
+        let beyond = found.upper() + motions.total_deviation + 2.0 * problem.tolerance;
         let answer = self.schedule.least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.found {
-            Err(FartherThanCutoff { lower }) => StretchResult::beyond(lower),
+            Err(FartherThanCutoff { lower }) => StretchResult::farther_than(lower),
             Ok(Outcome::Overlapping { .. }) if stretches.schedule_start_examination(motions)? => {
                 return Ok(ControlFlow::Continue(()));
             }
@@ -157,7 +157,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             },
         };
         let lower = greater(0.0, motions.lower_bound_for_bodies(seen.lower));
-        let tolerance = query.terms.tolerance;
+        let tolerance = query.settings.tolerance;
         let is_near_enough =
             lower >= found.upper() - tolerance || seen.is_limited_by_rounding(tolerance);
         if is_near_enough || stretches.accepts_contact(motions)? {
@@ -206,7 +206,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
             return Ok(nearest);
         };
         let problem = pose.problem(self.query, &terms)?;
-        let start = self.schedule.approach_of_bodies(&problem, oracle);
+        let start = self.schedule.least_distance_of_bodies(&problem, oracle);
         stretches.add(&start.stats);
         Ok(Answer {
             outcome: match start.outcome {
@@ -228,14 +228,16 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     ) -> Result<bool, InputError> {
         let time = motions.time(seen.time);
         let Query {
-            terms, duration, ..
+            settings: terms,
+            duration,
+            ..
         } = self.query;
         // Halves mostly suffice, and cost less than measuring the distance.
         if motions.span.length() > MIN_UNMEASURED_SHARE * duration {
             return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
-        if let Some(end) = seen.end_with_decrease_beyond(motions)
+        if let Some(end) = seen.approaching_end(motions)
             && let Some(beyond) = stretches.take_adjacent_stretch(end)
         {
             let is_cut = stretches.cut_out_around(motions.span, time, f64::INFINITY);
@@ -264,14 +266,14 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
             return Ok(None);
         };
         let problem = pose.problem(self.query, &terms)?;
-        let answer = self.schedule.approach_of_bodies(&problem, oracle);
+        let answer = self.schedule.least_distance_of_bodies(&problem, oracle);
         stretches.stats.add(&answer.stats);
         let Outcome::LeastDistance { contact, .. } = answer.outcome else {
             return Ok(None);
         };
         let found = &mut self.found;
         found.record_contact(time, pose.contact(contact));
-        let rounding = 2.0 * pose.stray;
+        let rounding = 2.0 * pose.total_deviation;
         let least = greater(terms.tolerance, rounding);
         Ok(Some(DistanceAtTime {
             deviation_limit: greater(least, contact.separation.upper - found.upper()),

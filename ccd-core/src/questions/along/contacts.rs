@@ -33,8 +33,8 @@ impl ProvenGap {
     pub(super) fn new(query: &Query<'_>) -> Self {
         ProvenGap {
             gap: f64::INFINITY,
-            margin: query.terms.margin,
-            tolerance: query.terms.tolerance,
+            margin: query.settings.margin,
+            tolerance: query.settings.tolerance,
             undecided: f64::INFINITY,
         }
     }

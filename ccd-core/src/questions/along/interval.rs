@@ -28,7 +28,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let duration = query.duration;
-        let begun = query.terms.deadline.map(|_| Instant::now());
+        let begun = query.settings.deadline.map(|_| Instant::now());
         let first = first_contact(self, query, oracle)?;
         let answer = |outcome, of: &Answer| Answer {
             outcome,
@@ -62,7 +62,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             problem: None,
             ..*query
         };
-        if let (Some(deadline), Some(begun)) = (&mut back.terms.deadline, begun) {
+        if let (Some(deadline), Some(begun)) = (&mut back.settings.deadline, begun) {
             *deadline = deadline.saturating_sub(begun.elapsed());
         }
         let mut last = first_contact(self, &back, oracle)?;

@@ -59,7 +59,7 @@ pub(super) fn length<O: DistanceOracle>(
     };
     Ok(match seen {
         Some(seen) => length_from_distance(query, motions, seen),
-        None => motions.length_for_deviation(DEVIATION_SHARE * query.terms.tolerance),
+        None => motions.length_for_deviation(DEVIATION_SHARE * query.settings.tolerance),
     })
 }
 
@@ -76,7 +76,7 @@ fn length_from_distance(
 ) -> f64 {
     let QuerySettings {
         margin, tolerance, ..
-    } = query.terms;
+    } = query.settings;
     let gap = greater(contact.separation.upper - margin, tolerance);
     let nearest = 2.0 * gap / approach;
     // Written so that NaN is no time.

@@ -18,7 +18,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub(super) from: f64,
-    pub(super) to: f64,
+    pub(super) end: f64,
     /// The index of the part of the query, between two corners, that contains the stretch.
     pub(super) part_index: usize,
 }
@@ -27,13 +27,13 @@ impl Span {
     /// Returns the stretch of length 0 at the start of this stretch.
     pub(super) fn start(self) -> Self {
         Span {
-            to: self.from,
+            end: self.from,
             ..self
         }
     }
 
     pub(super) fn length(&self) -> f64 {
-        self.to - self.from
+        self.end - self.from
     }
 
     /// Returns the time in the middle of the stretch.
@@ -47,14 +47,14 @@ impl Span {
 pub(super) struct StretchMotions {
     pub(super) stretches: [Stretch; 2],
     /// The sum of the deviations of both bodies.
-    pub(super) stray: f64,
+    pub(super) total_deviation: f64,
     pub(super) span: Span,
 }
 
 impl StretchMotions {
     pub(super) fn new(query: &Query<'_>, span: Span) -> Result<Self, InputError> {
         let bodies = [&query.a, &query.b];
-        let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.to));
+        let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.end));
         let stretches = [a?, b?];
         let stray = |k: usize| {
             let Stretch {
@@ -63,7 +63,7 @@ impl StretchMotions {
             deviation.at(bodies[k].body.tree().max_distance_from(motion.centre()))
         };
         Ok(StretchMotions {
-            stray: rounded_up_sum(stray(0), stray(1)),
+            total_deviation: rounded_up_sum(stray(0), stray(1)),
             stretches,
             span,
         })
@@ -74,7 +74,8 @@ impl StretchMotions {
         let time = self.span.length();
         for stretch in &mut self.stretches {
             let far = 0.5 * (time * (time * length(stretch.acceleration)));
-            self.stray = rounded_up_sum(self.stray, far * (1.0 + RETIMED_POSE_ERROR_F64));
+            self.total_deviation =
+                rounded_up_sum(self.total_deviation, far * (1.0 + RETIMED_POSE_ERROR_F64));
             stretch.acceleration = DVec3::ZERO;
         }
         self
@@ -86,14 +87,17 @@ impl StretchMotions {
         let time = self.span.length();
         let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
         let [a, b] = &self.stretches;
-        let most = MAX_COORDINATE - query.terms.margin;
+        let most = MAX_COORDINATE - query.settings.margin;
         // Written so that NaN is too much.
-        self.stray >= 0.0 && self.stray <= most && far(a) <= most && far(b) <= most
+        self.total_deviation >= 0.0
+            && self.total_deviation <= most
+            && far(a) <= most
+            && far(b) <= most
     }
 
     /// Estimates the length of a stretch that has a given deviation. Deviations shrink with a power of the length.
     pub(super) fn length_for_deviation(&self, stray: f64) -> f64 {
-        self.span.length() * (stray / self.stray).powf(1.0 / self.deviation_exponent())
+        self.span.length() * (stray / self.total_deviation).powf(1.0 / self.deviation_exponent())
     }
 
     /// Estimates the length of the stretch whose deviation is `DEVIATION_SHARE` times its change of distance, if the
@@ -101,7 +105,7 @@ impl StretchMotions {
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole
-            * (DEVIATION_SHARE * rate * whole / self.stray)
+            * (DEVIATION_SHARE * rate * whole / self.total_deviation)
                 .powf(1.0 / (self.deviation_exponent() - 1.0))
     }
 
@@ -144,13 +148,13 @@ impl StretchMotions {
         // Both tolerances have the same middle: the gap that is proven.
         let beyond = 0.5 * greater(terms.tolerance - tolerance, 0.0);
         let terms = QuerySettings {
-            margin: terms.margin + beyond + self.stray,
+            margin: terms.margin + beyond + self.total_deviation,
             tolerance,
             start: StartPolicy::Report,
             ..*terms
         };
         let [a, b] = &self.stretches;
-        Problem::accelerated(
+        Problem::with_accelerations(
             [(query.a.body, a.motion), (query.b.body, b.motion)],
             [a.acceleration, b.acceleration],
             self.span.length(),
@@ -163,22 +167,22 @@ impl StretchMotions {
     /// motions keep, and for the contact that they show.
     fn tolerance(&self, whole: f64) -> f64 {
         // Written so that without deviations the result is the whole tolerance, to the last bit.
-        let left = whole - 4.0 * self.stray;
-        if self.stray == 0.0 || left >= (1.0 - 4.0 * DEVIATION_SHARE) * whole {
+        let left = whole - 4.0 * self.total_deviation;
+        if self.total_deviation == 0.0 || left >= (1.0 - 4.0 * DEVIATION_SHARE) * whole {
             return left;
         }
         // Too little is left for a contact. Distances blurred by deviations need not be known better.
         let least = greater(
             (1.0 - 4.0 * DEVIATION_SHARE) * whole,
-            TOLERANCE_PER_DEVIATION * self.stray,
+            TOLERANCE_PER_DEVIATION * self.total_deviation,
         );
         greater(least, LEAST_TOLERANCE)
     }
 
     /// Converts a distance of the motions to a lower bound of the bodies' distance.
     pub(super) fn lower_bound_for_bodies(&self, distance: f64) -> f64 {
-        if self.stray > 0.0 {
-            (distance - self.stray).next_down()
+        if self.total_deviation > 0.0 {
+            (distance - self.total_deviation).next_down()
         } else {
             distance
         }
@@ -186,7 +190,7 @@ impl StretchMotions {
 
     /// Converts a time of the stretch to a time of the query, rounded so that it is never late.
     pub(super) fn time(&self, time: f64) -> f64 {
-        let Span { from, to, .. } = self.span;
+        let Span { from, end: to, .. } = self.span;
         if from > 0.0 {
             lesser(greater(from, (from + time).next_down()), to)
         } else {
@@ -197,7 +201,7 @@ impl StretchMotions {
     /// Widens the bounds of a contact of the motions so that they hold for the bodies.
     pub(super) fn contact(&self, contact: Contact) -> Contact {
         let Separation { lower, upper, .. } = contact.separation;
-        let upper = rounded_up_sum(upper, self.stray);
+        let upper = rounded_up_sum(upper, self.total_deviation);
         contact.with_bounds(self.lower_bound_for_bodies(lower), upper)
     }
 }

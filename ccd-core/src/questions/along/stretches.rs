@@ -18,7 +18,7 @@ use std::time::Instant;
 /// A stack of the stretches of time that wait to be searched, with the work done so far.
 pub(super) struct Stretches<'j, 'a> {
     query: &'j Query<'a>,
-    waiting: Vec<Span>,
+    waiting_spans: Vec<Span>,
     pub(super) stats: Stats,
     budgets: Budgets,
     was_start_examined: bool,
@@ -33,16 +33,16 @@ impl<'j, 'a> Stretches<'j, 'a> {
     pub(super) fn new(query: &'j Query<'a>) -> Self {
         Stretches {
             query,
-            waiting: vec![Span {
+            waiting_spans: vec![Span {
                 from: 0.0,
-                to: query.duration,
+                end: query.duration,
                 part_index: 0,
             }],
             stats: Stats::default(),
             budgets: Budgets::default(),
             was_start_examined: false,
             proven: None,
-            started_at: query.terms.deadline.map(|_| Instant::now()),
+            started_at: query.settings.deadline.map(|_| Instant::now()),
         }
     }
 
@@ -51,24 +51,24 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     pub(super) fn next(&mut self) -> Option<Span> {
-        self.waiting.pop()
+        self.waiting_spans.pop()
     }
 
     /// Returns the waiting stretches, in reverse order of their searches.
     pub(super) fn waiting(&self) -> &[Span] {
-        &self.waiting
+        &self.waiting_spans
     }
 
     /// Returns the earliest time of all waiting stretches; infinite if there are none.
     pub(super) fn earliest_time(&self) -> f64 {
-        let starts = self.waiting.iter().map(|span| span.from);
+        let starts = self.waiting_spans.iter().map(|span| span.from);
         starts.fold(f64::INFINITY, lesser)
     }
 
     /// Returns the query's settings with the remaining budget and the remaining time to the deadline, or the limit that
     /// is reached.
     pub(super) fn remaining_settings(&self) -> Result<QuerySettings<'a>, Limit> {
-        let terms = &self.query.terms;
+        let terms = &self.query.settings;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
         }
@@ -124,7 +124,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
                 return Ok(Ok((motions, terms)));
             }
             self.stats.iterations += 1;
-            span = self.waiting.pop().unwrap_or(span);
+            span = self.waiting_spans.pop().unwrap_or(span);
         }
     }
 
@@ -132,7 +132,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// share of the tolerance, or a cut would not reduce them.
     pub(super) fn accepts_contact(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         Ok(
-            motions.stray <= DEVIATION_SHARE * self.query.terms.tolerance
+            motions.total_deviation <= DEVIATION_SHARE * self.query.settings.tolerance
                 || self.is_limited_by_rounding(motions)?,
         )
     }
@@ -141,13 +141,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// rounding and a cut does not help.
     fn is_limited_by_rounding(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         let least = StretchMotions::new(self.query, motions.span.start())?;
-        Ok(motions.stray <= 2.0 * least.stray)
+        Ok(motions.total_deviation <= 2.0 * least.total_deviation)
     }
 
     /// Returns whether the motions of a stretch start at the poses of the bodies at time 0, up to rounding.
     pub(super) fn begins_at_start(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         Ok(motions.span.from == 0.0
-            && (motions.stray == 0.0 || self.is_limited_by_rounding(motions)?))
+            && (motions.total_deviation == 0.0 || self.is_limited_by_rounding(motions)?))
     }
 
     /// Schedules a search of the pose at time 0, and after it the stretch again. An overlap of the stretch's motions at
@@ -161,23 +161,24 @@ impl<'j, 'a> Stretches<'j, 'a> {
             return Ok(false);
         }
         self.was_start_examined = true;
-        self.waiting.extend([motions.span, motions.span.start()]);
+        self.waiting_spans
+            .extend([motions.span, motions.span.start()]);
         Ok(true)
     }
 
     /// Records a stretch as the last one in which the bodies are proven apart, with its deviation.
     pub(super) fn record_proven_stretch(&mut self, motions: &StretchMotions) {
-        self.proven = Some((motions.span, motions.stray));
+        self.proven = Some((motions.span, motions.total_deviation));
     }
 
     /// Returns the time at which a stretch adjoins the last proven stretch, if its deviations are much larger than
     /// those of that stretch. The stretch is then probably too long.
     pub(super) fn common_end_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
-        let Span { from, to, .. } = motions.span;
-        let beside = [(from, proven.to), (to, proven.from)];
+        let Span { from, end: to, .. } = motions.span;
+        let beside = [(from, proven.end), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
-        (motions.stray > CUT_DEVIATION_RATIO * stray).then_some(time)
+        (motions.total_deviation > CUT_DEVIATION_RATIO * stray).then_some(time)
     }
 
     /// Makes all later work count towards the budget of the part that contains a stretch.
@@ -196,8 +197,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         };
         let span = Span {
             from: time,
-            to: time,
-            part_index: self.budgets.part,
+            end: time,
+            part_index: self.budgets.current_part,
         };
         Ok(Ok((StretchMotions::new(self.query, span)?, terms)))
     }
@@ -229,14 +230,14 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Removes and returns the waiting stretch that begins or ends at a time; `None` if there is none.
     pub(super) fn take_adjacent_stretch(&mut self, time: f64) -> Option<Span> {
-        let is_beside = |span: &Span| span.from == time || span.to == time;
-        let index = self.waiting.iter().rposition(is_beside)?;
-        Some(self.waiting.remove(index))
+        let is_beside = |span: &Span| span.from == time || span.end == time;
+        let index = self.waiting_spans.iter().rposition(is_beside)?;
+        Some(self.waiting_spans.remove(index))
     }
 
     /// Adds a stretch, which is searched next.
     pub(super) fn push(&mut self, span: Span) {
-        self.waiting.push(span);
+        self.waiting_spans.push(span);
     }
 
     /// Cuts a stretch in two, at a corner of a trajectory or else after about `length`; the earlier part is searched
@@ -245,7 +246,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let Some([early, late]) = self.cut_parts(span, length) else {
             return false;
         };
-        self.waiting.extend([late, early]);
+        self.waiting_spans.extend([late, early]);
         true
     }
 
@@ -260,32 +261,32 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let [first, last] = [time - half, time + half];
         // Written so that NaN, or a length lost to rounding, gives a half of the stretch.
         let is_part = length < 0.5 * whole && first < time && last > time;
-        if !is_part || early.to != span.middle_time() {
+        if !is_part || early.end != span.middle_time() {
             if time < late.from {
-                self.waiting.extend([late, early]);
+                self.waiting_spans.extend([late, early]);
             } else {
-                self.waiting.extend([early, late]);
+                self.waiting_spans.extend([early, late]);
             }
             return true;
         }
         let mut middle = span;
         // The rest beside it would be hardly longer.
-        if last + half < span.to {
-            self.waiting.push(Span { from: last, ..span });
-            middle.to = last;
+        if last + half < span.end {
+            self.waiting_spans.push(Span { from: last, ..span });
+            middle.end = last;
         }
         if first - half > span.from {
-            self.waiting.push(Span { to: first, ..span });
+            self.waiting_spans.push(Span { end: first, ..span });
             middle.from = first;
         }
-        self.waiting.push(middle);
+        self.waiting_spans.push(middle);
         true
     }
 
     pub(super) fn cut_parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span {
             from,
-            to,
+            end: to,
             part_index: part,
         } = span;
         let Query { a, b, .. } = self.query;
@@ -306,7 +307,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         };
         Some([
             Span {
-                to: at,
+                end: at,
                 part_index: before,
                 ..span
             },
@@ -323,7 +324,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
 struct Budgets {
     work_by_part: Vec<u64>,
     /// The index of the part to whose budget work counts at present.
-    part: usize,
+    current_part: usize,
     /// The total work of all parts at the time when work began to count towards the present part.
     work_at_part_start: u64,
 }
@@ -332,7 +333,7 @@ impl Default for Budgets {
     fn default() -> Self {
         Budgets {
             work_by_part: vec![0],
-            part: 0,
+            current_part: 0,
             work_at_part_start: 0,
         }
     }
@@ -341,13 +342,13 @@ impl Default for Budgets {
 impl Budgets {
     /// Returns the work spent on the present part; `work` is the total of all parts.
     fn spent_on_part(&self, work: u64) -> u64 {
-        self.work_by_part[self.part] + (work - self.work_at_part_start)
+        self.work_by_part[self.current_part] + (work - self.work_at_part_start)
     }
 
     /// Makes all later work count towards the budget of the part of index `part`; `work` is the total of all parts.
     fn charge_to(&mut self, part: usize, work: u64) {
-        self.work_by_part[self.part] = self.spent_on_part(work);
-        (self.part, self.work_at_part_start) = (part, work);
+        self.work_by_part[self.current_part] = self.spent_on_part(work);
+        (self.current_part, self.work_at_part_start) = (part, work);
     }
 
     /// Adds a part with a budget of its own and returns its index, or returns `part` if there are too many parts

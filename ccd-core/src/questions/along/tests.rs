@@ -25,7 +25,7 @@ use glam::DVec3;
 struct SwingingBodies {
     soups: [Vec<Triangle>; 2],
     bodies: [Body; 2],
-    swings: [SwingingTrajectory; 2],
+    trajectories: [SwingingTrajectory; 2],
     config: Settings,
 }
 
@@ -40,7 +40,7 @@ impl SwingingBodies {
         SwingingBodies {
             bodies: [body(&soups[0]), body(&soups[1])],
             soups,
-            swings,
+            trajectories: swings,
             config: Settings {
                 tolerance: magnitude(rng, -6.0, -2.0),
                 margin: [0.0, 0.1][rng.random_range(0..2)],
@@ -50,13 +50,13 @@ impl SwingingBodies {
     }
 
     fn query(&self) -> Query<'_> {
-        let [a, b] = [0, 1].map(|k| (&self.bodies[k], &self.swings[k]));
+        let [a, b] = [0, 1].map(|k| (&self.bodies[k], &self.trajectories[k]));
         Query::new(a, b, 1.0, &self.config).unwrap()
     }
 
     fn distance(&self, t: f64) -> f64 {
         let [a, b] = [0, 1].map(|k| {
-            let pose = self.swings[k].pose(t).unwrap();
+            let pose = self.trajectories[k].pose(t).unwrap();
             let placed = |triangle: &Triangle| triangle.map(|p| pose.transform_point(p));
             self.soups[k].iter().map(placed).collect::<Vec<_>>()
         });
@@ -238,9 +238,9 @@ struct UserTrajectory(Motion);
 
 /// A motion with constant velocities that is queried as a [`Trajectory`], so that the query is answered stretch by
 /// stretch.
-struct HiddenMotion(Motion);
+struct MotionAsTrajectory(Motion);
 
-impl Trajectory for HiddenMotion {
+impl Trajectory for MotionAsTrajectory {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         self.0.stretch(from, to)
     }
@@ -264,7 +264,7 @@ fn plain_motions_have_their_own_answers() {
     for number in 0..1_000 {
         let scene = scene(&mut rng, [Kind::Any, Kind::NearRim][number % 2], 8);
         let problem = scene.problem();
-        let unknown = scene.motions.map(HiddenMotion);
+        let unknown = scene.motions.map(MotionAsTrajectory);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &unknown[k]));
         let query = Query::new(a, b, 1.0, &scene.config).unwrap();
         let answer = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
@@ -356,7 +356,7 @@ fn durations_may_be_very_long() {
         1e-60 * DVec3::Y,
         DVec3::ZERO,
     );
-    let (slow, config) = (HiddenMotion(slow.unwrap()), Settings::DEFAULT);
+    let (slow, config) = (MotionAsTrajectory(slow.unwrap()), Settings::DEFAULT);
     let ask = |duration| Query::new((&ball, &slow), (&ball, &Motion::STILL), duration, &config);
     assert!(ask(1e51).is_err());
     let query = ask(1e50).unwrap();
@@ -372,7 +372,7 @@ fn no_time_is_a_pose() {
     let mut rng = rng(7);
     for _ in 0..100 {
         let swings = SwingingBodies::draw(&mut rng);
-        let [a, b] = [0, 1].map(|k| (&swings.bodies[k], &swings.swings[k]));
+        let [a, b] = [0, 1].map(|k| (&swings.bodies[k], &swings.trajectories[k]));
         let query = Query::new(a, b, 0.0, &swings.config).unwrap();
         let along = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
         let within = swings.config.margin + swings.config.tolerance;

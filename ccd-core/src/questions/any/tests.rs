@@ -5,7 +5,7 @@ use super::*;
 use crate::answer::Unresolved;
 use crate::body::Body;
 use crate::body::Volume;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, GiveUpReason, PiecePair};
 use crate::engine::answer::EngineSchedule;
 use crate::motion::Motion;
@@ -18,7 +18,7 @@ use crate::tests::scene::{Kind, RngExt, direction, distance, pieces, rng, scene}
 
 const SCENE_KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
 
-fn any(problem: &Problem<'_>) -> Outcome {
+fn any_contact_outcome(problem: &Problem<'_>) -> Outcome {
     let mut schedule = DepthFirst::default();
     schedule
         .any_contact_of(problem, &mut ExhaustiveOracle)
@@ -40,7 +40,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
             scene(&mut rng, SCENE_KINDS[number % 4], 12).with_random_accelerations(&mut rng);
         let problem = scene.problem();
         let within = problem.contact_distance();
-        match (any(&problem), first(&problem)) {
+        match (any_contact_outcome(&problem), first(&problem)) {
             (Outcome::Contact { time, contact }, Outcome::Contact { time: first, .. }) => {
                 hits += 1;
                 later += u32::from(time > first);
@@ -93,7 +93,7 @@ fn bodies_that_are_let_go_have_the_verdict_of_the_first_contact() {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 6);
         scene.config.start = StartPolicy::Leave;
         let problem = scene.problem();
-        match (any(&problem), first(&problem)) {
+        match (any_contact_outcome(&problem), first(&problem)) {
             (Outcome::Free { .. }, Outcome::Free { .. }) => free += 1,
             (Outcome::Contact { .. }, Outcome::Contact { .. }) => contacts += 1,
             (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
@@ -117,7 +117,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
         };
         for budget in 0..40 {
             scene.config.budget = budget;
-            match any(&scene.problem()) {
+            match any_contact_outcome(&scene.problem()) {
                 Outcome::Unresolved(Unresolved {
                     safe_until,
                     limit: reason,
@@ -147,8 +147,8 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
             .find(|&s| distance(&problem, s) <= 0.0);
         let lie = Claim {
             axis: direction(&mut rng),
-            a: Combination::point(rng.random_range(0..5)),
-            b: Combination::point(rng.random_range(0..5)),
+            a: ConvexCombination::point(rng.random_range(0..5)),
+            b: ConvexCombination::point(rng.random_range(0..5)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),

@@ -1,6 +1,6 @@
 //! Follows two pieces over time to a local minimum of their distance.
 
-use super::BestPair;
+use super::NearestPair;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair;
@@ -15,8 +15,8 @@ pub(crate) fn follow_to_minimum<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
-    seen: BestPair,
-) -> BestPair {
+    seen: NearestPair,
+) -> NearestPair {
     let mut descent = Descent {
         problem,
         oracle,
@@ -35,7 +35,7 @@ struct Descent<'d, O: DistanceOracle> {
     oracle: &'d mut O,
     meter: &'d mut Meter,
     cache: O::Cache,
-    best: BestPair,
+    best: NearestPair,
 }
 
 /// The distance of two pieces at one clock, and its rate of change.
@@ -57,7 +57,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         let snapshot = Snapshot::new(self.problem, a, b, clock);
         let checked = snapshot.query_oracle(self.oracle, &mut self.cache, self.meter)?;
         if checked.upper < self.best.contact.separation.upper {
-            self.best = BestPair {
+            self.best = NearestPair {
                 clock,
                 pieces,
                 contact: pair::contact(&snapshot, pieces, &checked),

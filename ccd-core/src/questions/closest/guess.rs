@@ -1,7 +1,7 @@
 //! Estimates the least distance before the search for it, from measurements at a few times.
 
 use super::follow::follow_to_minimum;
-use super::{BestPair, unresolved_outcome};
+use super::{NearestPair, unresolved_outcome};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -21,8 +21,8 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<Outcome, Option<BestPair>> {
-    let mut best: Option<BestPair> = None;
+) -> ControlFlow<Outcome, Option<NearestPair>> {
+    let mut best: Option<NearestPair> = None;
     let mut clock = nearest_clock(problem);
     for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
@@ -54,14 +54,14 @@ pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<SearchEnd, Option<BestPair>> {
+) -> ControlFlow<SearchEnd, Option<NearestPair>> {
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
     let mut nearest = NearestSearch::new(problem, clock, &mut lists).with_cutoff(beyond);
     let stopped = nearest.search(oracle, meter);
     let found = nearest.nearest_pieces();
     lists.clear();
     meter.scratch_memory().nearest = lists;
-    let best = |(pieces, contact)| BestPair {
+    let best = |(pieces, contact)| NearestPair {
         clock,
         pieces,
         contact,
@@ -78,12 +78,12 @@ pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
 
 /// Returns the outcome for a measurement that was stopped, because the bodies overlap at the start or a limit is
 /// reached.
-fn outcome_of_stop(problem: &Problem<'_>, best: Option<BestPair>, stop: SearchEnd) -> Outcome {
+fn outcome_of_stop(problem: &Problem<'_>, best: Option<NearestPair>, stop: SearchEnd) -> Outcome {
     match stop {
-        SearchEnd::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
+        SearchEnd::Overlap(_, contact) => Outcome::from_overlap(Overlap::Pieces(contact)),
         SearchEnd::Limit(limit) => {
             let seen =
-                |best: BestPair| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
+                |best: NearestPair| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
             let lower = greater(0.0, least_distance(problem));
             Outcome::Unresolved(Unresolved::for_least_distance(lower, best.map(seen), limit))
         }

@@ -10,7 +10,7 @@ use crate::problem::Problem;
 /// A sequence of attempts, each of which tries to prove a share of the least measured distance as a lower bound. Each
 /// attempt is a *rung*, and the share increases after each success.
 #[derive(Debug)]
-pub(crate) struct LowerBoundLadder {
+pub(crate) struct LowerBoundAttempts {
     /// The amount of work of the search after which it next tries to prove a lower bound.
     next: u64,
     /// The amount of work of the search after which it tries to prove a lower bound for the last time. The rest of the
@@ -42,20 +42,20 @@ impl MarginQuery {
 }
 
 /// The amount of work after which a search first tries to prove a lower bound. Most searches end sooner.
-const FIRST_RUNG_WORK: u64 = 1 << 17;
+const FIRST_ATTEMPT_WORK: u64 = 1 << 17;
 
 /// The amount of work after which a search with a deadline or a stop flag first tries to prove a lower bound.
-const FIRST_TIMED_RUNG_WORK: u64 = 1 << 14;
+const FIRST_TIMED_ATTEMPT_WORK: u64 = 1 << 14;
 
 /// The largest number of attempts to prove a lower bound at the end of a search that could not prove all pairs.
-pub(crate) const MAX_FINAL_RUNGS: usize = 8;
+pub(crate) const MAX_FINAL_ATTEMPTS: usize = 8;
 
-impl LowerBoundLadder {
+impl LowerBoundAttempts {
     /// Creates the sequence with a known lower bound, for a search with a given budget.
     pub(crate) fn new(lower: f64, budget: u64) -> Self {
         let last = budget - budget / 4;
-        LowerBoundLadder {
-            next: FIRST_RUNG_WORK.min(last),
+        LowerBoundAttempts {
+            next: FIRST_ATTEMPT_WORK.min(last),
             last,
             part: 0.5,
             // Written so that NaN is no bound.
@@ -66,7 +66,7 @@ impl LowerBoundLadder {
     /// Makes the first attempt earlier if a deadline or another thread may end the search.
     pub(crate) fn with_early_start(mut self, is_timed: bool) -> Self {
         if is_timed {
-            self.next = self.next.min(FIRST_TIMED_RUNG_WORK);
+            self.next = self.next.min(FIRST_TIMED_ATTEMPT_WORK);
         }
         self
     }
@@ -74,7 +74,7 @@ impl LowerBoundLadder {
     /// Returns the next attempt if the search has done enough work since the last attempt. It may take half as much
     /// work as was done before.
     #[inline]
-    pub(crate) fn next_rung_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
+    pub(crate) fn next_attempt_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
         if work < self.next {
             return None;
         }
@@ -83,12 +83,12 @@ impl LowerBoundLadder {
         } else {
             u64::MAX
         };
-        self.next_rung(upper, work / 2)
+        self.next_attempt(upper, work / 2)
     }
 
     /// Returns the next attempt for a least measured distance of `upper`; `None` if no distance is measured, no budget
     /// is left, or success would not increase the lower bound.
-    pub(crate) fn next_rung(&self, upper: f64, budget: u64) -> Option<MarginQuery> {
+    pub(crate) fn next_attempt(&self, upper: f64, budget: u64) -> Option<MarginQuery> {
         let level = self.part * upper;
         // The tolerance leaves room for proofs.
         let (margin, tolerance) = (0.75 * level, 0.25 * level);
@@ -101,7 +101,7 @@ impl LowerBoundLadder {
 
     /// Records the lower bound that an attempt proved, or `None` if it proved none, and chooses the share for the next
     /// attempt.
-    pub(crate) fn climb(&mut self, proven: Option<f64>) {
+    pub(crate) fn record_attempt(&mut self, proven: Option<f64>) {
         match proven {
             Some(proven) => {
                 self.lower = greater(self.lower, proven);

@@ -1,8 +1,8 @@
 //! Searches for the least distance of two bodies over a duration, pair by pair.
 
 use super::follow::follow_to_minimum;
-use super::ladder::{LowerBoundLadder, MAX_FINAL_RUNGS, MarginQuery};
-use super::{BestPair, FartherThanCutoff};
+use super::ladder::{LowerBoundAttempts, MAX_FINAL_ATTEMPTS, MarginQuery};
+use super::{FartherThanCutoff, NearestPair};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -19,19 +19,19 @@ use std::ops::ControlFlow;
 /// A search for the least distance, which proves that each pair stays at least as far apart as the least distance found
 /// so far.
 pub(crate) struct LeastDistanceSearch {
-    pub(crate) best: Option<BestPair>,
+    pub(crate) best: Option<NearestPair>,
     /// The distance from which on pairs are ignored.
     pub(crate) beyond: f64,
     pub(crate) proven: ProvenFacts,
     /// The reason why some pair could not be proven apart to the end; `None` if there is no such pair.
     pub(crate) first_failure: Option<Limit>,
     /// The lower bound of the distance that is proven for all pairs, with the state of further attempts.
-    pub(crate) ladder: LowerBoundLadder,
+    pub(crate) ladder: LowerBoundAttempts,
 }
 
 impl LeastDistanceSearch {
     pub(crate) fn upper(&self) -> f64 {
-        let upper = |best: BestPair| best.contact.separation.upper;
+        let upper = |best: NearestPair| best.contact.separation.upper;
         self.best.map_or(self.beyond, upper)
     }
 
@@ -51,7 +51,7 @@ impl LeastDistanceSearch {
 
     pub(crate) fn unresolved_outcome(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.ladder.lower, self.upper());
-        let seen = |best: BestPair| {
+        let seen = |best: NearestPair| {
             let contact = best.contact.cap_lower_bound(lower);
             (problem.time(best.clock), contact)
         };
@@ -81,7 +81,7 @@ impl LeastDistanceSearch {
             beyond: lower.contact_distance(),
             proven: ProvenFacts::default(),
             first_failure: None,
-            ladder: LowerBoundLadder::new(0.0, 0),
+            ladder: LowerBoundAttempts::new(0.0, 0),
         };
         let mut stack = Stack::default();
         let mut search = Search::new(&mut stack, oracle, meter);
@@ -97,8 +97,8 @@ impl LeastDistanceSearch {
             Some(Ok(overlapping @ Outcome::Overlapping { .. })) => {
                 return ControlFlow::Break(overlapping);
             }
-            Some(Err(FartherThanCutoff { lower })) => self.ladder.climb(Some(lower)),
-            _ => self.ladder.climb(None),
+            Some(Err(FartherThanCutoff { lower })) => self.ladder.record_attempt(Some(lower)),
+            _ => self.ladder.record_attempt(None),
         }
         if let Some(best) = below
             .best
@@ -122,9 +122,9 @@ impl LeastDistanceSearch {
             (Ok(Outcome::Unresolved(known)), Some(_)) => known.limit,
             _ => return found,
         };
-        for _ in 0..MAX_FINAL_RUNGS {
+        for _ in 0..MAX_FINAL_ATTEMPTS {
             let left = problem.budget.saturating_sub(meter.stats.work());
-            let Some(rung) = self.ladder.next_rung(self.upper(), left / 2) else {
+            let Some(rung) = self.ladder.next_attempt(self.upper(), left / 2) else {
                 break;
             };
             if let ControlFlow::Break(found) = self.climb(problem, rung, oracle, meter) {
@@ -153,7 +153,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
         match step {
             PairStep::FreeUntil(clock) => ControlFlow::Continue(clock),
             PairStep::Contact(contact) => {
-                let seen = BestPair {
+                let seen = NearestPair {
                     clock,
                     pieces,
                     contact,
@@ -164,7 +164,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
             }
             PairStep::Overlap(contact) => {
                 let overlap = Overlap::Pieces(contact);
-                ControlFlow::Break(Ok(Outcome::overlapping(overlap)))
+                ControlFlow::Break(Ok(Outcome::from_overlap(overlap)))
             }
             PairStep::Stalled => {
                 self.first_failure = Some(Limit::Stalled);

@@ -1,6 +1,6 @@
 //! Decides whether bodies keep a required distance, by two queries for any contact.
 
-use super::ladder::{LowerBoundLadder, MAX_FINAL_RUNGS, MarginQuery};
+use super::ladder::{LowerBoundAttempts, MAX_FINAL_ATTEMPTS, MarginQuery};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
 use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
@@ -33,7 +33,7 @@ impl RequiredClearance {
         let mut decision = ClearanceDecision {
             clearance: *self,
             any_contact,
-            ends_at: self.deadline.map(|deadline| (Instant::now(), deadline)),
+            start_and_deadline: self.deadline.map(|deadline| (Instant::now(), deadline)),
             stats: Stats::default(),
             query_tolerance: 0.5 * self.tolerance,
         };
@@ -44,7 +44,7 @@ impl RequiredClearance {
         decision.query_tolerance = greater(decision.query_tolerance, near.tolerance);
         let outcome = match self.decision_for(near.outcome) {
             Outcome::LeastDistance { time, contact, .. } if self.violation_distance() > 0.0 => {
-                decision.decide_nearer(time, contact)?
+                decision.decide_violation(time, contact)?
             }
             found => found,
         };
@@ -93,7 +93,7 @@ struct ClearanceDecision<F> {
     clearance: RequiredClearance,
     any_contact: F,
     /// The time at which the decision started, and the longest time that it may take; `None` if there is no deadline.
-    ends_at: Option<(Instant, Duration)>,
+    start_and_deadline: Option<(Instant, Duration)>,
     stats: Stats,
     /// The tolerance of each query: half the tolerance of the answer.
     query_tolerance: f64,
@@ -108,7 +108,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         };
         let left =
             |(begun, deadline): (Instant, Duration)| deadline.saturating_sub(begun.elapsed());
-        let answer = (self.any_contact)(rung, self.ends_at.map(left))?;
+        let answer = (self.any_contact)(rung, self.start_and_deadline.map(left))?;
         self.stats.add(&answer.stats);
         Ok(answer)
     }
@@ -120,7 +120,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
 
     /// Runs the second query, which asks whether the bodies come nearer than the distance by more than the excess.
     /// `contact` at `time` is the result of the first query, which found that they come near the distance.
-    fn decide_nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
+    fn decide_violation(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
         let (distance, query_tolerance) =
             (self.clearance.violation_distance(), self.query_tolerance);
         // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
@@ -147,19 +147,20 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
 
     /// Proves a lower bound of the distance with the rest of the budget, in several attempts; 0 if none succeeds.
     fn prove_lower_bound(&mut self, reason: Limit) -> Result<f64, E> {
-        let mut ladder = LowerBoundLadder::new(0.0, self.clearance.budget);
+        let mut ladder = LowerBoundAttempts::new(0.0, self.clearance.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {
             return Ok(ladder.lower);
         }
-        for _ in 0..MAX_FINAL_RUNGS {
-            let Some(rung) = ladder.next_rung(self.clearance.distance, self.remaining_work() / 2)
+        for _ in 0..MAX_FINAL_ATTEMPTS {
+            let Some(rung) =
+                ladder.next_attempt(self.clearance.distance, self.remaining_work() / 2)
             else {
                 break;
             };
             let found = self
                 .run_query(rung.margin, rung.tolerance, rung.budget)?
                 .outcome;
-            ladder.climb(match found {
+            ladder.record_attempt(match found {
                 Outcome::Free { proven_gap } => Some(proven_gap),
                 _ => None,
             });

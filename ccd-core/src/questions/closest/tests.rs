@@ -6,7 +6,7 @@ mod required;
 
 use super::*;
 use crate::answer::Clearance;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::EngineSchedule;
 use crate::math::order::lesser;
@@ -15,14 +15,14 @@ use crate::schedule::BestFirst;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{Kind, RngExt, direction, distance, magnitude, rng, scene};
 
-const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
+const SCENE_KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
 
 fn approach(problem: &Problem<'_>) -> Answer {
     DepthFirst::default().closest_approach_of(problem, &mut ExhaustiveOracle)
 }
 
 /// Returns the least of the distances sampled at equal time steps.
-fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
+fn sampled_least_distance(problem: &Problem<'_>, steps: u32) -> f64 {
     let at = |k| distance(problem, f64::from(k) / f64::from(steps));
     (0..=steps).map(at).fold(f64::INFINITY, lesser)
 }
@@ -32,14 +32,15 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let mut rng = rng(1);
     let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
     for number in 0..1_000 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 12).with_random_accelerations(&mut rng);
+        let mut scene =
+            scene(&mut rng, SCENE_KINDS[number % 4], 12).with_random_accelerations(&mut rng);
         scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
         let Answer {
             outcome, tolerance, ..
         } = approach(&problem);
         let slack = 2.0 * problem.rounding;
-        let found = sampled(&problem, 64);
+        let found = sampled_least_distance(&problem, 64);
         match outcome {
             Outcome::LeastDistance {
                 lower,
@@ -87,7 +88,7 @@ fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
     let mut rng = rng(2);
     let mut compared = 0;
     for number in 0..600 {
-        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
         let Answer {
             outcome, tolerance, ..
         } = approach(&scene.problem());
@@ -115,7 +116,7 @@ fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
 fn a_clearance_is_kept_violated_or_unknown() {
     let mut rng = rng(3);
     for number in 0..200 {
-        let scene = scene(&mut rng, KINDS[number % 3], 8);
+        let scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
         let outcome = approach(&scene.problem()).outcome;
         let (lower, upper) = (outcome.lower(), outcome.upper());
         assert_eq!(outcome.clearance(upper.next_up()), Clearance::Violated);
@@ -138,19 +139,19 @@ fn budgets_end_a_search_with_what_was_seen() {
     let mut rng = rng(4);
     let (mut ended, mut seen, mut proven) = (0, 0, 0);
     for number in 0..100 {
-        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
         let (visits, least) = {
             let answer = approach(&scene.problem());
             (answer.stats.iterations, answer.outcome.lower())
         };
-        let found = sampled(&scene.problem(), 64);
+        let found = sampled_least_distance(&scene.problem(), 64);
         for budget in 0..visits.min(60) {
             scene.config.budget = budget;
             let problem = scene.problem();
             let outcome = approach(&problem).outcome;
             let Outcome::Unresolved(Unresolved {
                 lower,
-                at: nearest,
+                nearest,
                 limit: reason,
                 ..
             }) = outcome
@@ -180,14 +181,14 @@ fn false_claims_and_give_ups_never_raise_the_lower_bound() {
     let mut rng = rng(5);
     let (mut unresolved, mut others) = (0, 0);
     for number in 0..300 {
-        let mut scene = scene(&mut rng, KINDS[number % 3], 8);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
         scene.config.budget = 20_000;
         let problem = scene.problem();
-        let found = sampled(&problem, 64);
+        let found = sampled_least_distance(&problem, 64);
         let lie = Claim {
             axis: direction(&mut rng),
-            a: Combination::point(rng.random_range(0..5)),
-            b: Combination::point(rng.random_range(0..5)),
+            a: ConvexCombination::point(rng.random_range(0..5)),
+            b: ConvexCombination::point(rng.random_range(0..5)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),
@@ -213,7 +214,7 @@ fn answers_do_not_depend_on_earlier_searches() {
     let mut rng = rng(6);
     let mut kept = DepthFirst::default();
     for number in 0..200 {
-        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let problem = scene.problem();
         let fresh = approach(&problem);
         assert_eq!(
@@ -232,7 +233,7 @@ fn bodies_at_rest_have_a_distance() {
     let mut rng = rng(7);
     let (mut apart, mut overlapping) = (0, 0);
     for number in 0..1_000 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let clock = scene.clock;
         scene.motions = scene
             .motions

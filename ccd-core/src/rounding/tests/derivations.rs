@@ -86,10 +86,10 @@ fn functions_cover_the_operations_that_they_count() {
 fn extreme_lengths_scale_to_ordinary_squares() {
     assert_eq!(EXTREME_VECTOR_SCALE, 2f64.powi(700));
     let least = f64::from_bits(1);
-    for length in [least, SQUARES.start().sqrt()] {
+    for length in [least, SQUARED_LENGTH_RANGE.start().sqrt()] {
         assert!((length * EXTREME_VECTOR_SCALE).powi(2).is_normal());
     }
-    for length in [SQUARES.end().sqrt(), f64::MAX] {
+    for length in [SQUARED_LENGTH_RANGE.end().sqrt(), f64::MAX] {
         assert!((length * EXTREME_VECTOR_SCALE.recip()).powi(2).is_normal());
     }
 }

@@ -3,7 +3,7 @@
 //! Coordinates are about a unit or far from the origins of the bodies and of the world, and turns are up to a million
 //! radians: each is a part of the bound.
 
-use super::{Shares, far_body, motion, shares_of_comparison};
+use super::{ErrorShares, error_shares, far_body, motion};
 use crate::math::order::greater;
 use crate::motion::relative::RelativePath;
 use crate::problem::Problem;
@@ -11,7 +11,7 @@ use crate::settings::{Instructions, Settings};
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{RngExt, direction, magnitude};
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use crate::{Body, Motion};
 use glam::DVec3;
 
@@ -52,12 +52,12 @@ impl Scene {
     fn problem(&self) -> Option<Problem<'_>> {
         let moving = |k: usize| (&self.bodies[k], self.motions[k]);
         let (bodies, pulls) = ([moving(0), moving(1)], self.accelerations);
-        Problem::accelerated(bodies, pulls, self.duration, &Settings::DEFAULT.terms()).ok()
+        Problem::with_accelerations(bodies, pulls, self.duration, &Settings::DEFAULT.terms()).ok()
     }
 
     /// Adds random accelerations, which move the bodies between a hundredth and a hundred times as far as their
     /// velocities.
-    fn accelerating(self, tape: &mut RandomCase) -> Self {
+    fn with_accelerations(self, tape: &mut RandomCase) -> Self {
         let pull = |motion: Motion| {
             let speed = motion.velocity().length() * magnitude(tape, -2.0, 2.0);
             direction(tape) * (speed / self.duration)
@@ -77,22 +77,22 @@ impl Scene {
 }
 
 /// Draws a scene, and returns the errors of its positions, gaps and distances as shares of their bound.
-fn shares_of_scene(tape: &mut RandomCase) -> Option<Shares> {
+fn shares_of_scene(tape: &mut RandomCase) -> Option<ErrorShares> {
     let scene = Scene::new(tape);
-    shares_of(tape, &scene)
+    scene_error_shares(tape, &scene)
 }
 
 /// Draws a scene without rotation, and returns the errors of its positions, gaps and distances as shares of their
 /// bound.
-fn shares_without_rotation(tape: &mut RandomCase) -> Option<Shares> {
+fn shares_without_rotation(tape: &mut RandomCase) -> Option<ErrorShares> {
     let scene = Scene::new(tape).without_rotation();
-    shares_of(tape, &scene)
+    scene_error_shares(tape, &scene)
 }
 
-fn shares_of(tape: &mut RandomCase, scene: &Scene) -> Option<Shares> {
+fn scene_error_shares(tape: &mut RandomCase, scene: &Scene) -> Option<ErrorShares> {
     let problem = scene.problem()?;
     let s = tape.random_range(0.0..1.0);
-    Some(shares_of_comparison(
+    Some(error_shares(
         tape,
         &problem,
         &scene.motions,
@@ -103,50 +103,50 @@ fn shares_of(tape: &mut RandomCase, scene: &Scene) -> Option<Shares> {
 
 #[test]
 fn worst_places() {
-    let found = Worst::of("distance_rounding, places", 8_000)
+    let found = WorstCaseSearch::of("distance_rounding, places", 8_000)
         .search(|tape| Some(shares_of_scene(tape)?.place));
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_gaps() {
-    let found =
-        Worst::of("distance_rounding, gaps", 8_000).search(|tape| Some(shares_of_scene(tape)?.gap));
-    found.is_within(100.0);
+    let found = WorstCaseSearch::of("distance_rounding, gaps", 8_000)
+        .search(|tape| Some(shares_of_scene(tape)?.gap));
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_distances() {
-    let found = Worst::of("distance_rounding, distances", 8_000)
+    let found = WorstCaseSearch::of("distance_rounding, distances", 8_000)
         .search(|tape| Some(shares_of_scene(tape)?.distance));
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_places_without_turns() {
-    let found = Worst::of("distance_rounding, places, without turns", 8_000)
+    let found = WorstCaseSearch::of("distance_rounding, places, without turns", 8_000)
         .search(|tape| Some(shares_without_rotation(tape)?.place));
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_gaps_without_turns() {
-    let found = Worst::of("distance_rounding, gaps, without turns", 8_000)
+    let found = WorstCaseSearch::of("distance_rounding, gaps, without turns", 8_000)
         .search(|tape| Some(shares_without_rotation(tape)?.gap));
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_distances_without_turns() {
-    let found = Worst::of("distance_rounding, distances, without turns", 8_000)
+    let found = WorstCaseSearch::of("distance_rounding, distances, without turns", 8_000)
         .search(|tape| Some(shares_without_rotation(tape)?.distance));
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 /// Searches for the worst rounding of positions on motions whose velocities are derived from given poses at both ends.
 #[test]
 fn worst_places_between_poses() {
-    let found = Worst::of("distance_rounding, between poses", 8_000).search(|tape| {
+    let found = WorstCaseSearch::of("distance_rounding, between poses", 8_000).search(|tape| {
         let world = direction(tape) * magnitude(tape, 0.0, 11.9);
         let (size, duration) = (magnitude(tape, -3.0, 3.0), magnitude(tape, -3.0, 3.0));
         let bodies = [(); 2].map(|()| far_body(tape, 1, size));
@@ -161,7 +161,7 @@ fn worst_places_between_poses() {
         let problem = scene.problem()?;
         let origin = Double3::from(ends[1].positions[0]);
         let s = tape.random_range(0.0..1.0);
-        let k = tape.pick(2);
+        let k = tape.index_below(2);
         let frame = [&problem.a, &problem.b][k].path.frame(s);
         let off = |p: &DVec3| {
             let exact = ends[k].place(Double::from(s), *p) - origin;
@@ -170,17 +170,17 @@ fn worst_places_between_poses() {
         let off = scene.bodies[k].pieces().points().iter().map(off);
         Some(share(off.fold(0.0, greater), problem.rounding))
     });
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_places_of_accelerating_bodies() {
-    let found = Worst::of("distance_rounding, accelerating", 8_000).search(|tape| {
-        let scene = Scene::new(tape).accelerating(tape);
+    let found = WorstCaseSearch::of("distance_rounding, accelerating", 8_000).search(|tape| {
+        let scene = Scene::new(tape).with_accelerations(tape);
         let problem = scene.problem()?;
         let origin = Double3::from(scene.motions[1].start().translation());
         let s = tape.random_range(0.0..1.0);
-        let k = tape.pick(2);
+        let k = tape.index_below(2);
         let frame = [&problem.a, &problem.b][k].path.frame(s);
         let off = |p: &DVec3| {
             let exact = scene.place(k, s, *p) - origin;
@@ -189,20 +189,20 @@ fn worst_places_of_accelerating_bodies() {
         let off = scene.bodies[k].pieces().points().iter().map(off);
         Some(share(off.fold(0.0, greater), problem.rounding))
     });
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 /// Searches for the worst rounding of the relative pose of two bodies that bounds of nodes use.
 #[test]
 fn worst_views() {
-    let found = Worst::of("distance_rounding, views", 8_000).search(|tape| {
+    let found = WorstCaseSearch::of("distance_rounding, views", 8_000).search(|tape| {
         let mut scene = Scene::new(tape);
-        if tape.pick(2) == 0 {
-            scene = scene.accelerating(tape);
+        if tape.index_below(2) == 0 {
+            scene = scene.with_accelerations(tape);
         }
         let problem = scene.problem()?;
         let s = tape.random_range(0.0..1.0);
-        let own = tape.pick(2);
+        let own = tape.index_below(2);
         let sides = [&problem.a, &problem.b];
         let (from, to) = (sides[own], sides[1 - own]);
         let view = RelativePath::new(&from.path, &to.path);
@@ -212,12 +212,12 @@ fn worst_views() {
         let found = crate::vectorize!(level, level => {
             let seen = view.at(level, s);
             let arm = crate::math::simd::PackedVector::new(level, arm);
-            (seen.rotation * arm + seen.offset).unpacked()
+            (seen.rotation * arm + seen.offset).to_dvec3()
         });
         let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));
         let exact = scene.place(1 - own, s, y) - scene.place(own, s, x);
         let off = (found.length() - exact.length()).get().abs();
         Some(share(off, problem.rounding))
     });
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }

@@ -4,12 +4,12 @@ use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
 use crate::rounding::{
-    DETERMINANT_ERROR_F64, FRAME_ERROR_F64, HEIGHT_ERROR_F64, LEAST_ROUNDING, SQUARES,
+    DETERMINANT_ERROR_F64, FRAME_ERROR_F64, HEIGHT_ERROR_F64, LEAST_ROUNDING, SQUARED_LENGTH_RANGE,
     TURN_COUNT_WIDENING, UNIT_ROUNDOFF_F64, distance_rounding, height_rounding,
 };
 use crate::tests::double::{Double, Double3};
 use crate::tests::rational::{Exact3, error_of};
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::{DMat3, DVec3};
 
 /// The range of binary exponents of random coordinates, from 1e-100 up to the accepted maximum of 1e12.
@@ -20,9 +20,9 @@ fn corners<const N: usize>(tape: &mut RandomCase) -> [DVec3; N] {
     let scale = tape.size(COORDINATE_EXPONENTS);
     let first = DVec3::from(tape.vector(-8..=0));
     let near = tape.size(-50..=0);
-    [(); N].map(|()| match tape.pick(4) {
+    [(); N].map(|()| match tape.index_below(4) {
         0 => DVec3::from(tape.vector(-60..=0)) * scale,
-        1 => DVec3::from(first.to_array().map(|x| tape.near(x))) * scale,
+        1 => DVec3::from(first.to_array().map(|x| tape.number_near(x))) * scale,
         _ => (first + DVec3::from(tape.vector(-8..=0)) * near) * scale,
     })
 }
@@ -38,32 +38,32 @@ fn size(v: DVec3) -> f64 {
 
 #[test]
 fn height_f64() {
-    let found = Worst::of("HEIGHT_F64", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("HEIGHT_F64", 40_000).search(|tape| {
         let (n, x) = (axis(tape)?, DVec3::from(tape.vector(COORDINATE_EXPONENTS)));
         let exact = Exact3::of(n).dot(&Exact3::of(x));
         let allowed = HEIGHT_ERROR_F64 * size(n) * x.abs().max_element();
         Some(share(error_of(n.dot(x), &exact), allowed))
     });
-    found.is_within(3.0);
+    found.assert_within(3.0);
 }
 
 /// Tests the error bound of a corner's position along a ray, by which the sign of the position is decided.
 #[test]
 fn sign_f64_of_a_product() {
-    let found = Worst::of("DETERMINANT_F64, a product", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("DETERMINANT_F64, a product", 40_000).search(|tape| {
         let ([from, corner], n) = (corners(tape), axis(tape)?);
         let way = corner - from;
         let exact = Exact3::of(n).dot(&Exact3::of(corner).minus(&Exact3::of(from)));
         let allowed = DETERMINANT_ERROR_F64 * size(way) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(way), &exact), allowed))
     });
-    found.is_within(12.0);
+    found.assert_within(12.0);
 }
 
 /// Tests the error bound of the determinant whose sign decides on which side of an edge a ray passes.
 #[test]
 fn sign_f64_of_a_ray_and_an_edge() {
-    let found = Worst::of("DETERMINANT_F64, a ray and an edge", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("DETERMINANT_F64, a ray and an edge", 40_000).search(|tape| {
         let ([from, p, q], n) = (corners(tape), axis(tape)?);
         let [a, b, c] = [from, p, q].map(Exact3::of);
         let exact = Exact3::of(n).dot(&b.minus(&a).cross(&c.minus(&a)));
@@ -71,13 +71,13 @@ fn sign_f64_of_a_ray_and_an_edge() {
         let allowed = DETERMINANT_ERROR_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(p.cross(q)), &exact), allowed))
     });
-    found.is_within(9.0);
+    found.assert_within(9.0);
 }
 
 /// Tests the error bound of the determinant whose sign decides on which side of a triangle a ray starts.
 #[test]
 fn sign_f64_of_three_corners() {
-    let found = Worst::of("DETERMINANT_F64, three corners", 30_000).search(|tape| {
+    let found = WorstCaseSearch::of("DETERMINANT_F64, three corners", 30_000).search(|tape| {
         let [from, of @ ..]: [DVec3; 4] = corners(tape);
         let start = Exact3::of(from);
         let [a, b, c] = of.map(|p| Exact3::of(p).minus(&start));
@@ -86,13 +86,13 @@ fn sign_f64_of_three_corners() {
         let allowed = DETERMINANT_ERROR_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
         Some(share(error_of(a.dot(b.cross(c)), &exact), allowed))
     });
-    found.is_within(9.0);
+    found.assert_within(9.0);
 }
 
 /// Tests the error bound of a point's height above a plane, as the point tree and hulls compute it.
 #[test]
 fn height_rounding_of_points() {
-    let found = Worst::of("height_rounding, a point", 30_000).search(|tape| {
+    let found = WorstCaseSearch::of("height_rounding, a point", 30_000).search(|tape| {
         let [a, b, c, x, base] = corners(tape);
         let [u, v] = [b - a, c - a];
         let normal = u.cross(v);
@@ -106,13 +106,13 @@ fn height_rounding_of_points() {
             height_rounding([u, v], reach),
         ))
     });
-    found.is_within(30.0);
+    found.assert_within(30.0);
 }
 
 /// Tests that the computed height of a box falls below the exact height of a point in it by at most the error bound.
 #[test]
 fn height_rounding_of_boxes() {
-    let found = Worst::of("height_rounding, a box", 30_000).search(|tape| {
+    let found = WorstCaseSearch::of("height_rounding, a box", 30_000).search(|tape| {
         let [a, b, c, x, y, base] = corners(tape);
         let [u, v] = [b - a, c - a];
         let normal = u.cross(v);
@@ -138,18 +138,18 @@ fn height_rounding_of_boxes() {
             height_rounding([u, v], reach),
         ))
     });
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }
 
 /// Tests that computed principal axes deviate from unit length and right angles by at most the error bound.
 #[test]
 fn frame_f64() {
-    let found = Worst::of("FRAME_F64", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("FRAME_F64", 20_000).search(|tape| {
         let points: [DVec3; 4] = [(); 4].map(|()| tape.vector(-40..=0).into());
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         Some(share(orthonormality_error(&frame), FRAME_ERROR_F64))
     });
-    found.is_within(200.0);
+    found.assert_within(200.0);
 }
 
 fn orthonormality_error(frame: &DMat3) -> f64 {
@@ -172,7 +172,7 @@ fn units_and_lengths() {
             3.0,
         ),
     ] {
-        let found = Worst::of(name, 40_000).search(|tape| {
+        let found = WorstCaseSearch::of(name, 40_000).search(|tape| {
             let v = DVec3::from(tape.vector(exponents.clone()));
             let n = unit(v)?;
             // The vector is scaled by a power of two: the digits of double-double do not reach below 1e-290.
@@ -184,7 +184,7 @@ fn units_and_lengths() {
             let error = greater(off.get().abs() / exact, of_unit.get().abs());
             Some(share(error, 4.0 * UNIT_ROUNDOFF_F64))
         });
-        found.is_within(looseness);
+        found.assert_within(looseness);
     }
 }
 
@@ -192,10 +192,10 @@ fn units_and_lengths() {
 /// constant would vanish too.
 #[test]
 fn least_rounding() {
-    let found = Worst::of("LEAST_ROUNDING", 10_000).search(|tape| {
+    let found = WorstCaseSearch::of("LEAST_ROUNDING", 10_000).search(|tape| {
         let v = DVec3::from(tape.vector(-1074..=-1000));
         let bound = distance_rounding([length(v), 0.0], [0.0; 2], 0.0);
-        assert!(bound >= LEAST_ROUNDING && length(v).powi(2) < *SQUARES.start());
+        assert!(bound >= LEAST_ROUNDING && length(v).powi(2) < *SQUARED_LENGTH_RANGE.start());
         // A third of a vector occurs in a mean of corners.
         let third = v / 3.0;
         let exact = Exact3::of(v);
@@ -210,7 +210,7 @@ fn least_rounding() {
         Some(share(worst, bound * 2f64.powi(500) * 2f64.powi(500)))
     });
     // The allowance is far above the error, as its derivation says.
-    found.is_within(f64::INFINITY);
+    found.assert_within(f64::INFINITY);
 }
 
 /// Tests the error bound of numbers of turns, which are quotients of angles.
@@ -221,7 +221,7 @@ fn turns_f64() {
         let rough = Double::from(std::f64::consts::TAU);
         rough - rough.sin_cos().0
     };
-    let found = Worst::of("TURN_COUNT_WIDENING", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("TURN_COUNT_WIDENING", 20_000).search(|tape| {
         let [from, width, ahead] = [0; 3].map(|_| tape.any(-20..=20));
         let turns = (from - width - ahead) / std::f64::consts::TAU;
         let exact = (Double::from(from) - Double::from(width) - Double::from(ahead)) / tau;
@@ -231,5 +231,5 @@ fn turns_f64() {
         let allowed = TURN_COUNT_WIDENING * (1.0 + most.fold(turns.abs(), greater));
         Some(share(off, allowed))
     });
-    found.is_within(1e8);
+    found.assert_within(1e8);
 }

@@ -51,7 +51,8 @@ fn check_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
             }
         });
         let bodies = [a, b];
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
+        let problem =
+            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
         if !tells(&problem) {
             near += 1;
             continue;

@@ -10,7 +10,7 @@ use crate::rounding::BOX_EXTENT_ERROR_F32;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{direction, random_box_corners};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
 /// Searches for the point of a body that lies farthest outside its placed box, as a share of the allowance for
@@ -19,7 +19,7 @@ use glam::DVec3;
 fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);
     let ball = Body::sphere(0.1).unwrap();
-    let found = Worst::of("BOX_AXES_F32", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("BOX_AXES_F32", 20_000).search(|tape| {
         let points = random_box_corners(tape);
         let of = Polytope {
             points: points.clone(),
@@ -29,7 +29,7 @@ fn worst_reach_of_a_box() {
         let problem =
             Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
         let node = PlacedNode::new(&problem.a, 0, 0.0);
-        let along = points[tape.pick(8)] - points[tape.pick(8)];
+        let along = points[tape.index_below(8)] - points[tape.index_below(8)];
         let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
         let height = |&p: &DVec3| {
             let way = Double3::from(p) - Double3::from(node.centre);
@@ -40,5 +40,5 @@ fn worst_reach_of_a_box() {
         let reach = Double::from(node.extent_along(n)) - Double::from(allowed);
         Some(share((highest - reach).get(), allowed))
     });
-    found.is_within(20.0);
+    found.assert_within(20.0);
 }

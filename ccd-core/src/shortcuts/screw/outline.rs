@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 #[derive(Debug)]
 pub(crate) struct Outline {
     /// The projected corners (`r`, `ζ`), with the distance from the axis as `r`.
-    outer: [DVec2; 3],
+    outer_corners: [DVec2; 3],
     /// The projected corners with a lower bound of the distance from the axis as `r`; the bound is a linear function
     /// over the triangle.
     inner: [DVec2; 3],
@@ -23,7 +23,7 @@ pub(crate) struct Outline {
     zeta_nonlinearity: f64,
     /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
     /// to them.
-    rounding_factors: [f64; 2],
+    rounding_lengths: [f64; 2],
     tilt: f64,
 }
 
@@ -35,8 +35,8 @@ pub(crate) struct LinearApproximation {
     pub(crate) zeta: f64,
     /// The gradient of `ζ` at the node's centre.
     pub(crate) zeta_gradient: DVec3,
-    pub(crate) twist: f64,
-    pub(crate) scale: [f64; 2],
+    pub(crate) zeta_nonlinearity: f64,
+    pub(crate) rounding_lengths: [f64; 2],
     pub(crate) tilt: f64,
 }
 
@@ -60,10 +60,10 @@ impl Outline {
         let facing = unit(x + y)?;
         let zeta = |w: DVec3| linear.zeta + w.dot(linear.zeta_gradient);
         Some(Outline {
-            outer: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
+            outer_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
             inner: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
-            zeta_nonlinearity: linear.twist,
-            rounding_factors: linear.scale,
+            zeta_nonlinearity: linear.zeta_nonlinearity,
+            rounding_lengths: linear.rounding_lengths,
             tilt: linear.tilt,
         })
     }
@@ -71,12 +71,12 @@ impl Outline {
     /// Returns an interval that contains all values of `n.x r + n.y ζ` over the triangle.
     pub(crate) fn interval(&self, n: DVec2) -> [f64; 2] {
         let (least, most) = if n.x < 0.0 {
-            (&self.outer, &self.inner)
+            (&self.outer_corners, &self.inner)
         } else {
-            (&self.inner, &self.outer)
+            (&self.inner, &self.outer_corners)
         };
         let slack = n.y.abs() * self.zeta_nonlinearity
-            + profile_rounding(n.abs().to_array(), self.rounding_factors, self.tilt);
+            + profile_rounding(n.abs().to_array(), self.rounding_lengths, self.tilt);
         let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
         let high = most
             .iter()
@@ -87,7 +87,7 @@ impl Outline {
 
     /// Returns the surfaces `a r + b ζ = const` along the triangle's edges, as unit vectors (`a`, `b`) with `b ≥ 0`.
     pub(crate) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
-        let [a, b, c] = self.outer;
+        let [a, b, c] = self.outer_corners;
         let edges = [b - a, c - b, a - c];
         let across = edges.map(|edge| edge.perp() / edge.length());
         // An edge along the turn has no direction here. Written so that NaN gives none.

@@ -73,7 +73,7 @@ impl ScrewAxis {
 impl Profile {
     /// Computes the profile of a node; `None` if the node surrounds the axis, or nearly does.
     pub(crate) fn new(node: &PlacedNode, axis: &ScrewAxis) -> Option<Self> {
-        Profile::near_azimuth(node, axis, None)
+        Profile::with_azimuth_near(node, axis, None)
     }
 
     /// Computes the union of the profiles of one or more parts; `None` if one of them surrounds the axis, or nearly
@@ -85,7 +85,7 @@ impl Profile {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
             all.outline = None;
-            let part = Profile::near_azimuth(&part, axis, Some(all.azimuth))?;
+            let part = Profile::with_azimuth_near(&part, axis, Some(all.azimuth))?;
             for k in 0..SURFACE_COUNT {
                 all.low[k] = lesser(all.low[k], part.low[k]);
                 all.high[k] = greater(all.high[k], part.high[k]);
@@ -100,7 +100,7 @@ impl Profile {
 
     /// Computes the profile of a node, with the azimuth within half a turn of `near` if that is given; `None` if the
     /// node surrounds the axis, or nearly does.
-    fn near_azimuth(node: &PlacedNode, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
+    fn with_azimuth_near(node: &PlacedNode, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
         let across = way - height * axis.unit;
@@ -148,8 +148,8 @@ impl Profile {
             axis: [axis.origin, axis.unit],
             zeta,
             zeta_gradient: ahead,
-            twist,
-            scale: [arm, node.radius],
+            zeta_nonlinearity: twist,
+            rounding_lengths: [arm, node.radius],
             tilt: axis.advance / distance,
         };
         profile.outline = Outline::new(node, &linear);

@@ -28,7 +28,7 @@ struct ScrewPassage {
     screw_motion: Motion,
     still: Motion,
     /// The clock at which the bodies are near each other.
-    passage_time: f64,
+    passage_clock: f64,
 }
 
 fn random_screw_passage(rng: &mut Pcg64) -> ScrewPassage {
@@ -56,7 +56,7 @@ fn random_screw_passage(rng: &mut Pcg64) -> ScrewPassage {
         bodies: [body(&moving), body(&still)],
         screw_motion: Motion::new(Pose::new(place, own).unwrap(), velocity, turn * axis).unwrap(),
         still: Motion::still(Pose::IDENTITY),
-        passage_time: near,
+        passage_clock: near,
     }
 }
 
@@ -127,18 +127,18 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         let pull = direction(&mut rng) * [0.0, 3.0][number / 2 % 2];
         let pulls = [pull, pull * (1.0 + [0.0, 1e-3][number / 4 % 2])];
         let bodies = [first, second];
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &config.terms()).unwrap();
+        let problem = Problem::with_accelerations(bodies, pulls, 1.0, &config.terms()).unwrap();
         // The axis may move too fast for small bodies.
         let mut profiles = Profiles::default();
         let Some(screw) = Screw::for_problem(&problem, &mut profiles) else {
             continue;
         };
-        let s = [0.0, 0.5 * passage.passage_time][rng.random_range(0..2)];
+        let s = [0.0, 0.5 * passage.passage_clock][rng.random_range(0..2)];
         for ids in all_node_pairs(&problem) {
             match screw.keeps_apart(&problem, &mut profiles, ids, s) {
                 Some(true) => {
                     proven += 1;
-                    let least = least_distance(&problem, ids, s, passage.passage_time);
+                    let least = least_distance(&problem, ids, s, passage.passage_clock);
                     assert!(least > problem.node_gap(), "{number} {ids:?}: {least:e}");
                 }
                 _ => missed += 1,
@@ -245,7 +245,7 @@ fn what_is_no_screw_has_no_profiles() {
     ));
     let falls = |pulls: [DVec3; 2]| {
         let bodies = [(&cube, motion(DVec3::Z, DVec3::Z)), (&cube, still)];
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &config.terms()).unwrap();
+        let problem = Problem::with_accelerations(bodies, pulls, 1.0, &config.terms()).unwrap();
         Screw::for_problem(&problem, &mut Profiles::default()).is_some()
     };
     assert!(falls([9.8 * DVec3::X; 2]));

@@ -115,8 +115,8 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     };
     let gap = gap_at(clock);
     let slack = gap.abs() * magnitude(rng, -3.0, 0.0);
-    let free =
-        TurningPiece::new(own, other, towards, problem.rounding).free_time(slack, 1.0 - clock);
+    let free = PiecePastTurningPlane::new(own, other, towards, problem.rounding)
+        .free_time(slack, 1.0 - clock);
     let until = free.map_or(1.0, |free| clock + free);
     // Both gaps are rounded.
     let least = gap - slack - 2.0 * problem.rounding;
@@ -161,7 +161,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
                 continue;
             }
             let normal = direction(&mut rng);
-            let sweep = TurningPiece::new(own, other, normal, problem.rounding);
+            let sweep = PiecePastTurningPlane::new(own, other, normal, problem.rounding);
             let motions = [&scene.motions[holder], &scene.motions[1 - holder]];
             let point = other.piece.points[rng.random_range(0..other.piece.points.len())];
             let rises = |tau: f64| {
@@ -263,11 +263,12 @@ fn no_slack_is_no_time() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         let [a, b] = snapshot.moving_pieces();
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free = TurningPiece::new(&a, &b, direction(&mut rng), problem.rounding)
+            let free = PiecePastTurningPlane::new(&a, &b, direction(&mut rng), problem.rounding)
                 .free_time(slack, 0.5);
             assert_eq!(free, Some(0.0), "{slack}");
         }
-        let free = TurningPiece::new(&a, &b, DVec3::NAN, problem.rounding).free_time(1.0, 0.5);
+        let free =
+            PiecePastTurningPlane::new(&a, &b, DVec3::NAN, problem.rounding).free_time(1.0, 0.5);
         assert_eq!(free, Some(0.0));
     }
 }

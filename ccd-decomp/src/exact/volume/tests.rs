@@ -1,6 +1,6 @@
 use super::*;
 use crate::rational::{Exact3, error_of, exact};
-use crate::worst::{Worst, share};
+use crate::worst::{WorstCaseSearch, share};
 use ccd_core::glam::dvec3;
 
 /// Returns the surface triangles of a long square rod of unit cubes. Its volume is small compared to the products in
@@ -54,7 +54,7 @@ fn the_sign_of_a_long_solids_volume_is_certain() {
 /// bound is dominated up to ten million volumes, and is not tested here.
 #[test]
 fn worst_volume() {
-    let found = Worst::of("volume_rounding", 6_000).search(|tape| {
+    let found = WorstCaseSearch::of("volume_rounding", 6_000).search(|tape| {
         let scale = tape.size(-200..=39);
         let mut point = |range| DVec3::from(tape.vector(range)) * scale;
         let (near, far) = (point(-8..=0), point(-8..=0));
@@ -71,5 +71,5 @@ fn worst_volume() {
         let error = error_of(volume.sum + volume.addition_errors, &truth);
         Some(share(error, volume_rounding(volume.size, volume.terms)))
     });
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }

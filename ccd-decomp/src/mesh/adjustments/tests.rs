@@ -13,7 +13,7 @@ fn adjustments_add_up() {
     );
     let twice = small.combined_with(&small).unwrap();
     assert_eq!(twice.to_string(), "@scale=0.25");
-    let stated = Adjustments::NONE.stated_in(Unit::Inch);
+    let stated = Adjustments::NONE.with_stated_unit(Unit::Inch);
     let wanted = Adjustments::NONE.converted_to(Unit::Metre);
     let units = stated.combined_with(&wanted).unwrap();
     assert_eq!(
@@ -28,7 +28,13 @@ fn factors_are_positive_numbers_and_stay_so() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let refused = Adjustments::NONE.scaled(bad);
         assert!(
-            matches!(refused, Err(InputError::OutOfRange { what: "scale", .. })),
+            matches!(
+                refused,
+                Err(InputError::OutOfRange {
+                    quantity: "scale",
+                    ..
+                })
+            ),
             "{bad}"
         );
     }

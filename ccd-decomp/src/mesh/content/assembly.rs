@@ -15,7 +15,7 @@ pub(crate) struct Assembly {
     /// The shapes, as lists of triangles; the corners of a shape are indices into its own vertices.
     shapes: Vec<Polygons>,
     pub(crate) parts: Vec<Part>,
-    allowance: ExpansionBudget,
+    budget: ExpansionBudget,
 }
 
 /// A part of a scene: the index of a shape, with the affine map that places it.
@@ -37,7 +37,7 @@ impl Assembly {
         Assembly {
             shapes,
             parts,
-            allowance,
+            budget: allowance,
         }
     }
 
@@ -53,7 +53,7 @@ impl Assembly {
 
     /// Checks that the number of vertices and corners of some parts does not exceed the file's budget.
     pub(super) fn check_expansion_cost(&self, parts: Range<usize>) -> Result<(), MeshFault> {
-        let mut allowance = self.allowance;
+        let mut allowance = self.budget;
         self.parts[parts].iter().try_for_each(|part| {
             let shape = &self.shapes[part.shape];
             let (vertices, corners) = (shape.vertices.len(), shape.corners.len());

@@ -20,7 +20,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     // Whether this line may continue one that was passed over.
     let mut continues = false;
     while let Some((number, line)) = lines.next() {
-        let statement = without_comment(line);
+        let statement = strip_comment(line);
         let may_continue = std::mem::replace(&mut continues, statement.ends_with('\\'));
         match statement.split_whitespace().next().unwrap_or_default() {
             keyword @ ("v" | "f") => {
@@ -44,7 +44,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     file.into_content()
 }
 
-fn without_comment(line: &str) -> &str {
+fn strip_comment(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim()
 }
 
@@ -55,7 +55,7 @@ fn join_continued_lines<'a>(
 ) -> Cow<'a, str> {
     let mut statement = Cow::from(statement);
     while statement.ends_with('\\') {
-        let next = without_comment(lines.next().unwrap_or_default());
+        let next = strip_comment(lines.next().unwrap_or_default());
         statement.to_mut().pop();
         statement.to_mut().extend([" ", next]);
     }
@@ -70,7 +70,7 @@ struct Reader {
     groups: NamedGroups,
     /// The first face corner whose vertex number is 0 or counts back beyond the first vertex: its face, and that
     /// number.
-    missing: Option<(usize, i64)>,
+    invalid_corner: Option<(usize, i64)>,
 }
 
 impl Reader {
@@ -117,7 +117,8 @@ impl Reader {
                 vertex - 1
             };
             if place < 0 {
-                self.missing.get_or_insert((polygons.ends.len(), vertex));
+                self.invalid_corner
+                    .get_or_insert((polygons.ends.len(), vertex));
             }
             polygons.corners.push(place);
         }
@@ -137,7 +138,7 @@ impl Reader {
             let face = polygons.ends.partition_point(|&end| end <= at);
             (face, polygons.corners[at] + 1)
         });
-        let missing = self.missing.into_iter().chain(beyond);
+        let missing = self.invalid_corner.into_iter().chain(beyond);
         match missing.min_by_key(|&(face, _)| face) {
             _ if vertices == 0 => return Err(MeshFault::NoVertices),
             None => {}
@@ -183,12 +184,12 @@ struct NamedGroups {
     groups: Groups,
     /// The number of each group, by its name.
     numbers: HashMap<Option<String>, u32>,
-    current: Option<String>,
+    current_name: Option<String>,
 }
 
 impl NamedGroups {
     fn set_current_name(&mut self, name: &str) {
-        self.current = (!name.is_empty()).then(|| name.to_owned());
+        self.current_name = (!name.is_empty()).then(|| name.to_owned());
     }
 
     fn add_face(&mut self) {
@@ -196,12 +197,15 @@ impl NamedGroups {
             names,
             group_of_face: of_face,
         } = &mut self.groups;
-        let number = match self.numbers.get(&self.current) {
+        let number = match self.numbers.get(&self.current_name) {
             Some(&number) => number,
             None => {
-                names.push(self.current.clone());
+                names.push(self.current_name.clone());
                 let number = names.len() as u32 - 1;
-                *self.numbers.entry(self.current.clone()).or_insert(number)
+                *self
+                    .numbers
+                    .entry(self.current_name.clone())
+                    .or_insert(number)
             }
         };
         of_face.push(number);
@@ -254,7 +258,7 @@ fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(
             let problem = format!("{keyword:?} instead of {known:?}");
             return Err(MeshFault::malformed_content(problem));
         }
-        other => remarks.add_named("statements", other, 1, Some(line)),
+        other => remarks.add_skipped("statements", other, 1, Some(line)),
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = Lines {
         rest: text.lines(),
-        number: 0,
+        line_number: 0,
     };
     let Some(first) = lines.next() else {
         return Err(MeshFault::NoVertices);
@@ -75,7 +75,7 @@ fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u6
 /// An iterator over the lines of a text, except blank lines and comments.
 struct Lines<'a> {
     rest: std::str::Lines<'a>,
-    number: usize,
+    line_number: usize,
 }
 
 struct Line<'a> {
@@ -96,12 +96,12 @@ impl<'a> Iterator for Lines<'a> {
 
     fn next(&mut self) -> Option<Line<'a>> {
         for line in self.rest.by_ref() {
-            self.number += 1;
+            self.line_number += 1;
             let text = line.split('#').next().unwrap_or_default();
             if !text.trim().is_empty() {
                 return Some(Line {
                     words: text.split_whitespace(),
-                    number: self.number,
+                    number: self.line_number,
                 });
             }
         }

@@ -18,7 +18,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let bytes = &with_line_feeds(bytes);
+    let bytes = &normalized_line_ends(bytes);
     check_unique_names(bytes)?;
     let mut reader = Reader::new(&bytes[..]);
     let header = Parser::<Element>::new()
@@ -44,7 +44,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
             }
             other => {
                 let remarks = &mut polygons.remarks;
-                remarks.add_named("elements", other, element.count, None);
+                remarks.add_skipped("elements", other, element.count, None);
             }
         }
     }
@@ -69,7 +69,7 @@ fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
 }
 
 /// Converts lone carriage returns to line feeds, except in a binary payload.
-fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
+fn normalized_line_ends(bytes: &[u8]) -> Cow<'_, [u8]> {
     const END_HEADER: &[u8] = b"end_header\r";
     let end = bytes
         .windows(END_HEADER.len())

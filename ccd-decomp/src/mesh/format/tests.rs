@@ -89,7 +89,9 @@ fn tetrahedron_gltf() -> crate::test_files::Gltf {
             .collect::<Vec<_>>()
             .as_slice(),
     );
-    gltf.primitive(serde_json::json!({"attributes": {"POSITION": position}, "indices": indices}));
+    gltf.add_primitive(
+        serde_json::json!({"attributes": {"POSITION": position}, "indices": indices}),
+    );
     gltf
 }
 

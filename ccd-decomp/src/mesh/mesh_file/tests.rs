@@ -99,7 +99,7 @@ fn a_fault_of_a_part_names_the_part() {
 fn a_file_without_a_unit_is_taken_as_it_is() {
     let file = read(OBJ);
     assert_eq!(file.unit(), None);
-    let file = file.in_unit(Unit::Inch);
+    let file = file.converted_to_unit(Unit::Inch);
     assert_eq!(file.unit(), Some(Unit::Inch));
     assert_eq!(file.into_mesh().unwrap().vertices()[0], DVec3::splat(9.0));
 }
@@ -153,12 +153,12 @@ mod beside {
             "{message}"
         );
         std::fs::create_dir(folder.0.join("deep er")).unwrap();
-        let data = folder.write("deep er/data.bin", &gltf.binary);
+        let data = folder.write("deep er/data.bin", &gltf.buffer);
         let mesh = TriangleMesh::read(&path).unwrap();
         assert_eq!(mesh.vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
         assert_eq!(source_paths(&path).unwrap(), [path.clone(), data.clone()]);
         // A truncated buffer file is named as that buffer.
-        std::fs::write(&data, &gltf.binary[..35]).unwrap();
+        std::fs::write(&data, &gltf.buffer[..35]).unwrap();
         let message = TriangleMesh::read(&path).unwrap_err().to_string();
         assert!(
             message.contains("buffer 0: ends before byte 35 of 36"),
@@ -175,7 +175,7 @@ mod beside {
     fn only_files_in_the_folder_are_read() {
         let folder = Folder::new("outside");
         let gltf = Gltf::triangle();
-        folder.write("data.bin", &gltf.binary);
+        folder.write("data.bin", &gltf.buffer);
         let outside = folder.0.join("data.bin").display().to_string();
         std::fs::create_dir(folder.0.join("within")).unwrap();
         let uris = [

@@ -32,7 +32,8 @@ fn lengths_are_those_of_the_units() {
 
 /// Returns a coordinate in another unit as an exact fraction.
 fn exact(x: f64, from: Unit, to: Unit) -> RBig {
-    let ratio = RBig::from(from.definition().1) / RBig::from(to.definition().1);
+    let ratio =
+        RBig::from(from.symbol_and_micrometres().1) / RBig::from(to.symbol_and_micrometres().1);
     RBig::try_from(x).unwrap() * ratio
 }
 

@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, mesh_with_reversed_faces, placed, tetrahedron,
+    block_cells, cubes, merged_meshes, mesh_with_reversed_faces, placed, tetrahedron,
 };
 use ccd_core::FacetOrigin;
 use ccd_core::glam::dvec3;
@@ -13,7 +13,7 @@ fn polytope(mesh: &TriangleMesh) -> Result<Polytope, DecomposeError> {
 
 #[test]
 fn a_block_has_eight_corners_and_six_sides() {
-    let polytope = polytope(&cubes(&block([3, 2, 4]))).unwrap();
+    let polytope = polytope(&cubes(&block_cells([3, 2, 4]))).unwrap();
     assert_eq!(polytope.points.len(), 8);
     assert_eq!(polytope.facets.len(), 6);
     assert!(

@@ -25,14 +25,14 @@ pub(super) struct Plane {
 /// The position of a box relative to the facet planes of a hull.
 pub(super) struct BoxOverlap {
     /// Whether the box's centre is in the hull.
-    pub(super) has_centre: bool,
+    pub(super) is_centre_inside: bool,
     /// The numbers of the planes that do not have the whole box behind them.
     pub(super) planes: Vec<u32>,
 }
 
 impl FacetPlanes {
     pub(super) fn new(hull: &Hull, target: &Target<'_>) -> Self {
-        let plane = |facet: &[u32]| Plane::of_facet(hull, facet);
+        let plane = |facet: &[u32]| Plane::from_facet(hull, facet);
         FacetPlanes {
             planes: hull.facets.iter().filter_map(plane).collect(),
             slack: target.slack(),
@@ -43,7 +43,7 @@ impl FacetPlanes {
     /// the hull.
     pub(super) fn overlap(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<BoxOverlap> {
         let mut meeting = BoxOverlap {
-            has_centre: !self.planes.is_empty(),
+            is_centre_inside: !self.planes.is_empty(),
             planes: Vec::new(),
         };
         for &k in among {
@@ -55,7 +55,7 @@ impl FacetPlanes {
             }
             // Written so that NaN is no bound.
             if !(above <= 0.0) {
-                meeting.has_centre = false;
+                meeting.is_centre_inside = false;
             }
             if !(above < -reach) {
                 meeting.planes.push(k);
@@ -67,19 +67,19 @@ impl FacetPlanes {
 
 impl Plane {
     /// Computes the plane of a facet; `None` if the facet is not well shaped.
-    fn of_facet(hull: &Hull, facet: &[u32]) -> Option<Self> {
+    fn from_facet(hull: &Hull, facet: &[u32]) -> Option<Self> {
         let at = |k: usize| hull.points[facet[k] as usize];
         // The triangle of the fan with the largest area.
         let last = facet.len() - 1;
         let sides = (1..last).map(|k| (at(k) - at(0), at(k + 1) - at(0)));
         let area = |(u, v): &(DVec3, DVec3)| u.cross(*v).length_squared();
         let (u, v) = sides.max_by(|one, other| area(one).total_cmp(&area(other)))?;
-        Plane::through(at(0), u, v)
+        Plane::from_corner_and_sides(at(0), u, v)
     }
 
     /// Computes the plane of a triangle from a corner and two sides, with `u × v` outward; `None` if the triangle is
     /// not well shaped.
-    pub(super) fn through(corner: DVec3, u: DVec3, v: DVec3) -> Option<Self> {
+    pub(super) fn from_corner_and_sides(corner: DVec3, u: DVec3, v: DVec3) -> Option<Self> {
         let normal = u.cross(v);
         let good = normal.length() > MIN_CORNER_SINE * u.length() * v.length();
         let normal = unit(normal).filter(|_| good)?;

@@ -4,7 +4,8 @@ use super::facet_planes::FacetPlanes;
 use super::target::{Location, Target};
 use super::under;
 use crate::tolerance::{
-    EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK_BUDGET, MAX_EXCESS_BOXES, PLANES_PER_STEP,
+    EXCESS_ABSOLUTE_TOLERANCE, EXCESS_WORK_BUDGET, MAX_EXCESS_BOXES, PLANES_PER_STEP,
+    SUFFICIENT_EXCESS_RATIO,
 };
 use crate::work::Work;
 use ccd_core::Hull;
@@ -19,7 +20,7 @@ use std::collections::BTreeMap;
 /// [`under`] gives a better bound. Boxes around the hull are split, largest bound first, until that bound is near a
 /// distance that was found, the work is spent, or too many boxes wait.
 pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
-    let floor = EXCESS_FLOOR * target.half_diagonal();
+    let floor = EXCESS_ABSOLUTE_TOLERANCE * target.half_diagonal();
     let mut search = Search {
         target,
         hull: FacetPlanes::new(hull, target),
@@ -86,7 +87,7 @@ impl Search<'_> {
     /// near the largest distance found, the work is spent, or too many boxes wait.
     fn split_worst_boxes(&mut self, floor: f64) -> bool {
         let target = greater(
-            EXCESS_RATIO * self.largest_distance,
+            SUFFICIENT_EXCESS_RATIO * self.largest_distance,
             self.largest_distance + floor,
         );
         let worst: Vec<BoundedBox> = (0..BOXES_PER_BATCH)
@@ -133,7 +134,7 @@ impl Search<'_> {
             let near = match target.locate(centre, work) {
                 Location::Inside { depth } => reach - depth,
                 Location::Outside { distance } => {
-                    if meeting.has_centre {
+                    if meeting.is_centre_inside {
                         examined.distance = distance;
                     }
                     distance + reach

@@ -22,7 +22,7 @@ pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull, centre: DVec3) -> O
     }
     let mut largest_share = 0.0;
     for [a, b, c] in target.triangles() {
-        let plane = Plane::through(a, b - a, c - a)?;
+        let plane = Plane::from_corner_and_sides(a, b - a, c - a)?;
         let above = |point: &DVec3| plane.signed_distance(*point);
         let highest = hull.points.iter().map(above).fold(0.0, greater) + target.slack();
         let below = -plane.signed_distance(centre) - target.slack();

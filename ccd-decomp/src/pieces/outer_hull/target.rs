@@ -19,7 +19,7 @@ use std::cmp::Ordering;
 pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
     search: BoxTree,
-    closed: bool,
+    is_closed: bool,
     inside_out: bool,
     bounds: [DVec3; 2],
     /// A bound on the rounding error of distances to the mesh.
@@ -42,8 +42,12 @@ impl<'a> Target<'a> {
         let farthest = lo.abs().max(hi.abs()).max_element();
         Target {
             mesh,
-            search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
-            closed: topology.is_solid(),
+            search: BoxTree::from_faces(
+                mesh.vertices(),
+                mesh.faces(),
+                0..mesh.faces().len() as u32,
+            ),
+            is_closed: topology.is_solid(),
             inside_out: topology.orientation() == Orientation::Inward,
             bounds,
             slack: excess_rounding(half_diagonal(bounds), farthest),
@@ -94,7 +98,7 @@ impl<'a> Target<'a> {
     /// Returns whether a point is in the solid, with a bound on its distance to the surface.
     pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
         let (found, reached) = self.distance_bounds(point, work);
-        if self.winds_about(point, work) {
+        if self.has_nonzero_winding_number(point, work) {
             Location::Inside {
                 depth: greater(0.0, lesser(found, reached) - self.slack()),
             }
@@ -138,8 +142,8 @@ impl<'a> Target<'a> {
 
     /// Returns whether the winding number of the mesh about a point is not 0, by exact predicates. A point on the
     /// surface counts as a point next to it. An open mesh winds about no point.
-    pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
-        if !self.closed {
+    pub(super) fn has_nonzero_winding_number(&self, point: DVec3, work: &Work) -> bool {
+        if !self.is_closed {
             return false;
         }
         let top = DVec3::new(point.x, point.y, greater(point.z, self.bounds[1].z));

@@ -168,8 +168,8 @@ fn enclose(mesh: &TriangleMesh) -> OuterHull {
 #[case::hollow(box_mesh(&[cube_bounds(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::two(box_mesh(&[cube_bounds(1.0), [DVec3::splat(1.5), DVec3::splat(2.0)]]))]
 #[case::sheet(sheet())]
-#[case::rounded_sphere(rounded(&sphere()))]
-#[case::dented(dented())]
+#[case::rounded_sphere(with_rounded_coordinates(&sphere()))]
+#[case::dented(dented_sphere())]
 #[case::far_off(moved(&torus(24, 12, 0.3), 1e5))]
 #[case::farther_off(moved(&torus(24, 12, 0.3), 1e8))]
 fn excess_bounds_hold_for_samples(#[case] mesh: TriangleMesh) {
@@ -224,13 +224,13 @@ fn sphere() -> TriangleMesh {
 }
 
 /// Returns a mesh whose coordinates are rounded to single precision, as an STL file rounds them.
-fn rounded(exact: &TriangleMesh) -> TriangleMesh {
+fn with_rounded_coordinates(exact: &TriangleMesh) -> TriangleMesh {
     let points = exact.vertices().iter().map(|p| p.as_vec3().as_dvec3());
     mesh(&points.collect::<Vec<_>>(), exact.faces())
 }
 
 /// Returns a sphere with one corner pushed a tenth of the radius inwards.
-fn dented() -> TriangleMesh {
+fn dented_sphere() -> TriangleMesh {
     let sphere = sphere();
     let mut points = sphere.vertices().to_vec();
     points[100] *= 0.9;
@@ -240,7 +240,7 @@ fn dented() -> TriangleMesh {
 /// Tests that a sphere rounded to single precision, which has reflex edges, gets a hull with a small positive excess.
 #[test]
 fn a_convex_solid_in_single_precision_exceeds_itself_little() {
-    let mesh = rounded(&sphere());
+    let mesh = with_rounded_coordinates(&sphere());
     let manifold =
         Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).expect("closed");
     assert!(convex_polytope(&manifold).is_err());
@@ -324,7 +324,7 @@ fn lattice_points_are_located(#[case] mesh: TriangleMesh) {
             continue;
         }
         assert_eq!(
-            target.winds_about(point, &Work::unbounded()),
+            target.has_nonzero_winding_number(point, &Work::unbounded()),
             has_nonzero_winding_number(&mesh, point),
             "{point}"
         );

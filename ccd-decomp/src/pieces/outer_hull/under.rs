@@ -33,7 +33,7 @@ pub(super) fn excess_above_surface(
     }
     lowest -= target.slack();
     let deepest = centre - 3.0 * half * up.signum();
-    if !(height(deepest) < lowest) || !target.winds_about(deepest, work) {
+    if !(height(deepest) < lowest) || !target.has_nonzero_winding_number(deepest, work) {
         return None;
     }
     let sinks = greater(

@@ -93,7 +93,7 @@ impl GrowingPatch {
         }
         // … and the new hull within the solid.
         work.spend(new.len() * self.hull.facets().len());
-        let (hull, changed) = self.hull_with(points, &new);
+        let (hull, changed) = self.extended_hull(points, &new);
         if let Some(changed) = changed {
             let obstacle = Obstacle::new(points, &hull);
             let is_apart = |face: u32| {
@@ -107,7 +107,7 @@ impl GrowingPatch {
             let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
             let corners = hull.corners().iter().map(|&v| points[v as usize]);
             let near = Region::inside(corners.collect(), facets.collect(), changed);
-            if !manifold.boxes().all_meeting(&near, work, is_apart) {
+            if !manifold.boxes().all_faces_meeting(&near, work, is_apart) {
                 return JoinResult::Refused;
             }
             self.hull = hull;
@@ -146,7 +146,7 @@ impl GrowingPatch {
 
     /// Returns the hull extended by the points `new`, with the bounding box of what changed. The box is `None` if the
     /// hull is unchanged.
-    fn hull_with(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
+    fn extended_hull(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;
         for &v in new {

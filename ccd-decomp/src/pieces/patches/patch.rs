@@ -41,7 +41,7 @@ impl Patch {
     }
 
     /// Returns the number of the hull's facets that are not entirely covered by faces of the mesh.
-    pub fn virtual_facets(&self) -> usize {
+    pub fn virtual_facet_count(&self) -> usize {
         let facets = self.polytope.facets.iter();
         facets.filter(|f| f.origin == FacetOrigin::Virtual).count()
     }

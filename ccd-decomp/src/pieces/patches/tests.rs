@@ -2,7 +2,7 @@ use super::*;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, mesh_with_reversed_faces, placed, prism, prism_under_prism,
+    block_cells, cubes, merged_meshes, mesh_with_reversed_faces, placed, prism, prism_under_prism,
     star_bipyramid, tetrahedron, toothed_disc_outline,
 };
 use ccd_core::FacetOrigin;
@@ -32,7 +32,7 @@ fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
             .facets
             .iter()
             .filter(|f| f.origin == FacetOrigin::Virtual);
-        assert_eq!(virtual_facets.count(), patch.virtual_facets());
+        assert_eq!(virtual_facets.count(), patch.virtual_facet_count());
     }
     assert!(seen.iter().all(|&count| count == 1), "{seen:?}");
 }
@@ -48,12 +48,12 @@ fn patches(mesh: &TriangleMesh) -> Vec<usize> {
 
 #[rstest]
 #[case::tetrahedron(tetrahedron())]
-#[case::cube(cubes(&block([1, 1, 1])))]
-#[case::fine_block(cubes(&block([4, 3, 5])))]
+#[case::cube(cubes(&block_cells([1, 1, 1])))]
+#[case::fine_block(cubes(&block_cells([4, 3, 5])))]
 fn convex_solids_are_one_patch(#[case] mesh: TriangleMesh) {
     assert_eq!(patches(&mesh), [1, 1, 1]);
     assert_eq!(
-        decompose(&mesh, PatchOrder::Cresting).unwrap().patches[0].virtual_facets(),
+        decompose(&mesh, PatchOrder::Cresting).unwrap().patches[0].virtual_facet_count(),
         0
     );
 }
@@ -70,8 +70,8 @@ fn a_step_is_a_few_patches() {
 
 #[test]
 fn the_walls_of_a_cavity_are_flat_patches() {
-    let outer = placed(&cubes(&block([1, 1, 1])), 4.0, DVec3::ZERO);
-    let inner = placed(&cubes(&block([1, 1, 1])), 2.0, DVec3::ONE);
+    let outer = placed(&cubes(&block_cells([1, 1, 1])), 4.0, DVec3::ZERO);
+    let inner = placed(&cubes(&block_cells([1, 1, 1])), 2.0, DVec3::ONE);
     let hollow = merged_meshes(&[&outer, &mesh_with_reversed_faces(&inner)]);
     for order in ORDERS {
         let decomposition = decompose(&hollow, order).unwrap();
@@ -79,7 +79,7 @@ fn the_walls_of_a_cavity_are_flat_patches() {
         let walls = decomposition.patches.iter().filter(|p| p.faces[0] >= 12);
         for wall in walls {
             assert_eq!(wall.polytope.facets.len(), 2);
-            assert_eq!(wall.virtual_facets(), 1);
+            assert_eq!(wall.virtual_facet_count(), 1);
             assert_eq!(wall.polytope.points.len(), 4);
         }
     }

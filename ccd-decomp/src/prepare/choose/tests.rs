@@ -1,7 +1,7 @@
 use super::*;
 use crate::solid::manifold::Dihedral;
 use crate::solid::solid_surface;
-use crate::test_meshes::{block, cubes, merged_meshes, placed, tetrahedron};
+use crate::test_meshes::{block_cells, cubes, merged_meshes, placed, tetrahedron};
 use crate::tolerance::AUTO_WORK_BUDGET;
 use ccd_core::glam::DVec3;
 
@@ -12,9 +12,9 @@ fn chosen_reason(mesh: &TriangleMesh) -> PieceReason {
         &Work::with_steps(AUTO_WORK_BUDGET),
     );
     let fits = match why {
-        PieceReason::Convex => matches!(parts, Parts::Hull(_)),
-        PieceReason::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
-        _ => matches!(parts, Parts::Triangles),
+        PieceReason::Convex => matches!(parts, PiecesByKind::Hull(_)),
+        PieceReason::PatchesFaster(_) => matches!(parts, PiecesByKind::Patches(_)),
+        _ => matches!(parts, PiecesByKind::Triangles),
     };
     assert!(fits, "{why}");
     why
@@ -24,7 +24,7 @@ fn chosen_reason(mesh: &TriangleMesh) -> PieceReason {
 fn convex_solids_are_hulls() {
     assert_eq!(chosen_reason(&tetrahedron()), PieceReason::Convex);
     assert_eq!(
-        chosen_reason(&cubes(&block([3, 3, 3]))),
+        chosen_reason(&cubes(&block_cells([3, 3, 3]))),
         PieceReason::Convex
     );
 }
@@ -39,7 +39,9 @@ fn patches_have_to_be_worth_it() {
         PieceReason::TrianglesFaster(_)
     ));
     let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
-    let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
+    let cells = block_cells([16, 16, 16])
+        .into_iter()
+        .filter(|c| !in_corner(c));
     let fine = cubes(&cells.collect::<Vec<_>>());
     assert!(
         matches!(chosen_reason(&fine), PieceReason::PatchesFaster(_)),
@@ -51,7 +53,7 @@ fn patches_have_to_be_worth_it() {
 #[test]
 fn the_largest_plane_is_found_whole() {
     // The bottom of a step: 3 × 2 squares.
-    let cells: Vec<_> = block([3, 2, 2])
+    let cells: Vec<_> = block_cells([3, 2, 2])
         .into_iter()
         .filter(|c| *c != [2, 0, 1])
         .collect();
@@ -89,10 +91,12 @@ fn largest_region_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
 
 #[test]
 fn the_largest_plane_is_that_of_a_walk() {
-    let comb = block([9, 2, 3])
+    let comb = block_cells([9, 2, 3])
         .into_iter()
         .filter(|c| c[2] == 0 || c[0] % 2 == 0);
-    let plate = block([3, 3, 1]).into_iter().filter(|c| *c != [1, 1, 0]);
+    let plate = block_cells([3, 3, 1])
+        .into_iter()
+        .filter(|c| *c != [1, 1, 0]);
     let solids = [
         cubes(&comb.collect::<Vec<_>>()),
         cubes(&plate.collect::<Vec<_>>()),
@@ -123,12 +127,14 @@ fn meshes_without_a_solid_stay_triangles() {
 #[test]
 fn slow_decompositions_stay_triangles() {
     let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
-    let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
+    let cells = block_cells([16, 16, 16])
+        .into_iter()
+        .filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
         let (parts, why) = choose(&mesh, &Topology::of(&mesh), &Work::with_steps(steps));
         assert_eq!(why, PieceReason::WorkBudgetExceeded);
-        assert!(matches!(parts, Parts::Triangles));
+        assert!(matches!(parts, PiecesByKind::Triangles));
     }
 }
 
@@ -139,7 +145,7 @@ fn folded_meshes_stay_triangles() {
     let faces = [[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]];
     let flat = crate::test_meshes::mesh(corners.clone(), &faces);
     let two = crate::test_meshes::mesh(corners[..3].to_vec(), &[[0, 1, 2], [0, 2, 1]]);
-    let solid = placed(&cubes(&block([9, 9, 1])), 1.0, DVec3::splat(5.0));
+    let solid = placed(&cubes(&block_cells([9, 9, 1])), 1.0, DVec3::splat(5.0));
     for mesh in [
         &flat,
         &two,

@@ -4,7 +4,7 @@ use super::OrientedBox;
 use crate::rational::{Exact3, exact};
 use crate::search::element::Element;
 use crate::tolerance::box_rounding;
-use crate::worst::{RandomCase, Worst, share};
+use crate::worst::{RandomCase, WorstCaseSearch, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -18,15 +18,15 @@ fn setting(tape: &mut RandomCase) -> (OrientedBox, DVec3) {
         corners: [point(), point(), point()],
         face: 0,
     };
-    (OrientedBox::around_elements(&[element]), point())
+    (OrientedBox::enclosing_elements(&[element]), point())
 }
 
 /// Tests that the offset of a point along an axis of a box has a rounding error of at most `box_rounding`.
 #[test]
 fn worst_beside() {
-    let found = Worst::of("box_rounding, beside a box", 10_000).search(|tape| {
+    let found = WorstCaseSearch::of("box_rounding, beside a box", 10_000).search(|tape| {
         let (of, point) = setting(tape);
-        let k = tape.pick(3);
+        let k = tape.index_below(3);
         let axis = of.axes[k];
         let way = axis.dot(point - of.centre);
         let truth = Exact3::of(axis).dot(&Exact3::of(point).minus(&Exact3::of(of.centre)));
@@ -34,5 +34,5 @@ fn worst_beside() {
         let reach = greater(of.reach, point.abs().max_element());
         Some(share(error.abs(), box_rounding(axis, reach)))
     });
-    found.is_within(120.0);
+    found.assert_within(120.0);
 }

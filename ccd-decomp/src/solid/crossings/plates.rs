@@ -110,30 +110,31 @@ impl<'a, 'm> Plates<'a, 'm> {
         if own == NONE {
             let faces = &self.rest.faces;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
-            if !self.rest.boxes.all_meeting(region, work, later) {
+            if !self.rest.boxes.all_faces_meeting(region, work, later) {
                 return false;
             }
         }
-        self.bounds.all_boxes_meeting(&region.bounds, |number| {
-            if number == own {
-                return true;
-            }
-            if !work.spend(STEPS_PER_PLATE) {
-                return false;
-            }
-            if self.is_separated_from_plate(face, number) {
-                return true;
-            }
-            let plate = &self.plates[number as usize];
-            let group = plate
-                .group
-                .get_or_init(|| FaceGroup::new(self.manifold, plate.faces.clone()));
-            group.boxes.all_meeting(region, work, |other| {
-                let other = group.faces[other as usize];
-                // Pairs of faces of two plates are found twice.
-                own != NONE && other < face || holds(other)
+        self.bounds
+            .all_meeting_boxes_satisfy(&region.bounds, |number| {
+                if number == own {
+                    return true;
+                }
+                if !work.spend(STEPS_PER_PLATE) {
+                    return false;
+                }
+                if self.is_separated_from_plate(face, number) {
+                    return true;
+                }
+                let plate = &self.plates[number as usize];
+                let group = plate
+                    .group
+                    .get_or_init(|| FaceGroup::new(self.manifold, plate.faces.clone()));
+                group.boxes.all_faces_meeting(region, work, |other| {
+                    let other = group.faces[other as usize];
+                    // Pairs of faces of two plates are found twice.
+                    own != NONE && other < face || holds(other)
+                })
             })
-        })
     }
 
     /// Returns whether a face and a plate share at most a corner or an edge of the plate's boundary.

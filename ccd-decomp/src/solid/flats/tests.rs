@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::topology::Topology;
 use crate::solid::{check_solid, solid_surface};
-use crate::test_meshes::{block, cubes, merged_meshes, mesh, placed, tetrahedron};
+use crate::test_meshes::{block_cells, cubes, merged_meshes, mesh, placed, tetrahedron};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -16,7 +16,7 @@ fn flats(mesh: &TriangleMesh) -> ConvexPolygons {
 #[case::slab([5, 4, 1])]
 #[case::cube([4, 4, 4])]
 fn sides_of_a_block_are_one_polygon_each(#[case] size: [i32; 3]) {
-    let mesh = cubes(&block(size));
+    let mesh = cubes(&block_cells(size));
     let flats = flats(&mesh);
     assert_eq!(flats.len(), 6);
     let faces: usize = (0..6).map(|k| flats.get(k).faces.len()).sum();
@@ -32,7 +32,7 @@ fn triangles_in_no_common_plane_stay_alone() {
 #[test]
 fn polygons_are_convex_and_leave_nothing_out() {
     // A plate with a hole: 8 cells about a missing one.
-    let cells: Vec<[i32; 3]> = block([3, 3, 1])
+    let cells: Vec<[i32; 3]> = block_cells([3, 3, 1])
         .into_iter()
         .filter(|c| *c != [1, 1, 0])
         .collect();
@@ -60,7 +60,9 @@ fn polygons_are_convex_and_leave_nothing_out() {
 /// Tests that a plate with a hole merges to 16 rectangles, whatever the order of its faces.
 #[test]
 fn a_grid_with_a_hole_is_a_few_rectangles() {
-    let cells = block([9, 9, 1]).into_iter().filter(|c| *c != [4, 5, 0]);
+    let cells = block_cells([9, 9, 1])
+        .into_iter()
+        .filter(|c| *c != [4, 5, 0]);
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for stride in [1, 7, 101] {
         let count = mesh.faces().len();

@@ -1,7 +1,7 @@
 use super::*;
 use crate::solid::solid_surface;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, tetrahedron,
+    block_cells, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, tetrahedron,
 };
 
 fn error_message(mesh: &TriangleMesh) -> String {
@@ -12,7 +12,7 @@ fn error_message(mesh: &TriangleMesh) -> String {
 
 #[test]
 fn twins_run_the_other_way() {
-    let mesh = cubes(&block([2, 2, 1]));
+    let mesh = cubes(&block_cells([2, 2, 1]));
     let manifold = solid_surface(&mesh).unwrap();
     for h in 0..3 * manifold.faces().len() as u32 {
         let [v, w] = manifold.ends(h);

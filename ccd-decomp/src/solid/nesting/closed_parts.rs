@@ -1,7 +1,7 @@
 //! Splits a closed mesh into shells, its smallest closed parts.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::exact::predicates::{Projection, side, too_fine};
+use crate::exact::predicates::{Projection, first_too_fine_point, side};
 use crate::half_edges::{EdgeUse, Edges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
@@ -97,7 +97,9 @@ impl<'m> AngularOrder<'m> {
         let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
         let first = *apexes.first()?;
-        let is_too_fine = too_fine(&[v, w]).or(too_fine(&apexes)).is_some();
+        let is_too_fine = first_too_fine_point(&[v, w])
+            .or(first_too_fine_point(&apexes))
+            .is_some();
         let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
         if is_too_fine || apexes.iter().any(flat) {
             return None;

@@ -2,13 +2,13 @@ use crate::solid::error::DecomposeError;
 use crate::solid::shells::shell_numbers;
 use crate::solid::solid_surface;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, mesh_with_reversed_faces, placed, tetrahedron,
+    block_cells, cubes, merged_meshes, mesh_with_reversed_faces, placed, tetrahedron,
 };
 use ccd_core::glam::{DVec3, dvec3};
 
 #[test]
 fn parts_are_distinguished() {
-    let one = cubes(&block([2, 1, 1]));
+    let one = cubes(&block_cells([2, 1, 1]));
     let two = merged_meshes(&[&one, &placed(&one, 1.0, dvec3(3.0, 0.0, 0.0))]);
     let shells = shell_numbers(&solid_surface(&two).unwrap());
     let faces = one.faces().len();
@@ -18,8 +18,8 @@ fn parts_are_distinguished() {
 
 #[test]
 fn a_cavity_looks_inward() {
-    let outer = placed(&cubes(&block([1, 1, 1])), 4.0, DVec3::ZERO);
-    let inner = placed(&cubes(&block([1, 1, 1])), 1.0, DVec3::ONE);
+    let outer = placed(&cubes(&block_cells([1, 1, 1])), 4.0, DVec3::ZERO);
+    let inner = placed(&cubes(&block_cells([1, 1, 1])), 1.0, DVec3::ONE);
     let hollow = merged_meshes(&[&outer, &mesh_with_reversed_faces(&inner)]);
     assert!(solid_surface(&hollow).is_ok());
     // A solid within another is still solid.

@@ -3,31 +3,34 @@ use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, star_bipyramid,
+    block_cells, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, star_bipyramid,
     tetrahedron,
 };
 
-fn is_seen(mesh: &TriangleMesh) -> bool {
+fn is_star_shaped(mesh: &TriangleMesh) -> bool {
     star_centre(&Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap()).is_some()
 }
 
 #[test]
 fn convex_and_star_shaped_solids_are_recognised() {
-    assert!(is_seen(&tetrahedron()));
+    assert!(is_star_shaped(&tetrahedron()));
     assert!(
-        is_seen(&mesh_with_reversed_faces(&tetrahedron())),
+        is_star_shaped(&mesh_with_reversed_faces(&tetrahedron())),
         "turned by the manifold"
     );
-    assert!(is_seen(&cubes(&block([3, 2, 1]))));
-    assert!(is_seen(&star_bipyramid(40, 0.5)));
+    assert!(is_star_shaped(&cubes(&block_cells([3, 2, 1]))));
+    assert!(is_star_shaped(&star_bipyramid(40, 0.5)));
 }
 
 #[test]
 fn others_are_not() {
     let one = tetrahedron();
     let around = merged_meshes(&[&one, &placed(&one, 3.0, DVec3::splat(-0.3))]);
-    assert!(!is_seen(&around), "a surface seen through another one");
-    assert!(!is_seen(&cubes(&[
+    assert!(
+        !is_star_shaped(&around),
+        "a surface seen through another one"
+    );
+    assert!(!is_star_shaped(&cubes(&[
         [0, 0, 0],
         [1, 0, 0],
         [0, 1, 0],
@@ -35,7 +38,7 @@ fn others_are_not() {
         [2, 0, 0]
     ])));
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
-    assert!(!is_seen(&mesh(corners, &[[0, 1, 2], [0, 2, 1]])));
+    assert!(!is_star_shaped(&mesh(corners, &[[0, 1, 2], [0, 2, 1]])));
 }
 
 /// Tests that a double cone that winds twice around its axis is not star-shaped, although every face is outward and
@@ -55,6 +58,6 @@ fn a_surface_that_winds_twice_is_not_star_shaped() {
         .flat_map(|k| [[rim(k), rim(k + 1), 0], [rim(k + 1), rim(k), 1]])
         .collect();
     let twice = mesh(vertices, &faces);
-    assert!(!is_seen(&twice));
+    assert!(!is_star_shaped(&twice));
     assert!(solid_surface(&twice).is_err());
 }

@@ -51,7 +51,10 @@ fn a_soup_of_separate_triangles_is_closed_where_their_corners_meet() {
 fn a_missing_face_leaves_its_rim() {
     let open = topology(cube_points(), &CUBE_FACES[1..]);
     assert!(!open.is_closed());
-    assert_eq!(open.boundary.first(), [Edge(0, 4), Edge(0, 6), Edge(4, 6)]);
+    assert_eq!(
+        open.boundary_edges.first(),
+        [Edge(0, 4), Edge(0, 6), Edge(4, 6)]
+    );
     assert_eq!(
         open.to_string(),
         "open; edges with one face: 3 (e0-4, e0-6, e4-6)"
@@ -68,7 +71,7 @@ fn a_flipped_face_is_found_at_its_edges() {
         flipped.flipped_edges.first(),
         [Edge(0, 4), Edge(0, 6), Edge(4, 6)]
     );
-    assert!(flipped.boundary.is_empty());
+    assert!(flipped.boundary_edges.is_empty());
 }
 
 #[test]
@@ -94,7 +97,7 @@ fn a_fin_on_an_edge_opens_a_shell() {
     let topology = topology(points, &fin);
     assert!(!topology.is_closed());
     assert_eq!(topology.branching_edges.first(), [Edge(0, 1)]);
-    assert_eq!(topology.boundary.count(), 2);
+    assert_eq!(topology.boundary_edges.count(), 2);
 }
 
 #[test]
@@ -103,7 +106,7 @@ fn a_moebius_strip_cannot_be_oriented() {
     let points = (0..5).map(|k| dvec3(f64::from(k).cos(), f64::from(k).sin(), f64::from(k * k)));
     let faces: Vec<[u32; 3]> = (0..5).map(|k| [k, (k + 1) % 5, (k + 2) % 5]).collect();
     let strip = topology(points.collect(), &faces);
-    assert_eq!(strip.boundary.count(), 5);
+    assert_eq!(strip.boundary_edges.count(), 5);
     assert_eq!(strip.flipped_edges.count(), 5);
 }
 
@@ -130,7 +133,7 @@ fn a_klein_bottle_has_no_rim_and_is_not_closed() {
     let points = (0..16).map(|k| dvec3(f64::from(k), f64::from(k * k), f64::from(k % 3)));
     let bottle = topology(points.collect(), &faces);
     assert!(
-        bottle.boundary.is_empty() && bottle.branching_edges.is_empty(),
+        bottle.boundary_edges.is_empty() && bottle.branching_edges.is_empty(),
         "{bottle}"
     );
     assert!(!bottle.flipped_edges.is_empty() && !bottle.is_closed());

@@ -15,7 +15,7 @@ impl AabbF32 {
         hi: Vec3A::MIN,
     };
 
-    pub(super) fn of_point(point: Vec3A) -> Self {
+    pub(super) fn from_point(point: Vec3A) -> Self {
         AabbF32 {
             lo: point,
             hi: point,

@@ -4,7 +4,7 @@
 use super::*;
 use crate::exact::predicates::side;
 use ccd_core::order::greater;
-use ccd_core::{Combination, FacetClass, HierarchyNode, HullFault, Polytope};
+use ccd_core::{ConvexCombination, FacetClass, HierarchyNode, HullFault, Polytope};
 use proptest::prelude::*;
 use std::cmp::Ordering;
 
@@ -126,7 +126,7 @@ proptest! {
         for at in 0..tree.hulls().len() {
             let hull = tree.hulls().get(at);
             let below = leaves(&tree, at);
-            let real = |combination: &Combination| {
+            let real = |combination: &ConvexCombination| {
                 let point = combination.position(hull.points).unwrap();
                 let near = |&leaf: &usize| holds(&tree.hulls().get(leaf), point, 1e-9);
                 tree.class_of(at as u32, combination) == FacetClass::Free
@@ -136,9 +136,9 @@ proptest! {
             for corners in hull.facets.iter() {
                 for k in 0..corners.len() {
                     let next = corners[(k + 1) % corners.len()];
-                    prop_assert!(real(&Combination::point(corners[k])));
-                    prop_assert!(real(&Combination::segment([corners[k], next], weights[0])));
-                    let mut inside = Combination::segment([corners[k], next], weights[1]);
+                    prop_assert!(real(&ConvexCombination::point(corners[k])));
+                    prop_assert!(real(&ConvexCombination::segment([corners[k], next], weights[0])));
+                    let mut inside = ConvexCombination::segment([corners[k], next], weights[1]);
                     inside.push(corners[(k + 2) % corners.len()], weights[2]);
                     prop_assert!(real(&inside));
                 }

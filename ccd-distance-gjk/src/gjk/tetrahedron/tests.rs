@@ -1,6 +1,6 @@
 use super::{TOUCHING_ULPS, VOLUME_ULPS};
 use crate::rational::{Exact3, error_of, exact};
-use crate::worst::{RandomCase, Worst, share};
+use crate::worst::{RandomCase, WorstCaseSearch, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -14,7 +14,7 @@ fn corners(tape: &mut RandomCase) -> [DVec3; 4] {
 /// `VOLUME_ULPS`.
 #[test]
 fn worst_volume() {
-    let found = Worst::of("VOLUME_ULPS", 10_000).search(|tape| {
+    let found = WorstCaseSearch::of("VOLUME_ULPS", 10_000).search(|tape| {
         let [a, b, c, apex] = corners(tape);
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);
@@ -28,13 +28,13 @@ fn worst_volume() {
             share(height, allowed * up.length()),
         ))
     });
-    found.is_within(20.0);
+    found.assert_within(20.0);
 }
 
 /// Tests that a weighted sum of four corners is accurate to `TOUCHING_ULPS`.
 #[test]
 fn worst_combination() {
-    let found = Worst::of("TOUCHING_ULPS", 10_000).search(|tape| {
+    let found = WorstCaseSearch::of("TOUCHING_ULPS", 10_000).search(|tape| {
         let corners = corners(tape);
         let weights = [(); 4].map(|()| tape.fraction());
         let total: f64 = weights.iter().sum();
@@ -55,5 +55,5 @@ fn worst_combination() {
         let allowed = TOUCHING_ULPS * f64::EPSILON * reach.fold(0.0, greater);
         Some(share(off, allowed))
     });
-    found.is_within(20.0);
+    found.assert_within(20.0);
 }

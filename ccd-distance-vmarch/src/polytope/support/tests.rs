@@ -34,7 +34,7 @@ fn hill_climbing_finds_an_extremal_corner() {
         shape::random_hull(&mut rng, 40),
     ] {
         let polytope = prepared_polytope(&shape);
-        assert!(polytope.start_corners.is_some());
+        assert!(polytope.direction_table.is_some());
         for _ in 0..2_000 {
             let look = direction(&mut rng);
             let height = |v: &super::super::Vertex| look.dot(v.point);

@@ -3,7 +3,7 @@ use std::fs;
 use tempfile::TempDir;
 
 /// Creates a folder with the package `arm_description`, which has its URDF in the folder `urdf`.
-fn package() -> TempDir {
+fn create_package() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for file in [
         "arm_description/urdf/arm.urdf",
@@ -19,7 +19,7 @@ fn package() -> TempDir {
 
 #[test]
 fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
-    let folder = package();
+    let folder = create_package();
     let mut packages = Packages::around(&folder.path().join("arm_description/urdf/arm.urdf"));
     let found = packages
         .find("package://arm_description/meshes/link.stl")
@@ -34,7 +34,11 @@ fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
     assert_eq!(packages.find(&whole).unwrap(), found);
 
     let tip = "package://arm_description/meshes/tip.stl";
-    let Err(UrdfError::MeshNotFound { uri, tried }) = packages.find(tip) else {
+    let Err(UrdfError::MeshNotFound {
+        uri,
+        searched_paths: tried,
+    }) = packages.find(tip)
+    else {
         panic!("found");
     };
     assert_eq!(uri, tip);
@@ -46,7 +50,7 @@ fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
         )
     );
     for given in ["other", "other/arm_description"] {
-        packages.look_first_in(folder.path().join(given));
+        packages.prepend_folder(folder.path().join(given));
         assert!(packages.find(tip).is_ok(), "{given}");
     }
 }

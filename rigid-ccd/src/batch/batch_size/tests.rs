@@ -3,18 +3,18 @@ use super::*;
 #[test]
 fn batches_grow_only_for_quick_work() {
     let mut size = BatchSize::new(2);
-    size.adapt(BATCH / 4);
+    size.adapt(TARGET_DURATION / 4);
     assert_eq!(size.items(), 4);
-    size.adapt(BATCH / 32);
+    size.adapt(TARGET_DURATION / 32);
     assert_eq!(size.items(), 32);
     for _ in 0..20 {
         size.adapt(Duration::ZERO);
     }
     assert_eq!(size.items(), MAX_ITEMS);
-    size.adapt(BATCH);
+    size.adapt(TARGET_DURATION);
     assert_eq!(size.items(), MAX_ITEMS);
     for _ in 0..20 {
-        size.adapt(3 * BATCH);
+        size.adapt(3 * TARGET_DURATION);
     }
     assert_eq!(size.items(), 2);
 }

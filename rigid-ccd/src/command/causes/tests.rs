@@ -1,5 +1,5 @@
 use super::*;
-use crate::command::output::CannotWrite;
+use crate::command::output::OutputError;
 use anyhow::{Context, anyhow};
 use std::io;
 
@@ -9,7 +9,7 @@ fn every_cause_is_reported_once() {
     let words = without_error_numbers(&source.to_string());
     assert!(!words.contains("os error"), "{words}");
     let place = "out.csv".to_owned();
-    let error = anyhow::Error::from(CannotWrite { place, source });
+    let error = anyhow::Error::from(OutputError { place, source });
     assert_eq!(
         message_with_causes(&error),
         format!("cannot write out.csv: {words}")

@@ -39,7 +39,7 @@ impl Statistics {
             mesh,
             unit: unit.map(Unit::symbol),
             pieces_kind: report.kind.to_string(),
-            why: report.why.to_string(),
+            why: report.reason.to_string(),
             triangles: report.triangles,
             pieces: report.pieces,
             virtual_faces: report.virtual_facets,

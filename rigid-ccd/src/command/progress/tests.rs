@@ -8,8 +8,8 @@ fn progress_line(progress: &Progress) -> String {
 #[test]
 fn answered_rows_count_and_read_rows_do_not() {
     let progress = Progress::new(Total::Bytes(110));
-    progress.answering(0, 10);
-    progress.answering(4, 110);
+    progress.begin_batch(0, 10);
+    progress.begin_batch(4, 110);
     assert_eq!(progress_line(&progress), "0 rows answered, 9 %");
     progress.step();
     assert_eq!(progress_line(&progress), "1 row answered, 31 %");
@@ -23,8 +23,8 @@ fn answered_rows_count_and_read_rows_do_not() {
 #[test]
 fn rows_that_were_skipped_count_as_answered() {
     let progress = Progress::new(Total::Bytes(100));
-    progress.answering(0, 60);
-    progress.answering(2, 100);
+    progress.begin_batch(0, 60);
+    progress.begin_batch(2, 100);
     assert_eq!(progress_line(&progress), "0 rows answered, 60 %");
 }
 

@@ -66,7 +66,7 @@ impl<'a> BatchRun<'a> {
         if batch.is_empty() && broken.is_none() {
             return None;
         }
-        self.progress.answering(batch.len(), rows.bytes());
+        self.progress.begin_batch(batch.len(), rows.bytes());
         let (bodies, timing, progress) = (self.bodies, &self.timed_question, &self.progress);
         let start = Instant::now();
         let answers = self.solver.map(&batch, |solver, row| {

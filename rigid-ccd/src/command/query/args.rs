@@ -3,7 +3,7 @@
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
 use crate::command::named::{INSTRUCTIONS, SHORTCUTS, START_POLICIES, named_value_parser};
-use crate::command::numbers::{not_negative, parse_seconds, tolerance};
+use crate::command::numbers::{parse_nonnegative, parse_seconds, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::table::results::{self, Column};
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
@@ -29,7 +29,7 @@ pub(in crate::command) struct QueryArgs {
     pub(super) ask: Question,
     /// Distance that the bodies must keep, for --ask closest-approach or distance: rows are then `kept`, `violated` or
     /// `unverified`; in the scene's unit of length
-    #[arg(long, value_name = "LENGTH", value_parser = not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = parse_nonnegative, allow_hyphen_values = true)]
     pub(super) clearance: Option<f64>,
     /// Distance backend: how the distance between two pieces is computed
     #[arg(long, value_enum, default_value_t)]
@@ -44,7 +44,7 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
     /// Distance to keep between the bodies, in the scene's unit of length
-    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true)]
     pub(super) margin: f64,
     /// How to treat bodies in contact at the start
     #[arg(long, value_parser = named_value_parser(START_POLICIES), default_value = "report")]
@@ -178,7 +178,7 @@ pub(super) struct RowRange {
 }
 
 impl RowRange {
-    pub(super) fn is_all(self) -> bool {
+    pub(super) fn includes_all_rows(self) -> bool {
         self.start == 0 && self.end.is_none()
     }
 }

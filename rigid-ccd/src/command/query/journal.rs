@@ -4,7 +4,7 @@
 //! has finished, so that the same command with `--resume` finds nothing left to do.
 
 use crate::command::counts::StatusCounts;
-use crate::command::output::CannotWrite;
+use crate::command::output::OutputError;
 use crate::command::table::WrittenSize;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
@@ -21,7 +21,7 @@ pub(super) struct Checkpoint {
     /// The checksum of the table of motions up to the end of the finished rows.
     pub(super) checksum: u32,
     /// The number of finished rows without a complete answer.
-    pub(super) bad: usize,
+    pub(super) bad_rows: usize,
     /// The number of finished rows with each status.
     pub(super) counts: StatusCounts,
     /// The length and checksum of the table of results, set when it is flushed.
@@ -38,7 +38,7 @@ pub(super) struct Checkpoint {
 pub(super) struct RecordedOptions(pub(super) Vec<(String, String)>);
 
 /// The prefix of an option's name in an entry that holds the checksum of the option's file.
-pub(super) const CONTENT_PREFIX: &str = "content-of:";
+pub(super) const CHECKSUM_PREFIX: &str = "content-of:";
 
 /// The journal file: the options of the run, then a line for each checkpoint. A run continues from the last checkpoint.
 pub(super) struct Journal {
@@ -76,7 +76,7 @@ impl RecordedOptions {
         }
         let mut changes = Vec::new();
         for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
-            match option.strip_prefix(CONTENT_PREFIX) {
+            match option.strip_prefix(CHECKSUM_PREFIX) {
                 None => changes.push(format!("{option} was {then} and is now {now}")),
                 // A changed file name implies changed content, so one message is enough.
                 Some(_) if !changes.is_empty() => {}
@@ -93,7 +93,7 @@ impl Journal {
         path: PathBuf,
         recorded: &RecordedOptions,
         from: Option<&Checkpoint>,
-    ) -> Result<Self, CannotWrite> {
+    ) -> Result<Self, OutputError> {
         let mut text = format!("{}{CHECKPOINTS_HEADING}", recorded.to_text());
         let mut sum = Hasher::new();
         sum.update(text.as_bytes());
@@ -106,15 +106,15 @@ impl Journal {
         };
         match open() {
             Ok(file) => Ok(Journal { path, file, sum }),
-            Err(source) => Err(CannotWrite::at(&path, source)),
+            Err(source) => Err(OutputError::at(&path, source)),
         }
     }
 
     /// Appends a checkpoint to the journal.
-    pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
+    pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
         line(&checkpoint, &mut self.sum)
             .and_then(|line| self.file.write_all(line.as_bytes()))
-            .map_err(|source| CannotWrite::at(&self.path, source))
+            .map_err(|source| OutputError::at(&self.path, source))
     }
 }
 
@@ -163,7 +163,7 @@ impl EarlierRun {
     }
 
     /// Describes the options that differ from those of the earlier run; `None` if all are the same.
-    pub(super) fn changes(&self, recorded: &RecordedOptions) -> Option<String> {
+    pub(super) fn describe_changes(&self, recorded: &RecordedOptions) -> Option<String> {
         recorded.describe_changes(&self.options)
     }
 }

@@ -5,7 +5,7 @@
 
 use super::args::QueryArgs;
 use super::journal::{Checkpoint, EarlierRun, Journal, JournalError, RecordedOptions};
-use crate::command::output::{CannotWrite, JOURNAL_EXTENSION, Output};
+use crate::command::output::{JOURNAL_EXTENSION, Output, OutputError};
 use crate::command::table::{Table, WrittenSize, measure};
 use crate::table::contacts;
 use crate::table::results::names;
@@ -70,7 +70,7 @@ impl OpenedTables {
             Err(JournalError) if results.left() > 0 => bail!(
                 "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
                  first to start over",
-                results.partial().display(),
+                results.partial_path().display(),
                 journal.display()
             ),
             Err(JournalError) => None,
@@ -105,7 +105,7 @@ impl ClaimedFiles {
         };
         match left {
             Some((earlier, results)) if args.resume => {
-                let rows = results.partial().display().to_string();
+                let rows = results.partial_path().display().to_string();
                 let advice = format!("delete {rows} to start over");
                 check_options(&earlier, recorded, "interrupted", &advice)?;
                 let outputs = Outputs::resume(self, &earlier.checkpoint, recorded, journal)?;
@@ -114,7 +114,7 @@ impl ClaimedFiles {
             Some((earlier, results)) if earlier.checkpoint.counts.rows() > 0 => bail!(
                 "{} has {} rows of an interrupted run; add --resume to continue it, or delete the file \
                  to start over",
-                results.partial().display(),
+                results.partial_path().display(),
                 earlier.checkpoint.counts.rows()
             ),
             _ => Ok(OpenedTables::New(Outputs::create(
@@ -157,7 +157,7 @@ fn rename_complete_table(table: Output, written: WrittenSize) -> Result<bool> {
         let (found, _) = measure(File::open(&target)?, u64::MAX)?;
         Ok(Some(found == written))
     };
-    match name_it().map_err(|source| CannotWrite::at(&target, source))? {
+    match name_it().map_err(|source| OutputError::at(&target, source))? {
         Some(false) => bail!(
             "--resume: {} has changed since the run finished; omit --resume to start over and \
              overwrite it",
@@ -174,7 +174,7 @@ fn check_options(
     run: &str,
     advice: &str,
 ) -> Result<()> {
-    match earlier.changes(recorded) {
+    match earlier.describe_changes(recorded) {
         Some(changes) => bail!(
             "--resume: the {run} run had other options: {changes}; give the same options, or {advice}"
         ),
@@ -203,7 +203,7 @@ impl Outputs {
         places: ClaimedFiles,
         recorded: &RecordedOptions,
         journal: Option<PathBuf>,
-    ) -> Result<Self, CannotWrite> {
+    ) -> Result<Self, OutputError> {
         // This comes first, because the journal of an earlier run does not describe these tables.
         let journal = journal
             .map(|path| Journal::start(path, recorded, None))
@@ -220,10 +220,10 @@ impl Outputs {
     }
 
     /// Flushes the tables, and appends a checkpoint to the journal.
-    pub(super) fn save(&mut self, mut checkpoint: Checkpoint) -> Result<(), CannotWrite> {
-        checkpoint.results = self.results.written()?;
+    pub(super) fn save(&mut self, mut checkpoint: Checkpoint) -> Result<(), OutputError> {
+        checkpoint.results = self.results.flush_and_measure()?;
         if let Some(contacts) = &mut self.contacts {
-            checkpoint.contacts = contacts.written()?;
+            checkpoint.contacts = contacts.flush_and_measure()?;
         }
         match &mut self.journal {
             Some(journal) => journal.append(checkpoint),
@@ -232,7 +232,7 @@ impl Outputs {
     }
 
     /// Renames the complete tables to their final names.
-    pub(super) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
+    pub(super) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
         // A run that is resumed after this point only renames the tables.
         self.save(Checkpoint {
             finished: true,
@@ -251,7 +251,7 @@ fn resume_table(table: Output, written: WrittenSize) -> Result<Table> {
     let Output::File(claim, _) = table else {
         bail!("--resume needs files");
     };
-    let partial = claim.partial().display().to_string();
+    let partial = claim.partial_path().display().to_string();
     let table = Table::resume(claim, written)?;
     table.with_context(|| {
         format!(

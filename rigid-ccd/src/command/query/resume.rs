@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail};
 /// Prints at which row a resumed run continues, or that it found no interrupted run.
 pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     if earlier.is_some() {
-        warn_of_page(args);
+        warn_of_partial_page(args);
     }
     match earlier {
         Some(_) if args.quiet => {}
@@ -50,7 +50,7 @@ pub(super) fn skip_rows(
 }
 
 /// Warns, if `--html` is given, that the page of a resumed run shows only the rows answered in this run.
-fn warn_of_page(args: &QueryArgs) {
+fn warn_of_partial_page(args: &QueryArgs) {
     if args.html.is_some() {
         print_error(
             "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
@@ -61,7 +61,7 @@ fn warn_of_page(args: &QueryArgs) {
 /// Reports that a finished run has nothing left to do, and returns its exit status. Refuses motions that are not those
 /// of the finished run.
 pub(super) fn report_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
-    warn_of_page(args);
+    warn_of_partial_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());
     let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;
     let same = (skipped, rows.checksum()) == (end.rows, end.checksum);

@@ -7,7 +7,7 @@ use super::outputs::Outputs;
 use super::summary::Summary;
 use crate::batch::{TimedAnswer, TimedQuestion};
 use crate::command::files::{Rows, input_name};
-use crate::command::output::CannotWrite;
+use crate::command::output::OutputError;
 use crate::command::view::ChosenRows;
 use crate::table::contacts;
 use crate::table::courses::Movements;
@@ -29,7 +29,7 @@ impl QueryRun<'_> {
     /// Answers the selected rows from `start` on, and returns the last checkpoint.
     pub(super) fn answer_rows(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
         let mut done = start;
-        self.answering.progress.answering(0, rows.bytes());
+        self.answering.progress.begin_batch(0, rows.bytes());
         loop {
             let end = self.args.rows.end;
             let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
@@ -40,7 +40,7 @@ impl QueryRun<'_> {
             done = Checkpoint {
                 rows: done.rows + batch.rows.len(),
                 checksum: rows.checksum(),
-                bad: start.bad + self.answering.bad_rows.count(),
+                bad_rows: start.bad_rows + self.answering.bad_rows.count(),
                 counts: self.summary.counts,
                 ..done
             };
@@ -52,7 +52,7 @@ impl QueryRun<'_> {
     }
 
     /// Writes the results and contacts of a batch of answered rows.
-    fn write(&mut self, batch: &Batch) -> Result<(), CannotWrite> {
+    fn write(&mut self, batch: &Batch) -> Result<(), OutputError> {
         let (columns, mut all) = (self.args.columns(), Vec::new());
         for row in &batch.rows {
             let AnsweredRow {
@@ -83,7 +83,7 @@ impl QueryRun<'_> {
     fn write_contacts(
         &mut self,
         answered: &[(RowPosition, &Movements, &TimedAnswer)],
-    ) -> Result<(), CannotWrite> {
+    ) -> Result<(), OutputError> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());
         };

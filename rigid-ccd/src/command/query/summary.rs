@@ -18,7 +18,7 @@ pub(super) struct Summary {
     /// The number of rows of each status, including those of an earlier run.
     pub(super) counts: StatusCounts,
     /// The number of rows that an earlier run answered; only their status is known.
-    earlier: usize,
+    earlier_rows: usize,
     times: TimeHistogram,
     /// The number of pairs of nodes visited in all queries.
     pub(super) iterations: u64,
@@ -52,7 +52,7 @@ impl Summary {
     pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
         Summary {
             counts,
-            earlier: counts.rows(),
+            earlier_rows: counts.rows(),
             ..self
         }
     }
@@ -157,8 +157,8 @@ impl fmt::Display for Summary {
             return Ok(());
         }
         write!(f, ": {}", counts.join(", "))?;
-        match rows - self.earlier {
-            _ if self.earlier == 0 => {}
+        match rows - self.earlier_rows {
+            _ if self.earlier_rows == 0 => {}
             0 => write!(f, "; 0 in this run")?,
             here => write!(f, "; {here} in this run")?,
         }

@@ -1,7 +1,7 @@
 //! The options of `ccd view`.
 
 use crate::command::meshes::MeshArgs;
-use crate::command::numbers::{not_negative, tolerance};
+use crate::command::numbers::{parse_nonnegative, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::command::scene_table::SceneArgs;
 use ccd_core::limits::DEFAULT_TOLERANCE;
@@ -49,13 +49,13 @@ pub(in crate::command) struct ViewArgs {
     #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]
     scene: Option<PathBuf>,
     /// Time at which the motions of --scene end [default: 1]
-    #[arg(long, value_name = "TIME", value_parser = not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
     /// Distance to keep between the bodies
-    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true)]
     pub(super) margin: f64,
     /// Write the page to this file, HTML
     #[arg(long, value_name = "HTML", default_value = "view.html")]

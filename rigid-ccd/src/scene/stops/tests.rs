@@ -62,7 +62,7 @@ fn bodies_that_stop_never_overlap() {
         let free = vec![
             Stop {
                 time: 1.0,
-                by: None,
+                stopped_by: None,
                 contact: None,
             };
             scene.len()
@@ -85,7 +85,7 @@ fn bodies_that_stop_never_overlap() {
         crossed += through.difference(&at_start).count();
         // Each body is near the body that stops it, at their poses then.
         for (index, stop) in stops.iter().enumerate() {
-            let Some(by) = stop.by else {
+            let Some(by) = stop.stopped_by else {
                 moving += 1;
                 assert_eq!(stop.time, 1.0);
                 continue;
@@ -117,7 +117,7 @@ fn bodies_that_stop_never_overlap() {
 /// Checks that a stop's contact is with the body `stop.by`, and not before the time of the stop. At the contact the
 /// witnesses are at most `reach` apart, along the normal.
 fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
-    let by = stop.by.unwrap();
+    let by = stop.stopped_by.unwrap();
     let Impact { bodies, hit } = stop.contact.expect("no limit was reached");
     assert_eq!(bodies, super::super::pairs::in_ascending_order(index, by));
     assert!(hit.time >= stop.time && hit.time <= 1.0, "{hit:?} {stop:?}");
@@ -133,7 +133,7 @@ fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
         normal.dot(way) >= way.length() - rounding - 1e-3 * reach,
         "{normal} {way}"
     );
-    let span = scene.members[index].body.span();
+    let span = scene.members[index].body.bounding_radius();
     let mine = if bodies[0] == index {
         hit.witness_a()
     } else {
@@ -174,7 +174,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     assert_eq!(stops[first].contact.unwrap().hit.time, stops[first].time);
     // A body without a stop has no contact, nor has one that a limit stops.
     assert_eq!(
-        (stops[1].by, stops[1].contact, stops[1].normal()),
+        (stops[1].stopped_by, stops[1].contact, stops[1].normal()),
         (None, None, None)
     );
     let spent = Settings {
@@ -182,7 +182,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
         ..Settings::DEFAULT
     };
     let stop = scene.with_settings(spent).stops(1.0).unwrap()[first];
-    assert_eq!((stop.by, stop.contact), (Some(1), None));
+    assert_eq!((stop.stopped_by, stop.contact), (Some(1), None));
 }
 
 /// Tests balls in a row that fly at a wall: the wall stops the first ball, and each ball stops the next one.
@@ -203,7 +203,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
     }
     let stops = scene.stops(1.0).unwrap();
     for (k, stop) in stops.iter().enumerate().skip(1) {
-        assert_eq!(stop.by, Some(k - 1));
+        assert_eq!(stop.stopped_by, Some(k - 1));
         let place = scene.members[k]
             .movement
             .pose(stop.time)
@@ -270,7 +270,7 @@ fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
     let flying = scene.add(&ball, flies);
     // Without a budget nothing is proven free.
     let stop = scene.stops(1.0).unwrap()[flying];
-    assert!(stop.by == Some(0) && stop.time <= 0.5);
+    assert!(stop.stopped_by == Some(0) && stop.time <= 0.5);
     assert!(scene.stops(-1.0).is_err());
     // The start policy of other questions is unchanged.
     let mut scene = scene.with_settings(Settings::DEFAULT);
@@ -312,7 +312,7 @@ fn a_pressed_ball_does_not_sink_by_rounding() {
         // The body lifts off.
         let lifts = Motion::new(pose, [0.0, 0.0, 0.5], [0.0; 3]).unwrap();
         scene.set_movement(index, lifts).unwrap();
-        assert_eq!(scene.stops(1.0).unwrap()[index].by, None);
+        assert_eq!(scene.stops(1.0).unwrap()[index].stopped_by, None);
     }
 }
 
@@ -354,10 +354,13 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
         }
         scene.add_fixed(&bodies[1], Pose::IDENTITY);
         let stops = scene.stops(1.0).unwrap();
-        stopped += stops.iter().filter(|stop| stop.by.is_some()).count();
+        stopped += stops
+            .iter()
+            .filter(|stop| stop.stopped_by.is_some())
+            .count();
         let goes_on = Stop {
             time: 1.0,
-            by: None,
+            stopped_by: None,
             contact: None,
         };
         let free = vec![goes_on; scene.len()];
@@ -415,7 +418,7 @@ fn stopped_bodies_are_as_blurred_as_moving_ones() {
     let [first, second] = [scene.add(&ball, &blurred), scene.add(&ball, falling)];
     let stops = scene.stops(2.0).unwrap();
     assert_eq!(
-        [first, second].map(|body| stops[body].by),
+        [first, second].map(|body| stops[body].stopped_by),
         [Some(wall), Some(first)]
     );
     let at = |motion: &Motion, body: usize| motion.pose(stops[body].time).translation();

@@ -18,7 +18,7 @@ const EXCESS: f64 = 0.01;
 struct Pair {
     body: Body,
     /// The poses of the first cylinder at times 0 and 1, and that of the second.
-    places: [Pose; 3],
+    poses: [Pose; 3],
     least: f64,
 }
 
@@ -34,7 +34,7 @@ impl Pair {
         let angle = 0.037 * f64::from(number);
         Pair {
             body: round.enclose(EXCESS).unwrap().body().unwrap(),
-            places: [
+            poses: [
                 turned(angle, [0.0, -1.0, 0.0]),
                 turned(angle, [0.0, 1.0, 0.0]),
                 turned(1.7 * angle + 0.1, [apart, 0.0, 0.5]),
@@ -45,8 +45,8 @@ impl Pair {
 
     /// Returns the motion of the first cylinder, which passes the second, and that of the second, which is at rest.
     fn motions(&self) -> [Motion; 2] {
-        let passes = Motion::new(self.places[0], [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
-        [passes, Motion::still(self.places[2])]
+        let passes = Motion::new(self.poses[0], [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
+        [passes, Motion::still(self.poses[2])]
     }
 
     /// Returns the least distance of the cylinders for motions, for an accelerated trajectory along the same line, and
@@ -54,7 +54,7 @@ impl Pair {
     fn least_distances(&self, solver: &mut Solver) -> [Answer; 3] {
         let [passes, stands] = self.motions();
         let (a, b) = (&self.body, &self.body);
-        let rotation = self.places[0].rotation();
+        let rotation = self.poses[0].rotation();
         let start = Pose::new([0.0, -1.0, 0.0], rotation).unwrap();
         let start = Motion::new(start, [0.0, 1.0, 0.0], [0.0; 3]).unwrap();
         let speeds_up = crate::trajectory::Ballistic::new(start, [0.0, 2.0, 0.0]).unwrap();
@@ -62,7 +62,7 @@ impl Pair {
         [
             solver.closest_approach((a, passes), (b, stands), 1.0),
             solver.closest_approach((a, &speeds_up), (b, &stands), 1.0),
-            solver.distance((a, between), (b, self.places[2])),
+            solver.distance((a, between), (b, self.poses[2])),
         ]
         .map(|answer| answer.expect("in range"))
     }

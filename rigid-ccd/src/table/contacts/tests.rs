@@ -27,7 +27,7 @@ fn a_pair_fills_a_row() {
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(Vec::new());
-    let row = ResultRow::of_feature_pair("a,b", 0.1 + 0.2, &pair());
+    let row = ResultRow::from_feature_pair("a,b", 0.1 + 0.2, &pair());
     let columns = columns();
     let header = [
         "id,time,feature_a,feature_b,distance_lower,distance_upper,normal_x,normal_y,normal_z",

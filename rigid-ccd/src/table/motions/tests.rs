@@ -145,10 +145,7 @@ fn other_empty_cells_are_errors() {
 fn the_index_of_pandas_is_named_as_such() {
     for header in [",a_px\n0,1\n", "a_px,__index_level_0__\n1,0\n"] {
         let error = MotionTable::read(header.as_bytes()).unwrap_err();
-        assert!(
-            matches!(&error, TableError::IndexOfPandas { .. }),
-            "{error}"
-        );
+        assert!(matches!(&error, TableError::PandasIndex { .. }), "{error}");
         assert!(error.to_string().contains("index=False"));
     }
 }

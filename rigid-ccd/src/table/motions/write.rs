@@ -1,7 +1,7 @@
 //! Writes the table of motions as CSV.
 
 use super::Motions;
-use crate::table::columns::{DURATION_COLUMN_INDEX, Form, ID_COLUMN, Quantity, Side};
+use crate::table::columns::{DURATION_COLUMN_INDEX, ID_COLUMN, Quantity, Side, TableKind};
 use ccd_core::Motion;
 use std::io;
 
@@ -12,7 +12,7 @@ use std::io;
 /// # Errors
 /// `output` cannot be written to.
 pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Error> {
-    let names = Form::Motions.names();
+    let names = TableKind::Motions.names();
     let defaults = cells(&Motions {
         id: String::new(),
         a: Motion::still(ccd_core::Pose::IDENTITY),
@@ -22,7 +22,7 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
     let rows: Vec<Vec<String>> = queries.iter().map(cells).collect();
     // The parts of an orientation are kept or omitted together.
     let differs = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
-    let orientation = |side| Form::Motions.column_range(side, Quantity::Orientation);
+    let orientation = |side| TableKind::Motions.column_range(side, Quantity::Orientation);
     let kept: Vec<usize> = (0..names.len())
         .filter(|&slot| {
             let whole = [Side::A, Side::B]
@@ -43,13 +43,13 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
 
 /// Returns the text of a query's cell in every known column.
 fn cells(query: &Motions) -> Vec<String> {
-    let mut cells = vec![String::new(); Form::Motions.names().len()];
+    let mut cells = vec![String::new(); TableKind::Motions.names().len()];
     cells[ID_COLUMN].clone_from(&query.id);
     cells[DURATION_COLUMN_INDEX] = query.duration.to_string();
     for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
         let rotation = motion.start().rotation();
         let mut put = |quantity, values: &[f64]| {
-            for (slot, value) in Form::Motions.column_range(side, quantity).zip(values) {
+            for (slot, value) in TableKind::Motions.column_range(side, quantity).zip(values) {
                 cells[slot] = value.to_string();
             }
         };

@@ -1,9 +1,9 @@
 use super::*;
-use crate::table::courses::{CourseRow, Courses, Movements};
+use crate::table::courses::{CourseRow, MovementRows, Movements};
 use ccd_core::glam::DVec3;
 
 fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
-    let rows = Courses::new(text.as_bytes(), grouping).expect("a header that can be used");
+    let rows = MovementRows::new(text.as_bytes(), grouping).expect("a header that can be used");
     assert!(rows.is_path_table());
     rows.map(|row| row.expect("a table that can be read"))
         .collect()
@@ -199,7 +199,7 @@ fn angular_velocities_give_whole_turns_to_the_next_row() {
 #[test]
 fn columns_of_motions_are_no_columns_of_paths() {
     let message = |header: &str| {
-        let rows = Courses::new(header.as_bytes(), Grouping::ById);
+        let rows = MovementRows::new(header.as_bytes(), Grouping::ById);
         rows.map(|_| ()).unwrap_err().to_string()
     };
     let refused = message("id,t,a_vx\n");
@@ -213,7 +213,7 @@ fn columns_of_motions_are_no_columns_of_paths() {
 fn checksums_tell_cells_apart() {
     let sum = |row: &str| {
         let table = format!("id,t,a_px,a_py\n{row}\n");
-        let mut rows = Courses::new(table.as_bytes(), Grouping::ById).unwrap();
+        let mut rows = MovementRows::new(table.as_bytes(), Grouping::ById).unwrap();
         rows.skip_rows(1).unwrap();
         rows.checksum()
     };
@@ -227,7 +227,7 @@ fn checksums_tell_cells_apart() {
 fn checksums_are_of_the_paths_that_are_read() {
     let text = "id,t\na,0\na,1\nb,0\nb,1\n";
     let other = "id,t\na,0\na,1\nb,0\nb,2\n";
-    let open = |text: &'static str| Courses::new(text.as_bytes(), Grouping::ById).unwrap();
+    let open = |text: &'static str| MovementRows::new(text.as_bytes(), Grouping::ById).unwrap();
     let sum = |text, skipped: usize| {
         let mut rows = open(text);
         assert_eq!(rows.skip_rows(skipped).unwrap(), skipped);
@@ -247,7 +247,7 @@ fn checksums_are_of_the_paths_that_are_read() {
 #[test]
 fn bytes_are_those_up_to_the_last_path() {
     let text = "id,t\nx,0\nx,1\ny,0\ny,1\n";
-    let mut rows = Courses::new(text.as_bytes(), Grouping::ById).unwrap();
+    let mut rows = MovementRows::new(text.as_bytes(), Grouping::ById).unwrap();
     for expected in ["id,t\n", "id,t\nx,0\nx,1\n", text] {
         assert_eq!(rows.bytes(), expected.len() as u64);
         let _ = rows.next();

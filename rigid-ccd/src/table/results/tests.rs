@@ -41,7 +41,7 @@ fn course(duration: f64) -> Movements {
 }
 
 /// Returns the table with one row as text.
-fn table(columns: &[Column], row: &ResultRow) -> String {
+fn table_text(columns: &[Column], row: &ResultRow) -> String {
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(Vec::new());
@@ -70,7 +70,7 @@ fn cells_with_comparison(
 ) -> Vec<(&'static str, String)> {
     let row = ResultRow::new(&course(2.5), (question, &answer(outcome)), 12.75, compared);
     let columns = columns_with_counters(question);
-    let text = table(&columns, &row);
+    let text = table_text(&columns, &row);
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let names = names(&columns);
     assert_eq!(
@@ -174,7 +174,7 @@ fn an_error_row_has_only_its_reason() {
         value: "x".into(),
     };
     let row = ResultRow::error("bad", &problem);
-    let text = table(&columns_with_counters(Question::FirstContact), &row);
+    let text = table_text(&columns_with_counters(Question::FirstContact), &row);
     let cells = text.lines().nth(1).unwrap();
     let reason = "column a_px: `x` is not a finite number";
     assert_eq!(cells, format!("bad,error{},{reason},,,,,", ",".repeat(17)));
@@ -201,8 +201,8 @@ fn counters_follow_the_other_columns() {
         12.75,
         ClearanceComparison::default(),
     );
-    let plain = table(&COLUMNS, &row);
-    let counted = table(&columns_with_counters(Question::FirstContact), &row);
+    let plain = table_text(&COLUMNS, &row);
+    let counted = table_text(&columns_with_counters(Question::FirstContact), &row);
     for (line, (with, more)) in plain.lines().zip(counted.lines().zip([
         "advancements,oracle_steps,cycles,fallbacks,front",
         "12,13,14,15,11",
@@ -258,7 +258,7 @@ fn distances_are_compared_to_the_clearance() {
     let unresolved = Outcome::Unresolved(Unresolved {
         lower: 0.01,
         upper: contact().separation.upper,
-        at: Some((1.5, contact())),
+        nearest: Some((1.5, contact())),
         ..Unresolved::from_safe_until(0.0, Limit::Budget)
     });
     let farther = Outcome::Free { proven_gap: 0.3 };

@@ -44,7 +44,7 @@ pub(super) struct PositionBounds {
 
 impl PositionBounds {
     /// Returns the largest distance by which a prismatic joint slides; 0 for other joints.
-    fn slide(&self, joint: &Joint) -> f64 {
+    fn slide_distance(&self, joint: &Joint) -> f64 {
         match joint.kind() {
             Kind::Prismatic(_) => self.largest_with_start,
             Kind::Fixed | Kind::Revolute(_) => 0.0,
@@ -61,7 +61,7 @@ impl LinkBounds {
         match joint.direction() {
             Direction::Forward => {
                 self.joints += 1.0;
-                self.arms += arm + positions.slide(joint);
+                self.arms += arm + positions.slide_distance(joint);
                 self.add_arm(arm);
                 self.axis = self.axis.map(|axis| frame.conjugate() * axis);
                 self.add_freedom(joint, positions);
@@ -69,7 +69,7 @@ impl LinkBounds {
             Direction::Backward => {
                 // The inverse of a pose is rounded once more, at most as the product with another one.
                 self.joints += 2.0;
-                self.arms += 2.0 * (arm + positions.slide(joint));
+                self.arms += 2.0 * (arm + positions.slide_distance(joint));
                 self.add_freedom(joint, positions);
                 self.add_arm(arm);
                 self.axis = self.axis.map(|axis| frame * axis);
@@ -85,7 +85,8 @@ impl LinkBounds {
             Kind::Fixed => {}
             Kind::Prismatic(_) => {
                 self.add_arm(positions.largest);
-                let (turn, turning) = (self.speeds.angular, self.accelerations.angular);
+                let (turn, turning) =
+                    (self.speeds.angular, self.accelerations.angular_acceleration);
                 self.jerks.linear += 3.0 * rate * (turning + turn * turn);
                 self.accelerations.linear += 2.0 * turn * rate;
                 self.speeds.linear += rate;
@@ -109,9 +110,10 @@ impl LinkBounds {
     /// Adds the bounds due to the rotation of an arm of a given length that is fixed to the link.
     fn add_arm(&mut self, length: f64) {
         let SpeedBounds { angular, .. } = self.speeds;
-        let turning = self.accelerations.angular;
-        self.jerks.linear +=
-            (self.jerks.angular + (3.0 * turning + angular * angular) * angular) * length;
+        let turning = self.accelerations.angular_acceleration;
+        self.jerks.linear += (self.jerks.angular_acceleration
+            + (3.0 * turning + angular * angular) * angular)
+            * length;
         self.accelerations.linear += (turning + angular * angular) * length;
         self.speeds.linear += angular * length;
     }
@@ -129,8 +131,9 @@ impl LinkBounds {
             (true, None) => (1.0, None),
         };
         let swept = self.speeds.angular * lesser(across, 1.0);
-        self.jerks.angular += rate * (self.accelerations.angular + self.speeds.angular * swept);
-        self.accelerations.angular += rate * swept;
+        self.jerks.angular_acceleration +=
+            rate * (self.accelerations.angular_acceleration + self.speeds.angular * swept);
+        self.accelerations.angular_acceleration += rate * swept;
         self.speeds.angular += rate;
         self.axis = common;
     }

@@ -51,7 +51,7 @@ impl Tally {
                 *self.unresolved.entry(entry).or_default() += 1;
             }
         }
-        if let Some(why) = &trial.refused {
+        if let Some(why) = &trial.refusal_reason {
             let words: Vec<&str> = why
                 .split(' ')
                 .filter(|w| !w.contains(|c: char| c.is_numeric()))

@@ -5,7 +5,7 @@ use super::{Ball, Evidence, Limit, RECHECK_DISTANCE, Scene};
 use crate::double::Double;
 use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::Snapshot;
-use crate::vector::{Number, larger, smaller};
+use crate::vector::{Number, larger, minimum};
 
 /// The maximum number of steps of one pair of triangles, before the rest of the time is sampled.
 const MAX_PAIR_STEPS: usize = 300;
@@ -84,7 +84,7 @@ impl<'a> Search<'a> {
             self.until
         } else {
             // The smaller root, in the form without cancellation.
-            smaller(
+            minimum(
                 self.until,
                 larger(0.0, 0.999_999 * excess / (-along + root.sqrt())),
             )
@@ -134,7 +134,7 @@ impl<'a> Search<'a> {
             let near = self.scene.near_pairs(&a, &b);
             let least = near
                 .iter()
-                .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
+                .fold(f64::INFINITY, |least, &(d, ..)| minimum(least, d));
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
             let GapRate {
                 rate,
@@ -163,7 +163,7 @@ impl<'a> Search<'a> {
                 rate,
                 rate_change_bound: bend,
             } = self.ball_gap([p, q], &self.scene.snapshots(t));
-            if !(gap > 0.25 * smaller(p.radius, q.radius)
+            if !(gap > 0.25 * minimum(p.radius, q.radius)
                 && gap > RECHECK_DISTANCE * self.scene.scale)
             {
                 break;

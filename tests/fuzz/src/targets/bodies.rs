@@ -10,9 +10,9 @@ const BUDGET: u64 = 4000;
 
 /// Checks that a stored model reads back to the same bytes, and that queries on its body agree.
 pub(super) fn check_storing(model: &Model) {
-    let bytes = stored(model);
+    let bytes = stored_bytes(model);
     let again = Model::read(&bytes[..]).expect("a model that was stored");
-    assert!(stored(&again) == bytes, "stored again, it differs");
+    assert!(stored_bytes(&again) == bytes, "stored again, it differs");
     // A model that cannot be a body, for its number of pieces or their size, names the reason.
     match (model.body(), again.body()) {
         (Ok(body), Ok(_)) => check_queries(&body),
@@ -21,7 +21,7 @@ pub(super) fn check_storing(model: &Model) {
     }
 }
 
-pub(super) fn stored(model: &Model) -> Vec<u8> {
+pub(super) fn stored_bytes(model: &Model) -> Vec<u8> {
     let mut bytes = Vec::new();
     model.write(&mut bytes).expect("memory takes all bytes");
     bytes

@@ -8,7 +8,7 @@ use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_ob
 const MAX_BYTES: usize = 1 << 14;
 
 /// The constant part of a reader's memory limit, in bytes. The limit grows with the file's size.
-const MEMORY: usize = 1 << 20;
+const BASE_MEMORY_LIMIT: usize = 1 << 20;
 const MEMORY_PER_BYTE: usize = 1 << 10;
 /// The memory limit in bytes of a reader of scenes, in which a few bytes may use the same mesh many times.
 const MEMORY_OF_SCENES: usize = 1 << 28;
@@ -23,7 +23,7 @@ const MAX_SCENE_TRIANGLES: usize = 1 << 11;
 const FILES_PER_OUTER_HULL: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {
-    read(format, bytes, MEMORY);
+    read(format, bytes, BASE_MEMORY_LIMIT);
 }
 
 /// Reads a scene file and checks its parts and bodies.
@@ -74,7 +74,7 @@ fn check_parts(format: Format, bytes: &[u8]) {
     assert_eq!(merged.vertices(), whole.vertices());
     assert_eq!(merged.faces(), whole.faces());
     assert_eq!(merged.face_ids(), whole.face_ids());
-    let third = third.in_unit(Unit::Micrometre);
+    let third = third.converted_to_unit(Unit::Micrometre);
     if let Some(Ok(one)) = parts.first().map(|_| third.part("0")) {
         check(&one);
     }
@@ -94,11 +94,11 @@ fn check(mesh: &TriangleMesh) {
     let count = vertices.len() as u32;
     assert!(faces.iter().flatten().all(|&v| v < count));
     let _ = mesh.repairs().to_string();
-    check_reads_back(mesh);
+    check_round_trip(mesh);
 }
 
 /// Checks that a mesh written as OBJ reads back to the same bits.
-fn check_reads_back(mesh: &TriangleMesh) {
+fn check_round_trip(mesh: &TriangleMesh) {
     let mut obj = Vec::new();
     write_obj(mesh, &mut obj).expect("memory takes all bytes");
     let again = TriangleMesh::from_reader(Format::Obj, &obj[..]).expect("an OBJ that was written");

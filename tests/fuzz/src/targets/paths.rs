@@ -1,7 +1,7 @@
 //! The fuzz target that reads tables of paths.
 
 use super::motions::{OneByteReader, run_within_memory_limit};
-use rigid_ccd::table::courses::{CourseRow, Courses, Movements};
+use rigid_ccd::table::courses::{CourseRow, MovementRows, Movements};
 use rigid_ccd::table::motions::{RowPosition, TableError};
 use rigid_ccd::table::paths::Grouping;
 use std::io::Read;
@@ -35,7 +35,7 @@ fn check(bytes: &[u8], grouping: Grouping) {
 
 /// Reads all rows, and the checksum at the end.
 fn read(input: impl Read, grouping: Grouping) -> Result<(Vec<CourseRow>, u32), TableError> {
-    let mut rows = Courses::new(input, grouping)?;
+    let mut rows = MovementRows::new(input, grouping)?;
     let all: Result<_, _> = rows.by_ref().collect();
     Ok((all?, rows.checksum()))
 }
@@ -61,7 +61,7 @@ fn check_row(row: &CourseRow) {
 /// Checks that skipping rows does not affect the rows after them, except for default ids.
 fn check_skipped_rows(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
     let half = rows.len() / 2;
-    let mut rest = Courses::new(bytes, grouping).expect("a header that was read");
+    let mut rest = MovementRows::new(bytes, grouping).expect("a header that was read");
     assert_eq!(rest.skip_rows(half).ok(), Some(half));
     let place = |row: &CourseRow| -> RowPosition {
         match row {

@@ -28,7 +28,7 @@ pub(super) fn run(bytes: &[u8]) {
     if let Some(failure) = trial.failures.first() {
         panic!("{}", failure.report("", &trial.case));
     }
-    if question.extra_checks && trial.refused.is_none() {
+    if question.extra_checks && trial.refusal_reason.is_none() {
         check_equal_bits(&question.case);
     }
 }

@@ -24,7 +24,7 @@ static HEADER: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let mesh = TriangleMesh::from_reader(Format::Obj, triangle.as_bytes()).expect("a triangle");
     let model = prepare(&mesh, Detail::Triangles).expect("a body");
-    bodies::stored(&model)[..HEADER_BYTES].to_vec()
+    bodies::stored_bytes(&model)[..HEADER_BYTES].to_vec()
 });
 
 pub(super) fn run(bytes: &[u8]) {

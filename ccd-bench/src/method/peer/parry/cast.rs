@@ -19,7 +19,7 @@
 use super::library::math::Real;
 use super::library::query::cast_shapes_nonlinear;
 use super::library::shape::TriMesh;
-use super::shapes::{rigid_motion, tri_mesh};
+use super::shapes::{to_rigid_motion, to_tri_mesh};
 use crate::method::peer::contact_claim_at;
 use crate::method::solver::{Claim, Reply, Solver};
 use anyhow::Result;
@@ -40,8 +40,8 @@ impl NonlinearCast {
     /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
         Ok(NonlinearCast {
-            a: tri_mesh(a)?,
-            b: tri_mesh(b)?,
+            a: to_tri_mesh(a)?,
+            b: to_tri_mesh(b)?,
         })
     }
 }
@@ -50,9 +50,9 @@ impl Solver for NonlinearCast {
     fn answer(&mut self, query: &Motions, _: f64) -> Reply {
         // `true`: bodies that penetrate at the start are reported at once.
         let hit = cast_shapes_nonlinear(
-            &rigid_motion(&query.a),
+            &to_rigid_motion(&query.a),
             &self.a,
-            &rigid_motion(&query.b),
+            &to_rigid_motion(&query.b),
             &self.b,
             0.0,
             query.duration as Real,

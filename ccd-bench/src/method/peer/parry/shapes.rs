@@ -9,7 +9,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
 
 /// Converts a mesh to parry's `TriMesh`, with the same triangles in the same order.
-pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh> {
+pub fn to_tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh> {
     let vertices = mesh
         .vertices()
         .iter()
@@ -19,7 +19,7 @@ pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh> {
 }
 
 /// Converts a motion exactly: the body rotates about a centre that moves straight, both at constant rates.
-pub fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
+pub fn to_rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose_at(motion, 0.0),
         to_parry_vector(motion.centre()),
@@ -33,7 +33,7 @@ pub fn pose_at(motion: &Motion, time: f64) -> Pose {
     let pose = motion.pose(time);
     Pose::from_parts(
         to_parry_vector(pose.translation()),
-        rotation(pose.rotation()),
+        to_parry_rotation(pose.rotation()),
     )
 }
 
@@ -42,6 +42,6 @@ pub fn to_parry_vector(v: DVec3) -> Vector {
     Vector::new(v.x as Real, v.y as Real, v.z as Real)
 }
 
-fn rotation(q: DQuat) -> Rotation {
+fn to_parry_rotation(q: DQuat) -> Rotation {
     Rotation::from_xyzw(q.x as Real, q.y as Real, q.z as Real, q.w as Real).normalize()
 }

@@ -24,7 +24,7 @@ use super::library::bounding_volume::{Aabb, BoundingVolume};
 use super::library::math::{Pose, Real};
 use super::library::query::sweep_toi::{Sweep, SweepToiStatus, ToiProxy, sweep_time_of_impact};
 use super::library::shape::TriMesh;
-use super::shapes::{pose_at, to_parry_vector, tri_mesh};
+use super::shapes::{pose_at, to_parry_vector, to_tri_mesh};
 use crate::method::peer::contact_claim_at;
 use crate::method::solver::{Claim, Reply, Solver};
 use anyhow::Result;
@@ -70,7 +70,7 @@ impl SweptMeshPair {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
-            turn / largest_turn(body.radius_about_centre(motion), tolerance)
+            turn / max_segment_rotation(body.radius_about_centre(motion), tolerance)
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
         let travel =
@@ -107,7 +107,7 @@ impl SweptMeshPair {
         let mut first = None;
         for (i, j) in pairs {
             let before = first.unwrap_or(1.0);
-            let (p, q) = (self.a.proxy(i), self.b.proxy(j));
+            let (p, q) = (self.a.triangle_proxy(i), self.b.triangle_proxy(j));
             let hit = sweep_time_of_impact(&p, &a.sweep, &q, &b.sweep, before, slop);
             if hit.status != SweepToiStatus::Separated && hit.fraction <= before {
                 first = Some(hit.fraction);
@@ -157,7 +157,7 @@ impl SweptMesh {
     fn new(mesh: &TriangleMesh) -> Result<Self> {
         let corners = mesh.bounding_box();
         Ok(SweptMesh {
-            mesh: tri_mesh(mesh)?,
+            mesh: to_tri_mesh(mesh)?,
             aabb_corners: corners,
             radius: 0.5 * (corners[1] - corners[0]).length(),
         })
@@ -181,7 +181,7 @@ impl SweptMesh {
         }
     }
 
-    fn proxy(&self, triangle: u32) -> ToiProxy<'static> {
+    fn triangle_proxy(&self, triangle: u32) -> ToiProxy<'static> {
         let t = self.mesh.triangle(triangle);
         ToiProxy::from_array([t.a, t.b, t.c], 0.0)
     }
@@ -189,7 +189,7 @@ impl SweptMesh {
 
 /// Returns the largest rotation per segment, in radians, at which the interpolation error stays within its share of the
 /// tolerance.
-fn largest_turn(reach: f64, tolerance: f64) -> f64 {
+fn max_segment_rotation(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
     // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
     let off = ROTATION_ERROR_FRACTION * tolerance / (0.2567 * 1.1 * reach);

@@ -10,11 +10,11 @@ pub(super) struct ClosingSpeedBounds {
     a: BodyRotation,
     b: BodyRotation,
     /// The velocity of A's centre relative to B's, in the world frame.
-    velocity_w: DVec3,
+    velocity_world: DVec3,
     /// The velocity of A's centre relative to B's, in A's frame.
     velocity: DVec3,
     /// B's axis of rotation in the world frame.
-    axis_b_w: DVec3,
+    axis_b_world: DVec3,
     /// B's axis of rotation in A's frame.
     axis_b: DVec3,
 }
@@ -37,26 +37,26 @@ impl ClosingSpeedBounds {
         ClosingSpeedBounds {
             a: BodyRotation::new(&trees.a),
             b: BodyRotation::new(&trees.b),
-            velocity_w: DVec3::ZERO,
+            velocity_world: DVec3::ZERO,
             velocity: DVec3::ZERO,
-            axis_b_w: DVec3::Z,
+            axis_b_world: DVec3::Z,
             axis_b: DVec3::Z,
         }
     }
 
     /// Sets the motions of both bodies in a query.
     pub(super) fn set_motions(&mut self, a: &RivalMotion, b: &RivalMotion) {
-        self.a.begin(a);
-        self.b.begin(b);
-        self.velocity_w = a.velocity - b.velocity;
-        self.axis_b_w = b.axis;
+        self.a.set_motion(a);
+        self.b.set_motion(b);
+        self.velocity_world = a.velocity - b.velocity;
+        self.axis_b_world = b.axis;
     }
 
     /// Sets the placement of body A at the current time, and converts the motions to A's frame.
     pub(super) fn set_frame(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
-        self.velocity = to_a * self.velocity_w;
-        self.axis_b = to_a * self.axis_b_w;
+        self.velocity = to_a * self.velocity_world;
+        self.axis_b = to_a * self.axis_b_world;
     }
 
     /// Returns a time during which two nodes, and the triangles in them, do not touch. It is the time to close their
@@ -73,8 +73,8 @@ impl ClosingSpeedBounds {
         }
         let n = gap.direction;
         let speed = self.velocity.dot(n)
-            + self.a.speed(&trees.a, pair.a, n.cross(self.a.axis))
-            + self.b.speed(&trees.b, pair.b, n.cross(self.axis_b));
+            + self.a.speed_bound(&trees.a, pair.a, n.cross(self.a.axis))
+            + self.b.speed_bound(&trees.b, pair.b, n.cross(self.axis_b));
         if speed <= 0.0 {
             f64::INFINITY
         } else {
@@ -94,7 +94,7 @@ impl BodyRotation {
         }
     }
 
-    fn begin(&mut self, course: &RivalMotion) {
+    fn set_motion(&mut self, course: &RivalMotion) {
         let axis = course.orientation.transpose() * course.axis;
         self.rate = course.rate;
         if self.motion == 0 || axis != self.axis || course.centre != self.centre {
@@ -107,7 +107,7 @@ impl BodyRotation {
     /// Returns an upper bound of the speed of a node's points along a direction, due to rotation. `across` is the cross
     /// product of the direction with the axis.
     #[inline]
-    fn speed(&mut self, tree: &RssTree, node: u32, across: DVec3) -> f64 {
+    fn speed_bound(&mut self, tree: &RssTree, node: u32, across: DVec3) -> f64 {
         if self.rate == 0.0 {
             return 0.0;
         }

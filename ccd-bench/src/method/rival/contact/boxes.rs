@@ -1,7 +1,7 @@
 //! Tests whether two moving oriented boxes stay apart over an interval of time.
 
 use super::relative::Enclosure;
-use crate::method::rival::interval::cross_sum;
+use crate::method::rival::interval::cross_radius;
 use crate::method::rival::obb_tree::Obb;
 use ccd_core::glam::{DMat3, DVec3};
 
@@ -31,7 +31,7 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
     let t_high = t.abs() + t_radius;
     let cos = into * (enclosure.rotation.middle * a.axes);
     let cos_radius = into.abs() * (enclosure.rotation.radius * a.axes.abs());
-    let high = upper_cosines(cos, cos_radius);
+    let high = cosine_upper_bounds(cos, cos_radius);
     let (ha, hb) = (a.half_extents, b.half_extents);
     // The axes of B: the distance of the centres along them against both half widths.
     if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
@@ -46,8 +46,8 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
     }
     // The axes `b_i × a_j`, for all i at once.
     let separates = |c: DVec3, c_high: DVec3, of_a: DVec3| {
-        let gap = t.cross(c).abs() + cross_sum(t.abs(), c.abs());
-        (gap - cross_sum(t_high + hb, c_high) - of_a).max_element() > 0.0
+        let gap = t.cross(c).abs() + cross_radius(t.abs(), c.abs());
+        (gap - cross_radius(t_high + hb, c_high) - of_a).max_element() > 0.0
     };
     let DMat3 {
         x_axis: x,
@@ -66,7 +66,7 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
 }
 
 /// Returns upper bounds of the absolute values of cosines, each of which is known to within a radius.
-fn upper_cosines(cos: DMat3, radius: DMat3) -> DMat3 {
+fn cosine_upper_bounds(cos: DMat3, radius: DMat3) -> DMat3 {
     let upper =
         |c: DVec3, r: DVec3| (c.abs() + r + COSINE_SLACK).min(DVec3::splat(1.0 + COSINE_SLACK));
     DMat3::from_cols(

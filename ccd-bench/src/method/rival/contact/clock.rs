@@ -10,7 +10,7 @@ pub(super) const MAX_HALVING_DEPTH: usize = 52;
 pub(super) struct HalvedInterval {
     pub(super) span: Span,
     /// The number of halvings that led to this interval.
-    pub(super) level: usize,
+    pub(super) halving_depth: usize,
 }
 
 /// Encloses the motion over intervals of time, with a cache of the last enclosure at each level of halving.
@@ -19,8 +19,8 @@ pub(super) struct MotionEncloser {
     relative_motion: RelativeMotion,
     resolution: f64,
     max_halvings: u64,
-    placements: Vec<CachedEnclosure>,
-    rates: Vec<CachedEnclosure>,
+    placement_cache: Vec<CachedEnclosure>,
+    rate_cache: Vec<CachedEnclosure>,
     /// The number of halvings made so far.
     pub(super) halvings: u64,
 }
@@ -36,7 +36,7 @@ impl HalvedInterval {
     pub(super) fn whole_duration(end: f64) -> Self {
         HalvedInterval {
             span: Span { start: 0.0, end },
-            level: 0,
+            halving_depth: 0,
         }
     }
 
@@ -46,7 +46,7 @@ impl HalvedInterval {
         let middle = self.span.middle();
         [(start, middle), (middle, end)].map(|(start, end)| HalvedInterval {
             span: Span { start, end },
-            level: self.level + 1,
+            halving_depth: self.halving_depth + 1,
         })
     }
 }
@@ -68,8 +68,8 @@ impl MotionEncloser {
             relative_motion: relative,
             resolution,
             max_halvings: most_halvings,
-            placements: vec![nothing; MAX_HALVING_DEPTH + 1],
-            rates: vec![nothing; MAX_HALVING_DEPTH + 1],
+            placement_cache: vec![nothing; MAX_HALVING_DEPTH + 1],
+            rate_cache: vec![nothing; MAX_HALVING_DEPTH + 1],
             halvings: 0,
         }
     }
@@ -87,7 +87,7 @@ impl MotionEncloser {
     /// Returns true if an interval must not be halved, because its width is at the resolution or it comes from the
     /// maximum number of halvings.
     pub(super) fn is_at_resolution(&self, interval: HalvedInterval) -> bool {
-        !(interval.span.width() > self.resolution) || interval.level >= MAX_HALVING_DEPTH
+        !(interval.span.width() > self.resolution) || interval.halving_depth >= MAX_HALVING_DEPTH
     }
 
     /// Returns true if the limit on the number of halvings is reached.
@@ -97,14 +97,14 @@ impl MotionEncloser {
 
     /// Returns the enclosure of all placements of the first body in the second body's frame over an interval.
     pub(super) fn placements(&mut self, interval: HalvedInterval) -> &Enclosure {
-        self.placements[interval.level].enclosure_over(interval.span, |span| {
+        self.placement_cache[interval.halving_depth].enclosure_over(interval.span, |span| {
             self.relative_motion.enclosure_over(span)
         })
     }
 
     /// Returns the enclosure of the rates of change of the placements over an interval.
     pub(super) fn rates(&mut self, interval: HalvedInterval) -> &Enclosure {
-        self.rates[interval.level]
+        self.rate_cache[interval.halving_depth]
             .enclosure_over(interval.span, |span| self.relative_motion.rates_over(span))
     }
 }

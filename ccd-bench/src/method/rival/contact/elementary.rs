@@ -8,7 +8,7 @@ use ccd_core::order::{greater, lesser};
 
 /// A triangle with its edge vectors, its normal, and the inward normals of its edges.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facet {
+pub(super) struct TestTriangle {
     corners: [DVec3; 3],
     /// The edge vectors: edge k leads from corner k to the next.
     edges: [DVec3; 3],
@@ -35,16 +35,16 @@ pub(super) struct ElementaryTestSet(u16);
 /// Two triangles, each in its body's frame; enclosures map the first into the frame of the second.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrianglePair {
-    pub(super) a: Facet,
-    pub(super) b: Facet,
+    pub(super) a: TestTriangle,
+    pub(super) b: TestTriangle,
 }
 
-impl Facet {
+impl TestTriangle {
     pub(super) fn new(corners: &[DVec3; 3]) -> Self {
         let [a, b, c] = *corners;
         let edges = [b - a, c - b, a - c];
         let normal = edges[0].cross(edges[1]);
-        Facet {
+        TestTriangle {
             corners: *corners,
             edges,
             normal,
@@ -127,7 +127,7 @@ impl TrianglePair {
         let (a, b) = (&self.a, &self.b);
         match test {
             ElementaryTest::VertexFace(i) => {
-                rates.transform_point(a.corners[i]).dot_point(b.normal)
+                rates.transform_point(a.corners[i]).dot_vector(b.normal)
             }
             ElementaryTest::FaceVertex(j) => {
                 let between = point_minus(b.corners[j], now.transform_point(a.corners[0]));
@@ -138,8 +138,8 @@ impl TrianglePair {
             }
             ElementaryTest::EdgeEdge(i, j) => {
                 let between = point_minus(b.corners[j], now.transform_point(a.corners[i]));
-                let axis = (now.rotation * a.edges[i]).cross_point(b.edges[j]);
-                let axis_rate = (rates.rotation * a.edges[i]).cross_point(b.edges[j]);
+                let axis = (now.rotation * a.edges[i]).cross_vector(b.edges[j]);
+                let axis_rate = (rates.rotation * a.edges[i]).cross_vector(b.edges[j]);
                 between.dot(axis_rate) - rates.transform_point(a.corners[i]).dot(axis)
             }
         }
@@ -155,7 +155,7 @@ impl TrianglePair {
     ) -> ElementaryTestSet {
         let (a, b) = (&self.a, &self.b);
         let corners = a.corners.map(|corner| now.transform_point(corner));
-        let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_point(b.normal));
+        let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_vector(b.normal));
         if have_same_sign(over_b) {
             return ElementaryTestSet::NONE;
         }
@@ -173,7 +173,7 @@ impl TrianglePair {
                 !(a.is_degenerate() || over_a[j].excludes_zero())
                     && self.may_project_into_a(b.corners[j], &corners, now)
             }
-            ElementaryTest::EdgeEdge(i, j) => self.may_cross((i, j), corners[i], now),
+            ElementaryTest::EdgeEdge(i, j) => self.edges_may_meet((i, j), corners[i], now),
         })
     }
 
@@ -183,7 +183,7 @@ impl TrianglePair {
         (0..3).all(|k| {
             let inside = corner
                 .minus_point(b.corners[k])
-                .dot_point(b.inward_edge_normals[k]);
+                .dot_vector(b.inward_edge_normals[k]);
             !(inside.high() < 0.0)
         })
     }
@@ -206,15 +206,15 @@ impl TrianglePair {
     /// With the points `p + s e` and `q + u g`, `w = q − p` and `c = e × g`, a common point needs `w · c
     /// = 0`, `w × g = s c`, `w × e = u c` and `w · g = s e·g − u g·g`, where s and u are between 0 and
     /// 1. The last three conditions also separate parallel edges, for which `c` and `w · c` vanish.
-    fn may_cross(&self, edges: (usize, usize), p: IntervalVec, now: &Enclosure) -> bool {
+    fn edges_may_meet(&self, edges: (usize, usize), p: IntervalVec, now: &Enclosure) -> bool {
         let g = self.b.edges[edges.1];
         let w = point_minus(self.b.corners[edges.1], p);
         let e = now.rotation * self.a.edges[edges.0];
-        let c = e.cross_point(g);
+        let c = e.cross_vector(g);
         if w.dot(c).excludes_zero() {
             return false;
         }
-        let at_s = w.cross_point(g);
+        let at_s = w.cross_vector(g);
         if excludes_multiples(at_s, c) {
             return false;
         }
@@ -222,7 +222,7 @@ impl TrianglePair {
         if excludes_multiples(at_u, c) {
             return false;
         }
-        let (along, of_e, of_g) = (w.dot_point(g), e.dot_point(g), g.length_squared());
+        let (along, of_e, of_g) = (w.dot_vector(g), e.dot_vector(g), g.length_squared());
         if along.low() > greater(0.0, of_e.high()) || along.high() < lesser(0.0, of_e.low()) - of_g
         {
             return false;

@@ -46,9 +46,9 @@ pub(super) fn first_touch(
             continue;
         }
         let open = open.filter(|test| match root(triangles, test, interval, clock) {
-            Root::Several => true,
+            Root::MaybeSeveral => true,
             Root::None => false,
-            Root::At(time) => {
+            Root::AtTime(time) => {
                 first = earlier_touch(first, time);
                 false
             }
@@ -77,9 +77,9 @@ fn earlier_touch(first: FirstTouch, time: f64) -> FirstTouch {
 /// The roots of a contact function in an interval of time; a root counts only if the features meet there.
 enum Root {
     None,
-    At(f64),
+    AtTime(f64),
     /// The function may have several roots in the interval.
-    Several,
+    MaybeSeveral,
 }
 
 /// Returns the root of a contact function over the interval if the function is proven monotone there, else
@@ -93,7 +93,7 @@ fn root(
     let rates = *clock.rates(interval);
     let rate = triangles.contact_function_rate(test, clock.placements(interval), &rates);
     if !rate.excludes_zero() {
-        return Root::Several;
+        return Root::MaybeSeveral;
     }
     let Some(found) = root_by_false_position(triangles, test, interval.span, clock) else {
         return Root::None;
@@ -111,7 +111,7 @@ fn root(
     {
         Root::None
     } else {
-        Root::At(found.start)
+        Root::AtTime(found.start)
     }
 }
 

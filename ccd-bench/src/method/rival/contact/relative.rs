@@ -73,8 +73,8 @@ impl RelativeMotion {
 
     /// Returns the placement of the first body in the second one's frame at a time.
     pub(super) fn placement_at(&self, time: f64) -> Placement {
-        let (first, position_first) = self.first_motion.at(time);
-        let (second, position_second) = self.second_motion.at(time);
+        let (first, position_first) = self.first_motion.pose_at(time);
+        let (second, position_second) = self.second_motion.pose_at(time);
         let back = second.transpose();
         Placement {
             rotation: back * first,
@@ -86,7 +86,7 @@ impl RelativeMotion {
     pub(super) fn enclosure_over(&self, span: Span) -> Enclosure {
         let (first, position_first) = self.first_motion.enclosure_over(span);
         if self.second_motion.rate == 0.0 {
-            let offset = position_first.minus_point(self.second_motion.still_position());
+            let offset = position_first.minus_point(self.second_motion.rest_start_position());
             return Enclosure {
                 rotation: first,
                 offset,
@@ -141,18 +141,18 @@ impl BodyMotion {
             cosine_coefficient: cos,
             sine_coefficient: map_columns(cos, |column| axis.cross(column)),
             rate: course.rate,
-            start_centre: axes * course.from,
+            start_centre: axes * course.start_position,
             velocity: axes * course.velocity,
             reference_offset: reference - course.centre,
         }
     }
 
     /// Returns the start position of the reference point of a body that does not rotate.
-    fn still_position(&self) -> DVec3 {
+    fn rest_start_position(&self) -> DVec3 {
         self.start_centre + self.constant_term * self.reference_offset
     }
 
-    fn at(&self, time: f64) -> (DMat3, DVec3) {
+    fn pose_at(&self, time: f64) -> (DMat3, DVec3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         let rotation =
             self.constant_term + self.cosine_coefficient * cos + self.sine_coefficient * sin;

@@ -58,11 +58,11 @@ fn results_contain_those_of_members() {
         for _ in 0..10 {
             let (x, y) = (member_vec(u, &mut samples), member_vec(v, &mut samples));
             let (f, g) = (member_mat(m, &mut samples), member_mat(n, &mut samples));
-            assert!(contains(u.dot(v), x.dot(y)) && contains(u.dot_point(p), x.dot(p)));
-            assert!(contains(u.dot(v) + u.dot_point(p), x.dot(y) + x.dot(p)));
-            assert!(contains(u.dot(v) - u.dot_point(p), x.dot(y) - x.dot(p)));
+            assert!(contains(u.dot(v), x.dot(y)) && contains(u.dot_vector(p), x.dot(p)));
+            assert!(contains(u.dot(v) + u.dot_vector(p), x.dot(y) + x.dot(p)));
+            assert!(contains(u.dot(v) - u.dot_vector(p), x.dot(y) - x.dot(p)));
             assert!(
-                contains_vec(u.cross(v), x.cross(y)) && contains_vec(u.cross_point(p), x.cross(p))
+                contains_vec(u.cross(v), x.cross(y)) && contains_vec(u.cross_vector(p), x.cross(p))
             );
             assert!(contains_vec(u + v, x + y) && contains_vec(u - v, x - y));
             assert!(contains_vec(u.minus_point(p), x - p));

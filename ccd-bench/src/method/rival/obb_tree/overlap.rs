@@ -2,7 +2,7 @@
 
 use super::{Obb, ObbTree};
 use crate::method::rival::Placement;
-use crate::method::rival::interval::cross_sum;
+use crate::method::rival::interval::cross_radius;
 use crate::method::rival::tree::NodeContent;
 use crate::method::rival::triangles_cross::triangles_cross;
 use ccd_core::glam::{DMat3, DVec3};
@@ -44,13 +44,13 @@ pub(in crate::method::rival) fn trees_intersect(
                     return true;
                 }
             }
-            (NodeContent::Nodes([left, right]), other)
-                if should_split_self(other, &node_a.bounds, &node_b.bounds) =>
+            (NodeContent::Children([left, right]), other)
+                if should_split_a(other, &node_a.bounds, &node_b.bounds) =>
             {
                 stack.extend([(right, j), (left, j)]);
             }
-            (_, NodeContent::Nodes([left, right])) => stack.extend([(i, right), (i, left)]),
-            (NodeContent::Nodes([left, right]), NodeContent::Triangle(_)) => {
+            (_, NodeContent::Children([left, right])) => stack.extend([(i, right), (i, left)]),
+            (NodeContent::Children([left, right]), NodeContent::Triangle(_)) => {
                 stack.extend([(right, j), (left, j)]);
             }
         }
@@ -59,7 +59,7 @@ pub(in crate::method::rival) fn trees_intersect(
 }
 
 /// Returns true if A's node is to be opened before B's, because B's node is a leaf or smaller.
-fn should_split_self(other: NodeContent, a: &Obb, b: &Obb) -> bool {
+fn should_split_a(other: NodeContent, a: &Obb, b: &Obb) -> bool {
     matches!(other, NodeContent::Triangle(_))
         || a.half_extents.max_element() > b.half_extents.max_element()
 }
@@ -85,7 +85,7 @@ impl Obb {
         }
         // The axes `b_i × a_j`, for all i at once.
         let separates = |c: DVec3, abs_c: DVec3, of_a: DVec3| {
-            (t.cross(c).abs() - cross_sum(hb, abs_c) - of_a).max_element() > 0.0
+            (t.cross(c).abs() - cross_radius(hb, abs_c) - of_a).max_element() > 0.0
         };
         let DMat3 {
             x_axis: x,

@@ -7,7 +7,7 @@ use crate::scene::model::Model;
 fn collect_triangles(tree: &ObbTree, index: u32, into: &mut Vec<u32>) {
     match tree.node(index).content {
         NodeContent::Triangle(t) => into.push(t),
-        NodeContent::Nodes(children) => children
+        NodeContent::Children(children) => children
             .iter()
             .for_each(|&child| collect_triangles(tree, child, into)),
     }

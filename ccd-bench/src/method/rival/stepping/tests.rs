@@ -15,8 +15,8 @@ fn falling_cube_query() -> Motions {
     query(a, resting_motion(-0.5 * DVec3::Z))
 }
 
-fn stepping_solver() -> Stepping {
-    Stepping::new(&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5))
+fn stepping_solver() -> FixedTimeSteps {
+    FixedTimeSteps::new(&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5))
 }
 
 #[test]
@@ -39,12 +39,12 @@ fn contacts_are_reported_at_the_next_sample() {
 fn a_contact_between_samples_is_missed() {
     let mut query = falling_cube_query();
     let (a, b) = (cuboid(0.5, 0.5, 0.01), cuboid(3.0, 3.0, 0.01));
-    let ask = |tolerance: f64| Stepping::new(&a, &b).answer(&query, tolerance);
+    let ask = |tolerance: f64| FixedTimeSteps::new(&a, &b).answer(&query, tolerance);
     let missed = ask(2.0);
     assert_eq!((missed.claim, missed.steps), (Claim::NoContact, 3));
     assert!(matches!(ask(0.01).claim, Claim::Contact { .. }));
     query.duration = 0.5;
-    let before = Stepping::new(&a, &b).answer(&query, 0.01);
+    let before = FixedTimeSteps::new(&a, &b).answer(&query, 0.01);
     assert_eq!((before.claim, before.steps), (Claim::NoContact, 201));
 }
 

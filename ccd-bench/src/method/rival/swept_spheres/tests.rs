@@ -23,7 +23,7 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
 fn triangles(tree: &RssTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].content {
         NodeContent::Triangle(k) => vec![k],
-        NodeContent::Nodes(below) => below.map(|node| triangles(tree, node)).concat(),
+        NodeContent::Children(below) => below.map(|node| triangles(tree, node)).concat(),
     }
 }
 
@@ -70,7 +70,7 @@ fn no_split_is_lopsided() {
     let mesh = TriangleMesh::new((0..400).flat_map(corners).collect(), &faces).unwrap();
     let tree = RssTree::new(&mesh);
     for (k, node) in tree.nodes.iter().enumerate() {
-        let NodeContent::Nodes([left, right]) = node.content else {
+        let NodeContent::Children([left, right]) = node.content else {
             continue;
         };
         let all = triangles(&tree, k as u32).len();

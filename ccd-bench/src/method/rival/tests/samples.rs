@@ -17,13 +17,13 @@ impl RandomSource {
         RandomSource(Pcg64::seed_from_u64(seed))
     }
 
-    pub(in crate::method::rival) fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub(in crate::method::rival) fn uniform_number(&mut self, low: f64, high: f64) -> f64 {
         self.0.random_range(low..high)
     }
 
     /// Returns a random vector whose coordinates are between `-half` and `half`.
     pub(in crate::method::rival) fn vector(&mut self, half: f64) -> DVec3 {
-        DVec3::from_array([(); 3].map(|()| self.uniform(-half, half)))
+        DVec3::from_array([(); 3].map(|()| self.uniform_number(-half, half)))
     }
 
     pub(in crate::method::rival) fn rotation(&mut self) -> DQuat {

@@ -54,7 +54,7 @@ fn rotated_box_mesh(half: DVec3, turn: DMat3) -> TriangleMesh {
     TriangleMesh::new((0..8).map(corner).collect(), &faces).unwrap()
 }
 
-fn moving(at: DVec3, velocity: DVec3, spin: DVec3) -> Motion {
+fn unrotated_motion(at: DVec3, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(Pose::at(at).unwrap(), velocity, spin).unwrap()
 }
 
@@ -84,7 +84,7 @@ fn falling_boxes() -> Vec<ExactCase> {
         a,
         b,
         query: query(
-            moving(3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
+            unrotated_motion(3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
             resting_motion_at(at_b),
         ),
         time,
@@ -129,7 +129,7 @@ fn turning_rods() -> Vec<ExactCase> {
         a: box_mesh(DVec3::new(length, 0.3, width)),
         b: box_mesh(SLAB_HALF_EXTENTS),
         query: query(
-            moving(height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y),
+            unrotated_motion(height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y),
             resting_motion_at(SLAB_POSITION),
         ),
         time: angle(height) / PI,
@@ -141,7 +141,7 @@ fn turning_rods() -> Vec<ExactCase> {
             a: box_mesh(DVec3::new(width, 0.3, length)),
             b: box_mesh(DVec3::new(1.0, 10.0, 10.0)),
             query: query(
-                moving(DVec3::ZERO, DVec3::ZERO, turns * PI * DVec3::Y),
+                unrotated_motion(DVec3::ZERO, DVec3::ZERO, turns * PI * DVec3::Y),
                 resting_motion_at((height + 1.0) * DVec3::X),
             ),
             time: angle(height) / (turns * PI),
@@ -155,8 +155,8 @@ fn turning_rods() -> Vec<ExactCase> {
         a: rod(),
         b: rod(),
         query: query(
-            moving(DVec3::ZERO, DVec3::ZERO, speed * DVec3::Y),
-            moving(apart * DVec3::X, DVec3::ZERO, -speed * DVec3::Y),
+            unrotated_motion(DVec3::ZERO, DVec3::ZERO, speed * DVec3::Y),
+            unrotated_motion(apart * DVec3::X, DVec3::ZERO, -speed * DVec3::Y),
         ),
         time: angle(0.5 * apart) / speed,
         closing_speed: 2.0 * speed * rise(0.5 * apart),
@@ -177,7 +177,7 @@ fn rod_on_post() -> ExactCase {
         a: box_mesh(DVec3::new(length, width, 0.1)),
         b: rotated_box_mesh(DVec3::new(0.1, 0.1, 0.5), outward),
         query: query(
-            moving(DVec3::ZERO, DVec3::ZERO, 1.5 * DVec3::Z),
+            unrotated_motion(DVec3::ZERO, DVec3::ZERO, 1.5 * DVec3::Z),
             resting_motion_at(distance * near + 0.1 * SQRT_2 * facing),
         ),
         time: (at - (width / distance).asin()) / 1.5,
@@ -350,7 +350,7 @@ pub(in crate::method::rival) fn boxes_rotating_past() -> (TriangleMesh, Triangle
     // Its upright edges are at a distance of 1 from its axis.
     let turning = box_mesh(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(
-        moving(DVec3::ZERO, DVec3::ZERO, 6.0 * DVec3::Z),
+        unrotated_motion(DVec3::ZERO, DVec3::ZERO, 6.0 * DVec3::Z),
         resting_motion_at(1.51 * DVec3::X),
     );
     (turning, box_mesh(DVec3::splat(0.5)), query)

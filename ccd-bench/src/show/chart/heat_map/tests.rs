@@ -19,7 +19,8 @@ fn count(svg: &str, colour: &str) -> usize {
 
 #[test]
 fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
-    let cell = |worst, share, limit: &str| Some(HeatCell::reach(worst, share, limit.to_owned()));
+    let cell =
+        |worst, share, limit: &str| Some(HeatCell::solved_range(worst, share, limit.to_owned()));
     let right = cell(Verdict::Right, 1.0, "");
     let svg = draw_map(
         SOLVED_RANGE,

@@ -2,7 +2,7 @@ use super::*;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
-fn numbers() -> impl FnMut(u32) -> u32 {
+fn random_number_generator() -> impl FnMut(u32) -> u32 {
     let mut state = 1_u32;
     move |below| {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -12,7 +12,7 @@ fn numbers() -> impl FnMut(u32) -> u32 {
 
 #[test]
 fn edges_are_found_as_in_a_table() {
-    let mut number = numbers();
+    let mut number = random_number_generator();
     let edges: Vec<((u32, u32), u32)> = (0..400).map(|k| ((number(12), number(30)), k)).collect();
     for some in [&edges[..20], &edges] {
         let table: HashMap<(u32, u32), u32> = some.iter().copied().collect();
@@ -47,7 +47,7 @@ fn fault_by_a_table(hull: &Hull) -> Result<(), HullFault> {
 
 #[test]
 fn the_first_fault_is_found_as_by_a_table() {
-    let mut number = numbers();
+    let mut number = random_number_generator();
     let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
     let mut closed = 0;
     for _ in 0..2000 {

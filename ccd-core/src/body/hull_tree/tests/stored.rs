@@ -33,7 +33,7 @@ fn stored_trees_are_read_again() {
     let triangles = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE];
     let soup = Pieces::triangles(&triangles, &[[0, 1, 2], [3, 2, 1]], &[7, 4]).unwrap();
     let again: Pieces = read(&bytes(&soup)).unwrap();
-    assert!(again.all_triangles());
+    assert!(again.are_all_triangles());
     assert!((0..2).all(|k| again.polytope(k) == soup.polytope(k)));
 }
 

@@ -50,7 +50,7 @@ fn searching_agrees_with_a_scan() {
             let height = |p: &DVec3| look.dot(*p);
             let highest = points.iter().map(height);
             let highest = highest.fold(f64::NEG_INFINITY, crate::math::order::greater);
-            let found = height(&points[tree.extremal(look) as usize]);
+            let found = height(&points[tree.extremal_point(look) as usize]);
             // The slack is the tree's own rounding, and that of the heights here.
             let slack = 4.0 * HEIGHT_ERROR_F64 * reach * look.abs().element_sum();
             assert!(found >= highest - slack, "{count}: {:e}", highest - found);
@@ -73,9 +73,9 @@ fn few_points_of_a_curved_surface_are_visited() {
 fn invalid_directions_give_some_point() {
     let mut rng = rng(23);
     let points = random_point_cloud(&mut rng, 1, 300);
-    let support = Support::of_points(&points);
+    let support = Support::from_points(&points);
     for look in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO, -DVec3::INFINITY] {
-        assert!(support.extremal(look) < 300);
+        assert!(support.extremal_point(look) < 300);
     }
 }
 
@@ -87,7 +87,7 @@ fn the_finest_points_are_all_looked_at() {
             .map(|k| DVec3::new(size * f64::from(k), 0.0, 0.0))
             .collect();
         let tree = SupportTree::new(&points);
-        assert_eq!(tree.extremal(DVec3::X), 99, "{size:e}");
-        assert_eq!(tree.extremal(-DVec3::X), 0, "{size:e}");
+        assert_eq!(tree.extremal_point(DVec3::X), 99, "{size:e}");
+        assert_eq!(tree.extremal_point(-DVec3::X), 0, "{size:e}");
     }
 }

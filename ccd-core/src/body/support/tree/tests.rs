@@ -6,7 +6,7 @@ use crate::math::order::greater;
 use crate::rounding::{DISC_HEIGHT_ERROR_F32, DISC_TILT_ERROR_F32, HEIGHT_ERROR_F64};
 use crate::tests::rational::Exact3;
 use crate::tests::scene::direction;
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::{DVec3, Vec3};
 
 /// Draws points in a ball of radius 1, and a direction along which a point at or near the rim of their disc is
@@ -29,7 +29,7 @@ fn unit_in_max_norm(d: DVec3) -> (DVec3, Vec3) {
 
 #[test]
 fn worst_disc() {
-    let found = Worst::of("DISC_F32", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("DISC_F32", 20_000).search(|tape| {
         let (points, along) = points(tape);
         let (exact, d) = unit_in_max_norm(along);
         let discs = Discs::new(&points, LANES);
@@ -38,18 +38,18 @@ fn worst_disc() {
         let highest = highest.fold(f64::NEG_INFINITY, greater);
         Some(share(highest - bound, DISC_HEIGHT_ERROR_F32.into()))
     });
-    found.is_within(100.0);
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_tilt() {
-    let found = Worst::of("DISC_TILT_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("DISC_TILT_F32", 40_000).search(|tape| {
         let (exact, d) = unit_in_max_norm(direction(tape));
         let aside = direction(tape) * tape.size(-30..=0);
         // The direction is near the normal: the component across it is a difference of equal squares.
         let toward = (exact.normalize() + aside).normalize();
         let Disc { normal: m, .. } = Disc::enclosing(&[toward, DVec3::ZERO]);
-        let m = if tape.pick(2) == 0 {
+        let m = if tape.index_below(2) == 0 {
             toward.as_vec3()
         } else {
             m
@@ -61,31 +61,32 @@ fn worst_tilt() {
         let allowed = f64::from(DISC_TILT_ERROR_F32) * exact.length_squared();
         Some(share(truth - across, allowed))
     });
-    found.is_within(20.0);
+    found.assert_within(20.0);
 }
 
 /// Measures how much lower than the highest point the found point may be, among points of nearly equal height.
 #[test]
 fn worst_farthest() {
-    let found = Worst::of("HEIGHT_F64, twice: the farthest point", 6_000).search(|tape| {
-        let along = direction(tape);
-        let (east, north) = along.any_orthonormal_pair();
-        let (middle, wide) = (DVec3::from(tape.vector(-8..=2)), tape.size(-20..=2));
-        let points: [DVec3; 12] = std::array::from_fn(|_| {
-            let aside = east * tape.any(-2..=0) + north * tape.any(-2..=0);
-            middle + (aside + along * tape.any(-58..=-48)) * wide
+    let found =
+        WorstCaseSearch::of("HEIGHT_F64, twice: the farthest point", 6_000).search(|tape| {
+            let along = direction(tape);
+            let (east, north) = along.any_orthonormal_pair();
+            let (middle, wide) = (DVec3::from(tape.vector(-8..=2)), tape.size(-20..=2));
+            let points: [DVec3; 12] = std::array::from_fn(|_| {
+                let aside = east * tape.any(-2..=0) + north * tape.any(-2..=0);
+                middle + (aside + along * tape.any(-58..=-48)) * wide
+            });
+            let chosen = SupportTree::new(&points).extremal_point(along) as usize;
+            let exact = Exact3::of(along);
+            let above = |p: &DVec3| {
+                let way = Exact3::of(*p).minus(&Exact3::of(points[chosen]));
+                exact.dot(&way).to_f64().value()
+            };
+            let missed = points.iter().map(above).fold(0.0, greater);
+            let reach = points.iter().map(|p| p.abs().max_element());
+            let reach = reach.fold(0.0, greater);
+            let allowed = 2.0 * HEIGHT_ERROR_F64 * along.abs().element_sum() * reach;
+            Some(share(missed, allowed))
         });
-        let chosen = SupportTree::new(&points).extremal(along) as usize;
-        let exact = Exact3::of(along);
-        let above = |p: &DVec3| {
-            let way = Exact3::of(*p).minus(&Exact3::of(points[chosen]));
-            exact.dot(&way).to_f64().value()
-        };
-        let missed = points.iter().map(above).fold(0.0, greater);
-        let reach = points.iter().map(|p| p.abs().max_element());
-        let reach = reach.fold(0.0, greater);
-        let allowed = 2.0 * HEIGHT_ERROR_F64 * along.abs().element_sum() * reach;
-        Some(share(missed, allowed))
-    });
-    found.is_within(20.0);
+    found.assert_within(20.0);
 }

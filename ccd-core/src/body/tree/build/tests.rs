@@ -27,14 +27,14 @@ fn groups_are_half_full_at_least() {
     let body = body(&triangles);
     let tree = body.tree();
     let lanes: usize = tree
-        .boxes
+        .box_groups
         .iter()
         .map(|group| group.header.count as usize)
         .sum();
     assert!(
-        lanes >= 4 * tree.boxes.len(),
+        lanes >= 4 * tree.box_groups.len(),
         "{lanes}, {}",
-        tree.boxes.len()
+        tree.box_groups.len()
     );
     assert_eq!(lanes + 1, tree.nodes.len());
     assert_eq!(tree.nodes.capacity(), tree.nodes.len());

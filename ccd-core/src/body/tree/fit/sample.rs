@@ -33,7 +33,7 @@ impl Sample {
     /// all three corners.
     pub(in super::super) fn fill_from(&mut self, node_points: &NodePoints<'_>) {
         self.count = 0;
-        let size = if node_points.triangles { 3 } else { 1 };
+        let size = if node_points.are_triangles { 3 } else { 1 };
         let groups = node_points.points.len() / size;
         let step = groups.div_ceil(MAX_POINTS / size).max(1);
         for group in (0..groups).step_by(step) {

@@ -40,7 +40,7 @@ fn triangles(points: &[DVec3]) -> NodePoints<'_> {
     NodePoints {
         points,
         radius: 0.0,
-        triangles: true,
+        are_triangles: true,
     }
 }
 
@@ -123,7 +123,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                 let node_points = NodePoints {
                     points: &points,
                     radius: 0.0,
-                    triangles,
+                    are_triangles: triangles,
                 };
                 let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
                 let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
@@ -160,7 +160,7 @@ fn degenerate_points_have_a_box() {
             let node_points = NodePoints {
                 points: &points,
                 radius: 0.0,
-                triangles,
+                are_triangles: triangles,
             };
             let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
             for (point, k) in points.iter().zip([0, 1, 2, 0]) {

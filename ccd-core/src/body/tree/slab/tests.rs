@@ -2,13 +2,13 @@ use super::Slab;
 use crate::math::order::greater;
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::{Double, Double3};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
 /// Measures by how much a slab without its allowance of 16u is too thin for the exact heights of its corners.
 #[test]
 fn worst_slab() {
-    let found = Worst::of("Slab::about: 16u", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("Slab::about: 16u", 20_000).search(|tape| {
         let [u, v, centre] = [(); 3].map(|()| DVec3::from(tape.vector(-20..=10)));
         let corners = [(); 6].map(|()| {
             let at = centre + u * tape.any(-10..=0) + v * tape.any(-10..=0);
@@ -25,11 +25,12 @@ fn worst_slab() {
         let size = |&p: &DVec3| (p - centre).abs().max_element();
         let size = corners.iter().map(size).fold(0.0, greater);
         let highest = corners.iter().map(height).fold(0.0, greater);
-        let found = Double::from(slab.half) - Double::from(16.0 * UNIT_ROUNDOFF_F64 * size);
+        let found =
+            Double::from(slab.half_thickness) - Double::from(16.0 * UNIT_ROUNDOFF_F64 * size);
         Some(share(
             (Double::from(highest) - found).get(),
             16.0 * UNIT_ROUNDOFF_F64 * size,
         ))
     });
-    found.is_within(30.0);
+    found.assert_within(30.0);
 }

@@ -6,7 +6,7 @@ use crate::tests::scene::{RngExt, rng};
 #[test]
 fn nodes_come_back_as_from_a_list() {
     let mut rng = rng(1);
-    let (mut waiting, mut list) = (NodeStack::root(), vec![0]);
+    let (mut waiting, mut list) = (NodeStack::with_root(), vec![0]);
     let mut most = 0;
     for k in 0..20_000u32 {
         let count = rng.random_range(0..9);

@@ -3,13 +3,13 @@
 use super::*;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 
 /// Measures how much of a box's slack is needed for the exact heights of all points, without a rounding radius.
 #[test]
 fn worst_slack() {
     let mut sample = Sample::EMPTY;
-    let found = Worst::of("Whole::slack", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("Whole::slack", 20_000).search(|tape| {
         let [u, v, w, middle] = [(); 4].map(|()| DVec3::from(tape.vector(-20..=0)));
         let points = [(); 6].map(|()| {
             let at = u * tape.any(-8..=0) + v * tape.any(-8..=0) + w * tape.any(-8..=0);
@@ -18,14 +18,14 @@ fn worst_slack() {
         let node_points = NodePoints {
             points: &points,
             radius: 0.0,
-            triangles: tape.pick(2) == 0,
+            are_triangles: tape.index_below(2) == 0,
         };
         let whole = BodyBox::fit_to(&node_points, &mut sample);
         // An axis of the box, or nearly, or any direction.
-        let axis = whole.axes.col(tape.pick(3));
-        let n = match tape.pick(3) {
+        let axis = whole.axes.col(tape.index_below(3));
+        let n = match tape.index_below(3) {
             0 => axis,
-            1 => axis.map(|x| tape.near(x)),
+            1 => axis.map(|x| tape.number_near(x)),
             _ => DVec3::from(tape.vector(-20..=0)),
         };
         let n = Double3::from(n);
@@ -45,7 +45,7 @@ fn worst_slack() {
         let over = points.iter().map(over).fold(f64::NEG_INFINITY, greater);
         (length > 0.0 && whole.radius > 0.0).then(|| share(over, whole.slack * length))
     });
-    found.is_within(30.0);
+    found.assert_within(30.0);
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
         let node_points = NodePoints {
             points: &points,
             radius: 0.0,
-            triangles: rng.random_bool(0.5),
+            are_triangles: rng.random_bool(0.5),
         };
         let whole = BodyBox::fit_to(&node_points, &mut sample);
         assert!(

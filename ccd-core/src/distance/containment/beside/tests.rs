@@ -4,7 +4,7 @@
 use super::points_beside_edges;
 use crate::body::Body;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
-use crate::rounding::BESIDE_EDGE_DISTANCE;
+use crate::rounding::EDGE_PROBE_DISTANCE;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use glam::{DVec2, DVec3};
 
@@ -163,7 +163,7 @@ fn expected_points(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec
         return (first == last).then(Vec::new);
     }
     let middle = 0.5 * (at(*first) + at(*last));
-    let aside = (to - from).perp() * (BESIDE_EDGE_DISTANCE * share);
+    let aside = (to - from).perp() * (EDGE_PROBE_DISTANCE * share);
     let off = sample_spacing([from, to]);
     let both = [middle + aside, middle - aside];
     let told = both.iter().all(|&p| depth(outline, p).abs() > off);

@@ -59,7 +59,7 @@ impl Solid {
 /// are the types of the group and of the other node.
 struct Sample<C, P> {
     group: C,
-    other: P,
+    other_node: P,
     motion: RelativeMotionF32,
     /// The gap to keep, which is the slack minus the rounding of a gap.
     kept_gap: f64,
@@ -83,8 +83,8 @@ struct WorstShares {
     /// start.
     min_relative_excess: f64,
     /// The number of positive free times of fixed planes.
-    still: usize,
-    attached_count: usize,
+    fixed_plane_count: usize,
+    turning_plane_count: usize,
     /// The number of free times of bodies that accelerate.
     accelerating_count: usize,
     unbounded_count: usize,
@@ -121,7 +121,7 @@ struct AxisValues {
     gap: [f32; LANES],
     rate: [f32; LANES],
     /// The lengths of `n × ω` for the split body and the other body.
-    across: [[f32; LANES]; 2],
+    cross_product_lengths: [[f32; LANES]; 2],
     /// The free times of planes that are fixed, turn with the split body, or turn with the other body.
     free_times: [[f32; LANES]; 3],
 }
@@ -136,7 +136,7 @@ impl AxisValues {
         let rows = [
             &self.axis[..],
             &self.free_times,
-            &self.across,
+            &self.cross_product_lengths,
             &[self.gap, self.rate],
         ];
         let all = rows.concat().concat();
@@ -162,7 +162,7 @@ impl WorstShares {
         // Samples that come nowhere near the bounds would prove nothing.
         assert!(self.min_relative_excess < 0.01, "{self:?}");
         assert!(
-            self.still > 20_000 && self.attached_count > 2_000,
+            self.fixed_plane_count > 20_000 && self.turning_plane_count > 2_000,
             "{self:?}"
         );
         assert!(
@@ -187,7 +187,7 @@ fn axis_values<L: Simd, C: Children, P: OtherNode>(
         closest_approach_axis(&pairs),
         axis::axis_along(pairs.children, pairs.other, pairs.offset, some),
     ];
-    axes.map(|axis| along(&pairs, axis))
+    axes.map(|axis| values_along_axis(&pairs, axis))
 }
 
 type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
@@ -206,7 +206,7 @@ fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
 }
 
 #[inline(never)]
-fn along<L: Simd, C: Children, P: OtherNode>(
+fn values_along_axis<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> AxisValues {
@@ -221,9 +221,9 @@ fn along<L: Simd, C: Children, P: OtherNode>(
         axis: [*axis.n.x, *axis.n.y, *axis.n.z],
         gap: *axis.gap,
         rate: *rate,
-        across: [*m.length(), *o.length()],
+        cross_product_lengths: [*m.length(), *o.length()],
         free_times: [
-            free(pairs, axis),
+            fixed_plane_times(pairs, axis),
             free_times_turning_with_split(pairs, axis),
             free_times_turning_with_other(pairs, axis),
         ],
@@ -231,7 +231,7 @@ fn along<L: Simd, C: Children, P: OtherNode>(
 }
 
 #[inline(never)]
-fn free<L: Simd, C: Children, P: OtherNode>(
+fn fixed_plane_times<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
@@ -243,7 +243,7 @@ fn free_times_turning_with_split<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
-    *pairs.free_with_split(axis)
+    *pairs.free_times_with_split_body(axis)
 }
 
 #[inline(never)]
@@ -251,7 +251,7 @@ fn free_times_turning_with_other<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
-    *pairs.free_with_other(axis)
+    *pairs.free_times_with_other_body(axis)
 }
 
 /// Returns the [free times](clock::free_time) of eight pairs with these gaps, rates and second derivatives.
@@ -271,7 +271,7 @@ fn free_times(
 impl<C: Children, P: OtherNode> Sample<C, P> {
     #[inline(never)]
     fn pairs<L: Simd>(&self, level: L) -> Pairs<'_, L, C, P> {
-        EightPairs::new(level, &self.group, &self.other, &self.motion)
+        EightPairs::new(level, &self.group, &self.other_node, &self.motion)
     }
 
     fn check_random_axes(&self, rng: &mut Pcg64, worst: &mut WorstShares) {
@@ -285,9 +285,9 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         for found in &found {
             self.record_errors(found, worst);
             self.check_fixed_plane(found, worst);
-            if reach > MUCH_LARGER_RATIO * self.other.radius() {
+            if reach > MUCH_LARGER_RATIO * self.other_node.radius() {
                 self.check_turning_plane(found, LargerBody::SplitBody, worst);
-            } else if self.other.radius() > MUCH_LARGER_RATIO * reach {
+            } else if self.other_node.radius() > MUCH_LARGER_RATIO * reach {
                 self.check_turning_plane(found, LargerBody::OtherBody, worst);
             }
         }
@@ -305,7 +305,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
 
     /// Compares each value in f32 with its value in f64, and records the largest errors in `worst`.
     fn record_errors(&self, found: &AxisValues, worst: &mut WorstShares) {
-        let frees = self.clocks(found);
+        let frees = self.axis_free_times(found);
         for lane in 0..self.children.len() {
             let of = self.error_shares(found, &frees, lane);
             worst.support = greater(worst.support, of.support);
@@ -328,7 +328,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 let child = self.children[lane].highest(n, tau) + n.dot(self.displacement(tau));
                 (-self.other_solid.highest(-n, tau) - child) / n.length()
             };
-            worst.still += usize::from(self.check(lane, free, gap, worst));
+            worst.fixed_plane_count += usize::from(self.check(lane, free, gap, worst));
         }
     }
 
@@ -350,7 +350,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 let top = child.highest(n, tau) + n.dot(self.displacement(tau));
                 (-self.other_solid.highest(-n, tau) - top) / n.length()
             };
-            worst.attached_count += usize::from(self.check(lane, free[lane], gap, worst));
+            worst.turning_plane_count += usize::from(self.check(lane, free[lane], gap, worst));
         }
     }
 

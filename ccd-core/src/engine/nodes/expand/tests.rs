@@ -17,17 +17,17 @@ struct Tally {
     free: usize,
     no_free_time: usize,
     /// The number of free times that are more than 1.5 times as long as those of fixed planes.
-    turning_plane_only: usize,
+    longer_by_turning_plane: usize,
     /// The number of lanes without a free time whose pieces are within the gap to keep at the clock.
     overlapping: usize,
     /// The number of samples at which one axis separates all triangles.
     proven_by_axis: usize,
     proven_by_pieces: usize,
     /// The number of lanes with a free time, by the body whose node is split.
-    splits_by_kind: [usize; 2],
+    lanes_by_split_body: [usize; 2],
     boxes: usize,
     triangles: usize,
-    splits_against_triangle: usize,
+    lanes_against_triangle: usize,
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn free_times_hold_near_the_rim_of_a_turning_body() {
     let tally = audit_random_scenes(Kind::NearRim, 3, 45_000);
     assert_shares_are_substantial(&tally);
     // Such scenes need planes that turn with the larger body.
-    assert!(20 * tally.turning_plane_only > tally.free, "{tally:?}");
+    assert!(20 * tally.longer_by_turning_plane > tally.free, "{tally:?}");
 }
 
 #[test]
@@ -61,12 +61,15 @@ fn assert_shares_are_substantial(tally: &Tally) {
     assert!(20 * tally.no_free_time > tally.free, "{tally:?}");
     assert!(8 * tally.free > tally.no_free_time, "{tally:?}");
     assert!(
-        tally.splits_by_kind.iter().all(|&n| 4 * n > tally.free),
+        tally
+            .lanes_by_split_body
+            .iter()
+            .all(|&n| 4 * n > tally.free),
         "{tally:?}"
     );
     assert!(10 * tally.boxes > tally.free, "{tally:?}");
     assert!(10 * tally.triangles > tally.free, "{tally:?}");
-    assert!(20 * tally.splits_against_triangle > tally.free, "{tally:?}");
+    assert!(20 * tally.lanes_against_triangle > tally.free, "{tally:?}");
 }
 
 /// Checks lanes of random scenes until enough of them have a free time.
@@ -98,12 +101,12 @@ struct SceneAudit<'a> {
 
 /// A lane of an expansion: the child, the other node, and the interval of its free time.
 #[derive(Debug)]
-struct Lane {
+struct BoundedPair {
     split: WhichBody,
     child: NodeId,
     other: NodeId,
     from: f64,
-    until: f64,
+    end_clock: f64,
 }
 
 impl SceneAudit<'_> {
@@ -127,7 +130,7 @@ impl SceneAudit<'_> {
             let s = self.clock(rng);
             let expansion = expand(
                 &NodeContext::new(self.problem),
-                &Split::all(split, node, other),
+                &Split::of_all_children(split, node, other),
                 s,
             );
             self.check(&expansion, split, node, other, s, tally);
@@ -163,7 +166,7 @@ impl SceneAudit<'_> {
     fn below(&self, split: WhichBody, node: NodeId) -> (u32, bool) {
         let tree = split.of(self.problem).body.tree();
         match tree.get(node) {
-            NodeOrTriangle::Node(node) => match node.below {
+            NodeOrTriangle::Node(node) => match node.children {
                 NodeChildren::Boxes(group) => (tree.box_group(group).header.count, false),
                 NodeChildren::Triangles(group) => (tree.triangle_group_header(group).count, true),
                 NodeChildren::Piece(_) => (0, false),
@@ -186,21 +189,21 @@ impl SceneAudit<'_> {
         for lane in 0..count {
             let free = expansion.bounds.free_times.time_of_lane(lane as usize);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
-            let pair = Lane {
+            let pair = BoundedPair {
                 split,
                 child: expansion.first + lane,
                 other,
                 from: s,
-                until: lesser(1.0, s + f64::from(free)),
+                end_clock: lesser(1.0, s + f64::from(free)),
             };
             if free > 0.0 {
                 self.verify_lane(&pair, tally);
                 tally.free += 1;
-                tally.splits_by_kind[split as usize] += 1;
-                tally.turning_plane_only +=
+                tally.lanes_by_split_body[split as usize] += 1;
+                tally.longer_by_turning_plane +=
                     usize::from(free > 1.5 * still.free_times.time_of_lane(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
-                tally.splits_against_triangle += usize::from(other_tree.piece(other).is_some());
+                tally.lanes_against_triangle += usize::from(other_tree.piece(other).is_some());
                 if triangles {
                     tally.triangles += 1;
                 } else {
@@ -215,20 +218,20 @@ impl SceneAudit<'_> {
 
     /// Returns whether some pieces of a lane are within the gap to keep; `false` for a lane of more than 64 pairs of
     /// pieces.
-    fn overlap(&self, lane: &Lane) -> bool {
+    fn overlap(&self, lane: &BoundedPair) -> bool {
         let (near, far) = self.at(lane, lane.from);
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
     /// Checks at every sampled time that all triangles below the child stay apart from those below the other node. They
     /// have to be farther apart than the gap of all clocks.
-    fn verify_lane(&self, lane: &Lane, tally: &mut Tally) {
+    fn verify_lane(&self, lane: &BoundedPair, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
         let mut prover = AxisSearch::default();
         for k in 0..SAMPLES {
             let share = k as f64 / (SAMPLES - 1) as f64;
-            let s = lane.from + share * (lane.until - lane.from);
+            let s = lane.from + share * (lane.end_clock - lane.from);
             let (near, far) = self.at(lane, s);
             if prover.separates(&near, &far, kept) {
                 tally.proven_by_axis += 1;
@@ -258,7 +261,7 @@ impl SceneAudit<'_> {
     }
 
     /// Returns the triangles below both nodes, at the poses at a clock.
-    fn at(&self, lane: &Lane, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
+    fn at(&self, lane: &BoundedPair, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
         let placed = |which: WhichBody, id: NodeId| {
             let side = which.of(self.problem);
             let frame = side.path.frame(s);
@@ -285,7 +288,7 @@ fn below(side: &BodyWithPath<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     let tree = side.body.tree();
     let members = match tree.get(id) {
         NodeOrTriangle::Triangle(piece) => return visit(piece),
-        NodeOrTriangle::Node(node) => match node.below {
+        NodeOrTriangle::Node(node) => match node.children {
             NodeChildren::Piece(piece) => return visit(piece),
             NodeChildren::Boxes(group) => tree.box_group(group).header,
             NodeChildren::Triangles(group) => *tree.triangle_group_header(group),
@@ -354,10 +357,10 @@ fn expand_with_fixed_planes(
         panic!("a node to split");
     };
     let common = NodeContext::new(problem);
-    let split_all = Split::all(split, node, other);
+    let split_all = Split::of_all_children(split, node, other);
     vectorize!(problem.level, level => {
-        let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::OfMotion);
-        match below.below {
+        let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::FromMotion);
+        match below.children {
             NodeChildren::Boxes(group) => {
                 let group = tree.box_group(group);
                 still(&motion, group, &group.header)

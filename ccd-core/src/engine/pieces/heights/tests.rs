@@ -47,7 +47,8 @@ fn many_points_are_bounded_like_all_of_them() {
         let linear_acceleration =
             direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
         let (bodies, pulls) = ([moving, still], [linear_acceleration, DVec3::ZERO]);
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
+        let problem =
+            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
@@ -129,7 +130,8 @@ fn points_rise_and_sink_as_their_body_turns() {
             [moving, (&ball, Motion::STILL)],
             [acceleration, DVec3::ZERO],
         );
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
+        let problem =
+            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
@@ -162,11 +164,11 @@ struct ReferenceHeights {
 
 impl ReferenceHeights {
     /// Returns the height of a point, its rate, and the second derivative due to rotation.
-    fn point(&self, k: usize, tau: f64) -> Point {
+    fn point(&self, k: usize, tau: f64) -> PointHeight {
         let arm = DQuat::from_scaled_axis(self.spin * tau) * self.arms[k];
         let turning = self.spin.cross(arm);
-        Point {
-            height: self.normal.dot(arm) + self.linear_rate(tau),
+        PointHeight {
+            height: self.normal.dot(arm) + self.linear_displacement(tau),
             rate: self
                 .normal
                 .dot(self.velocity + self.acceleration * tau + turning),
@@ -175,12 +177,12 @@ impl ReferenceHeights {
     }
 
     /// Returns the displacement of all points along the normal after `tau`, without rotation.
-    fn linear_rate(&self, tau: f64) -> f64 {
+    fn linear_displacement(&self, tau: f64) -> f64 {
         self.normal
             .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
     }
 
-    fn least_point_value(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+    fn least_point_value(&self, tau: f64, of: impl Fn(&PointHeight) -> f64) -> f64 {
         let each = (0..self.arms.len()).map(|k| of(&self.point(k, tau)));
         each.fold(f64::INFINITY, lesser)
     }
@@ -214,7 +216,7 @@ impl ReferenceHeights {
                 -bound.second_derivative
                     <= self.least_point_value(tau, |p| -p.second_derivative) + 1e-12
             );
-            let both = |p: &Point| p.height + p.rate;
+            let both = |p: &PointHeight| p.height + p.rate;
             let least = heights.least_value_after(tau, both);
             assert!(least <= self.least_point_value(tau, both) + 1e-11 * (1.0 + rate * rate));
             let Some(few) = heights.few_tracks() else {
@@ -241,7 +243,7 @@ impl ReferenceHeights {
         assert!(!many);
         let samples = (0..=1_000).map(|k| horizon * f64::from(k) / 1e3);
         let lowest = samples
-            .map(|tau| self.least_point_value(tau, |p| p.height) - self.linear_rate(tau))
+            .map(|tau| self.least_point_value(tau, |p| p.height) - self.linear_displacement(tau))
             .fold(f64::INFINITY, lesser);
         let sampled = self.least_point_value(0.0, |p| p.height) - lowest;
         assert!(

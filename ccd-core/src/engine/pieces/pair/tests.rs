@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::Body;
-use crate::body::piece::Combination;
+use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -12,7 +12,12 @@ use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 
 /// Calls `then` with the problem of two balls of radius 1: one at `x` that moves along −x at `speed`, one at rest at
 /// the origin.
-fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+fn with_two_balls<R>(
+    x: f64,
+    speed: f64,
+    config: &Settings,
+    then: impl FnOnce(&Problem<'_>) -> R,
+) -> R {
     let ball = Body::sphere(1.0).unwrap();
     let start = Pose::at(x * DVec3::X).unwrap();
     let a = MovingBody::from((
@@ -43,7 +48,7 @@ fn run(problem: &Problem<'_>) -> (f64, PairStep) {
 #[test]
 fn two_balls_meet_when_they_do() {
     let config = Settings::DEFAULT;
-    let (s, step) = balls(4.0, 4.0, &config, run);
+    let (s, step) = with_two_balls(4.0, 4.0, &config, run);
     assert!(matches!(step, PairStep::Contact(_)), "two balls meet");
     // The gap of 2 is closed at half the duration. The balls stop within the tolerance of it.
     assert!(s <= 0.5 && s > 0.5 - config.tolerance / 4.0, "{s}");
@@ -51,7 +56,7 @@ fn two_balls_meet_when_they_do() {
 
 #[test]
 fn a_pair_that_recedes_is_done_with() {
-    let (s, step) = balls(4.0, -4.0, &Settings::DEFAULT, run);
+    let (s, step) = with_two_balls(4.0, -4.0, &Settings::DEFAULT, run);
     assert_eq!(s, 0.0);
     assert!(matches!(step, PairStep::FreeUntil(clock) if clock > 1.0));
 }
@@ -62,16 +67,16 @@ fn the_margin_is_kept() {
         margin: 1.0,
         ..Settings::DEFAULT
     };
-    let (s, step) = balls(4.0, 4.0, &config, run);
+    let (s, step) = with_two_balls(4.0, 4.0, &config, run);
     assert!(matches!(step, PairStep::Contact(_)));
     assert!(s <= 0.25 && s > 0.2497, "{s}");
 }
 
 #[test]
 fn overlap_and_touching_are_distinguished() {
-    let (s, step) = balls(1.9, 0.0, &Settings::DEFAULT, run);
+    let (s, step) = with_two_balls(1.9, 0.0, &Settings::DEFAULT, run);
     assert!(s == 0.0 && matches!(step, PairStep::Overlap(_)));
-    let (s, step) = balls(2.0, 0.0, &Settings::DEFAULT, run);
+    let (s, step) = with_two_balls(2.0, 0.0, &Settings::DEFAULT, run);
     assert!(s == 0.0 && matches!(step, PairStep::Contact(_)));
 }
 
@@ -83,11 +88,11 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     };
     // Pairs that begin with a gap are handled by the search, which uses half of the gap.
     let x = 2.0;
-    let (_, step) = balls(x, -1.0, &config, run);
+    let (_, step) = with_two_balls(x, -1.0, &config, run);
     assert!(matches!(step, PairStep::FreeUntil(_)), "parting");
-    let (_, step) = balls(x, 0.0, &config, run);
+    let (_, step) = with_two_balls(x, 0.0, &config, run);
     assert!(matches!(step, PairStep::FreeUntil(_)), "resting");
-    let (s, step) = balls(x, 1.0, &config, run);
+    let (s, step) = with_two_balls(x, 1.0, &config, run);
     assert!(matches!(step, PairStep::Contact(_)), "approaching");
     // The contact is never late, except for the rounding of resting.
     assert!(s <= 1e-12, "{s}");
@@ -114,7 +119,7 @@ fn with_returning_bar<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R
 
 #[test]
 fn an_oracle_that_gives_up_is_counted() {
-    let (step, stats) = balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
+    let (step, stats) = with_two_balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
         let mut oracle = ConstantOracle(Err(GiveUpReason::StepCap));
         let mut meter = Meter::new(problem);
         let step = Pair::new(0, 0).advance(problem, &mut oracle, &mut meter, 0.0);
@@ -137,10 +142,10 @@ fn a_dishonest_oracle_cannot_make_a_pair_late() {
     for axis in directions {
         let claim = Claim {
             axis,
-            a: Combination::point(7),
-            b: Combination::EMPTY,
+            a: ConvexCombination::point(7),
+            b: ConvexCombination::EMPTY,
         };
-        let step = balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
+        let step = with_two_balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
             Pair::new(0, 0).advance(
                 problem,
                 &mut ConstantOracle(Ok(claim)),

@@ -6,7 +6,7 @@ use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::questions::along::motions::{Span, StretchMotions};
 use crate::questions::along::stretches::Stretches;
-use crate::questions::closest::ladder::{LowerBoundLadder, MarginQuery};
+use crate::questions::closest::ladder::{LowerBoundAttempts, MarginQuery};
 use crate::settings::QuerySettings;
 use crate::shortcuts::bounding_volumes::least_distance;
 use crate::tuning::MIN_CUT_SHARE;
@@ -15,10 +15,10 @@ impl Query<'_> {
     /// Returns a copy of the query for measuring distances, with a margin of 0 and no required clearance.
     pub(in crate::questions::along) fn for_distances(&self) -> Self {
         Query {
-            terms: QuerySettings {
+            settings: QuerySettings {
                 margin: 0.0,
                 clearance: None,
-                ..self.terms
+                ..self.settings
             },
             problem: None,
             ..*self
@@ -33,11 +33,11 @@ impl Query<'_> {
             budget,
         } = rung;
         let mut asking = self.for_distances();
-        asking.terms = QuerySettings {
+        asking.settings = QuerySettings {
             margin,
             tolerance,
             budget,
-            ..asking.terms
+            ..asking.settings
         };
         asking
     }
@@ -54,13 +54,13 @@ pub(super) struct StretchResult {
     /// The time at which the motions are nearest, counted from the start of the stretch.
     pub(super) time: f64,
     /// The rate at which the motions approach each other at the time when they are nearest.
-    pub(super) approach: f64,
+    pub(super) approach_rate: f64,
 }
 
 impl StretchResult {
     /// Creates the result for motions that are farther apart than the least distance found so far. The bodies are so
     /// despite their deviations.
-    pub(super) fn beyond(lower: f64) -> Self {
+    pub(super) fn farther_than(lower: f64) -> Self {
         StretchResult {
             lower,
             upper: lower,
@@ -78,16 +78,16 @@ impl StretchResult {
     /// Returns the end of the stretch beyond which the distance probably decreases further; `None` if there is no such
     /// end. The motions are nearest at about that end. At their rate of approach there, the distance would fall by more
     /// than the deviations over another stretch of this length.
-    pub(super) fn end_with_decrease_beyond(&self, motions: &StretchMotions) -> Option<f64> {
-        let Span { from, to, .. } = motions.span;
+    pub(super) fn approaching_end(&self, motions: &StretchMotions) -> Option<f64> {
+        let Span { from, end: to, .. } = motions.span;
         let (near, falls) = (
             MIN_CUT_SHARE * motions.span.length(),
-            self.approach * motions.span.length(),
+            self.approach_rate * motions.span.length(),
         );
         let time = motions.time(self.time);
-        if time - from <= near && -falls > motions.stray {
+        if time - from <= near && -falls > motions.total_deviation {
             Some(from)
-        } else if to - time <= near && falls > motions.stray {
+        } else if to - time <= near && falls > motions.total_deviation {
             Some(to)
         } else {
             None
@@ -99,24 +99,25 @@ impl StretchResult {
 pub(super) struct LeastDistanceSoFar {
     /// A lower bound of the distance in all finished stretches.
     pub(super) lower: f64,
-    pub(super) best: Option<(f64, Contact)>,
+    pub(super) nearest_contact: Option<(f64, Contact)>,
     /// The lower bound of the distance that is proven for all times, with the state of further attempts.
-    pub(super) ladder: LowerBoundLadder,
+    pub(super) lower_bounds: LowerBoundAttempts,
 }
 
 impl LeastDistanceSoFar {
     pub(super) fn new(query: &Query<'_>) -> Self {
-        let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
+        let is_timed = query.settings.deadline.is_some() || query.settings.stop.is_some();
         LeastDistanceSoFar {
             lower: f64::INFINITY,
-            best: None,
-            ladder: LowerBoundLadder::new(0.0, query.terms.budget).with_early_start(is_timed),
+            nearest_contact: None,
+            lower_bounds: LowerBoundAttempts::new(0.0, query.settings.budget)
+                .with_early_start(is_timed),
         }
     }
 
     pub(super) fn upper(&self) -> f64 {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
-        self.best.map_or(f64::INFINITY, upper)
+        self.nearest_contact.map_or(f64::INFINITY, upper)
     }
 
     /// Records the outcome of the search for the least distance of a stretch's motions, and returns its bounds.
@@ -129,7 +130,7 @@ impl LeastDistanceSoFar {
         outcome: &Outcome,
     ) -> Result<StretchResult, Limit> {
         let mut seen = StretchResult {
-            total_deviation: motions.stray,
+            total_deviation: motions.total_deviation,
             ..StretchResult::default()
         };
         match *outcome {
@@ -142,7 +143,7 @@ impl LeastDistanceSoFar {
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
                 seen.time = time;
-                seen.approach = motions.approach(time, &contact);
+                seen.approach_rate = motions.approach(time, &contact);
             }
             Outcome::Overlapping { overlap, .. } => {
                 if let Overlap::Pieces(contact) = overlap {
@@ -150,7 +151,7 @@ impl LeastDistanceSoFar {
                 }
             }
             Outcome::Unresolved(known) => {
-                if let Some((time, contact)) = known.at {
+                if let Some((time, contact)) = known.nearest {
                     self.record_contact(motions.time(time), motions.contact(contact));
                 }
                 return Err(known.limit);
@@ -162,12 +163,12 @@ impl LeastDistanceSoFar {
 
     pub(super) fn record_contact(&mut self, time: f64, contact: Contact) {
         if contact.separation.upper < self.upper() {
-            self.best = Some((time, contact));
+            self.nearest_contact = Some((time, contact));
         }
     }
 
     pub(super) fn nearest(&self, query: &Query<'_>, stretches: &Stretches<'_, '_>) -> Answer {
-        let Some((time, contact)) = self.best else {
+        let Some((time, contact)) = self.nearest_contact else {
             let reason = Limit::OracleGaveUp;
             return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
         };
@@ -191,7 +192,7 @@ impl LeastDistanceSoFar {
     ) -> Answer {
         let apart = |&span: &Span| {
             let motions = StretchMotions::new(query, span)?;
-            let problem = motions.problem(query, &query.terms)?;
+            let problem = motions.problem(query, &query.settings)?;
             Ok(motions.lower_bound_for_bodies(least_distance(&problem)))
         };
         let spans = stretches.waiting().iter().chain([&span]);
@@ -205,11 +206,11 @@ impl LeastDistanceSoFar {
     /// Returns the unresolved outcome for a search that reached a limit; `lower` is a lower bound of the distance at
     /// all times.
     fn unresolved_outcome(&self, lower: f64, limit: Limit) -> Outcome {
-        let lower = lesser(greater(self.ladder.lower, lower), self.upper());
+        let lower = lesser(greater(self.lower_bounds.lower, lower), self.upper());
         let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
         Outcome::Unresolved(Unresolved::for_least_distance(
             lower,
-            self.best.map(seen),
+            self.nearest_contact.map(seen),
             limit,
         ))
     }
@@ -221,7 +222,7 @@ impl LeastDistanceSoFar {
         outcome: Outcome,
     ) -> Answer {
         Answer {
-            tolerance: greater(query.terms.tolerance, outcome.width()),
+            tolerance: greater(query.settings.tolerance, outcome.width()),
             outcome,
             stats: stretches.stats,
         }

@@ -17,9 +17,9 @@ fn upper_bounds_have_the_excess_added_once() {
     let mut rng = rng(21);
     let (mut apart, mut overlapping) = (0, 0);
     for number in 0..400 {
-        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let known = approach(&scene.problem());
-        let size = scene.bodies[0].span() + scene.bodies[1].span();
+        let size = scene.bodies[0].bounding_radius() + scene.bodies[1].bounding_radius();
         let excess = size * magnitude(&mut rng, -6.0, -1.0);
         let scene = scene_with_excess(scene, excess);
         let found = approach(&scene.problem());
@@ -52,13 +52,13 @@ fn a_clearance_is_violated_by_more_than_the_excess_only() {
     let mut rng = rng(22);
     let (mut kept, mut violated, mut between) = (0, 0, 0);
     for number in 0..500 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let known = approach(&scene.problem()).outcome;
         let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
             continue;
         };
         let tolerance = scene.problem().tolerance;
-        let size = scene.bodies[0].span() + scene.bodies[1].span();
+        let size = scene.bodies[0].bounding_radius() + scene.bodies[1].bounding_radius();
         let excess = greater(8.0 * tolerance, size * magnitude(&mut rng, -6.0, -1.0));
         scene = scene_with_excess(scene, excess);
         for required in [

@@ -7,13 +7,13 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     let mut rng = rng(11);
     let (mut kept, mut violated, mut between) = (0, 0, 0);
     for number in 0..800 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let known = approach(&scene.problem()).outcome;
         let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
             continue;
         };
         let tolerance = scene.problem().tolerance;
-        let found = sampled(&scene.problem(), 64);
+        let found = sampled_least_distance(&scene.problem(), 64);
         let slack = 2.0 * scene.problem().rounding;
         for required in [
             0.0,
@@ -76,7 +76,7 @@ fn a_required_distance_costs_little_more_than_a_margin() {
     let mut rng = rng(12);
     let (mut required, mut margins, mut measured) = (0, 0, 0);
     for number in 0..300 {
-        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
         let known = approach(&scene.problem());
         let Outcome::LeastDistance { lower, contact, .. } = known.outcome else {
             continue;
@@ -103,7 +103,7 @@ fn searches_that_end_early_know_a_part_of_the_distance() {
     let mut rng = rng(13);
     let (mut ended, mut proven) = (0, 0);
     for number in 0..400 {
-        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
         let whole = approach(&scene.problem());
         if !(whole.outcome.lower() > 0.01) {
             continue;
@@ -111,13 +111,10 @@ fn searches_that_end_early_know_a_part_of_the_distance() {
         scene.config.budget = whole.stats.work() - 1;
         let problem = scene.problem();
         let answer = approach(&problem);
-        let Outcome::Unresolved(Unresolved {
-            lower, at: nearest, ..
-        }) = answer.outcome
-        else {
+        let Outcome::Unresolved(Unresolved { lower, nearest, .. }) = answer.outcome else {
             continue;
         };
-        let found = sampled(&problem, 64);
+        let found = sampled_least_distance(&problem, 64);
         assert!(
             lower <= found + problem.rounding,
             "{number}: {lower:e} of {found:e}"

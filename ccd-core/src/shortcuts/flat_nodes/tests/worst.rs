@@ -9,7 +9,7 @@ use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, direction, rotation};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
 #[test]
@@ -18,7 +18,7 @@ fn worst_reach() {
     let triangle =
         |k: usize| [0, 1, 2].map(|j| DVec3::new(plate[j][k], plate[(j + k) % 3][(k + 1) % 3], 0.0));
     let flat = body(&[triangle(0), triangle(1)]);
-    let found = Worst::of("RATE_F64, the reach of flat nodes", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("RATE_F64, the reach of flat nodes", 20_000).search(|tape| {
         let still = Motion::still(Pose::new(DVec3::ZERO, rotation(tape)).ok()?);
         let problem =
             Problem::about((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT).ok()?;
@@ -33,5 +33,5 @@ fn worst_reach() {
         let lost = truth - (Double::from(node.extent_along(n)) - Double::from(allowed));
         Some(share(lost.get(), allowed))
     });
-    found.is_within(20.0);
+    found.assert_within(20.0);
 }

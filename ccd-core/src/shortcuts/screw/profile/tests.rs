@@ -11,7 +11,7 @@ use crate::settings::Settings;
 use crate::shortcuts::placed::PlacedNode;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::body;
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::DVec3;
 
 /// Returns the cylindrical coordinates of a point, with the azimuth within half a turn of `near`.
@@ -84,7 +84,7 @@ fn axis(tape: &mut RandomCase, advance: f64) -> Option<ScrewAxis> {
 /// Tests the rounding of profiles of tiny triangles anywhere about the axis.
 #[test]
 fn worst_of_an_arm() {
-    let found = Worst::of("profile_rounding, an arm", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("profile_rounding, an arm", 20_000).search(|tape| {
         let advance = tape.any(-10..=6);
         let axis = axis(tape, advance)?;
         let at = DVec3::from(tape.vector(-10..=10));
@@ -92,14 +92,14 @@ fn worst_of_an_arm() {
         let corners = [0; 3].map(|_| at + DVec3::from(tape.vector(-10..=0)) * small);
         worst_share(&axis, corners)
     });
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }
 
 /// Tests the rounding of profiles of triangles in a plane through the axis, which are much longer than their distance
 /// from the axis.
 #[test]
 fn worst_of_a_radius() {
-    let found = Worst::of("profile_rounding, a radius", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("profile_rounding, a radius", 20_000).search(|tape| {
         let axis = axis(tape, 0.0)?;
         let out = axis.unit.cross(tape.vector(-40..=0).into());
         let out = unit(out)?;
@@ -109,5 +109,5 @@ fn worst_of_a_radius() {
         });
         worst_share(&axis, corners)
     });
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }

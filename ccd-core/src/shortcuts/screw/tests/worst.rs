@@ -6,12 +6,12 @@ use crate::motion::path::Path;
 use crate::motion::pose::Pose;
 use crate::rounding::ADVANCE_ERROR_F64;
 use crate::tests::double::{Double, Double3};
-use crate::tests::worst::{Worst, share};
+use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
 #[test]
 fn worst_advance() {
-    let found = Worst::of("ADVANCE_F64", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("ADVANCE_F64", 40_000).search(|tape| {
         let spin = DVec3::from(tape.vector(-10..=6));
         let advance = tape.any(-10..=4);
         let velocity = spin * advance + DVec3::from(tape.vector(-70..=-5));
@@ -29,5 +29,5 @@ fn worst_advance() {
         let lost = exact.length() - Double::from(drift);
         Some(share(lost.get(), ADVANCE_ERROR_F64 * length(velocity)))
     });
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }

@@ -3,7 +3,7 @@
 //! The reference takes the axis, the rounded frame and the offset between the bodies as given, and computes
 //! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
 
-use super::super::{HeightTerms, TurningPiece};
+use super::super::{HeightTerms, PiecePastTurningPlane};
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::vector::unit;
 use crate::motion::Motion;
@@ -13,7 +13,7 @@ use crate::rounding::turning_axis_rounding;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ fn motion(tape: &mut RandomCase) -> Option<Motion> {
 
 /// A point of one body and a plane that turns with the other body, to compare computed heights with exact heights.
 struct Setting<'s> {
-    sweep: &'s TurningPiece<'s>,
+    sweep: &'s PiecePastTurningPlane<'s>,
     motions: [Motion; 2],
     normal: DVec3,
     point: DVec3,
@@ -108,12 +108,12 @@ fn shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     if !own.side.path.is_turning() {
         return None;
     }
-    let sweep = TurningPiece::new(&own, &other, normal, problem.rounding);
+    let sweep = PiecePastTurningPlane::new(&own, &other, normal, problem.rounding);
     let setting = Setting {
         sweep: &sweep,
         motions,
         normal,
-        point: other.piece.points[tape.pick(3)],
+        point: other.piece.points[tape.index_below(3)],
     };
     let tau = tape.fraction();
     let rounding = turning_axis_rounding(sweep.angular_speed + sweep.own_angular_speed);
@@ -138,20 +138,21 @@ fn shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
 
 #[test]
 fn worst_height() {
-    let found =
-        Worst::of("attached_rounding, heights", 10_000).search(|tape| Some(shares(tape)?[0]));
-    found.is_within(60.0);
+    let found = WorstCaseSearch::of("attached_rounding, heights", 10_000)
+        .search(|tape| Some(shares(tape)?[0]));
+    found.assert_within(60.0);
 }
 
 #[test]
 fn worst_rate() {
-    let found = Worst::of("attached_rounding, rates", 10_000).search(|tape| Some(shares(tape)?[1]));
-    found.is_within(60.0);
+    let found = WorstCaseSearch::of("attached_rounding, rates", 10_000)
+        .search(|tape| Some(shares(tape)?[1]));
+    found.assert_within(60.0);
 }
 
 #[test]
 fn worst_bend() {
-    let found = Worst::of("RATE_F64, bends past a turning plane", 10_000)
+    let found = WorstCaseSearch::of("RATE_F64, bends past a turning plane", 10_000)
         .search(|tape| Some(shares(tape)?[2]));
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }

@@ -99,13 +99,13 @@ pub(super) struct PrimitiveExtensions {
 pub(super) struct Accessor {
     #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) buffer_view: Option<usize>,
-    #[serde(default, deserialize_with = "whole::required")]
+    #[serde(default, deserialize_with = "whole::required_number")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) component_type: u32,
     #[serde(default)]
     pub(super) normalized: bool,
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) count: u64,
     #[serde(rename = "type")]
     pub(super) kind: String,
@@ -114,7 +114,7 @@ pub(super) struct Accessor {
 
 #[derive(Deserialize)]
 pub(super) struct Sparse {
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) count: u64,
     pub(super) indices: SparseIndices,
     pub(super) values: SparseValues,
@@ -123,31 +123,31 @@ pub(super) struct Sparse {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseIndices {
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) buffer_view: usize,
-    #[serde(default, deserialize_with = "whole::required")]
+    #[serde(default, deserialize_with = "whole::required_number")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) component_type: u32,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseValues {
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) buffer_view: usize,
-    #[serde(default, deserialize_with = "whole::required")]
+    #[serde(default, deserialize_with = "whole::required_number")]
     pub(super) byte_offset: u64,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct BufferView {
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) buffer: usize,
-    #[serde(default, deserialize_with = "whole::required")]
+    #[serde(default, deserialize_with = "whole::required_number")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) byte_length: u64,
     #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) byte_stride: Option<u64>,
@@ -165,7 +165,7 @@ pub(super) struct ViewExtensions {
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
     pub(super) uri: Option<String>,
-    #[serde(deserialize_with = "whole::required")]
+    #[serde(deserialize_with = "whole::required_number")]
     pub(super) byte_length: u64,
 }
 

@@ -57,10 +57,10 @@ fn text_and_binary_are_the_same() {
 fn metres_are_converted() {
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&[[0., 0., 0.], [0.1, 0., 0.], [0., 1., 0.]]);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     assert_eq!(mesh_file(&gltf).unit(), Some(Unit::Metre));
     assert_eq!(corner(&gltf).x, f64::from(0.1_f32));
-    let file = mesh_file(&gltf).in_unit(Unit::Millimetre);
+    let file = mesh_file(&gltf).converted_to_unit(Unit::Millimetre);
     assert_eq!(file.unit(), Some(Unit::Millimetre));
     assert_eq!(
         file.into_mesh().unwrap().vertices()[1].x,
@@ -117,10 +117,10 @@ fn whole_numbers_may_have_a_fraction_of_zero() {
     }
     let mut gltf = square_gltf();
     let indices = gltf.indices(&[0, 1, 2, 3]);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices, "mode": 6}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices, "mode": 6}));
     let mut gltf = gltf.set("scene", json!(0));
     let plain = read(&gltf);
-    gltf.json["buffers"] = json!([{"byteLength": gltf.binary.len()}]);
+    gltf.json["buffers"] = json!([{"byteLength": gltf.buffer.len()}]);
     convert_numbers_to_floats(&mut gltf.json);
     assert!(
         gltf.json.to_string().contains("\"mode\":6.0"),
@@ -148,8 +148,8 @@ fn whole_numbers_may_have_a_fraction_of_zero() {
 #[test]
 fn what_is_not_read_is_remarked_upon() {
     let mut gltf = Gltf::triangle();
-    gltf.primitive(json!({"attributes": {"POSITION": 0}, "mode": 1}));
-    gltf.primitive(json!({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}]}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "mode": 1}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}]}));
     gltf.json["nodes"] = json!([{"mesh": 0, "skin": 0}, {"mesh": 0}]);
     let expected = "nodes that the scene does not show passed over: 1; \
         primitives of points or lines passed over: 1; nodes taken without their skin: 1; \

@@ -4,7 +4,9 @@ use serde::de::{Deserialize, Deserializer, Error, Unexpected};
 use serde_json::Value;
 
 /// Deserializes a required whole number, which may be written like 1.0 or 1e0.
-pub(super) fn required<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result<T, D::Error> {
+pub(super) fn required_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+    from: D,
+) -> Result<T, D::Error> {
     whole(&Value::deserialize(from)?)
 }
 

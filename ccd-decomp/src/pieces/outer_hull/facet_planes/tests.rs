@@ -1,13 +1,13 @@
 use crate::rational::Exact3;
 use crate::tolerance::{MIN_CORNER_SINE, NEAREST_DISTANCE_ERROR};
-use crate::worst::{Worst, share};
+use crate::worst::{WorstCaseSearch, share};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
 /// Tests that the unit normal of an accepted facet has a rounding error of at most `NEAREST_DISTANCE_ERROR`.
 #[test]
 fn worst_normal() {
-    let found = Worst::of("MIN_CORNER_SINE, a normal", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("MIN_CORNER_SINE, a normal", 20_000).search(|tape| {
         let along = DVec3::from(tape.vector(-20..=0));
         let aside = DVec3::from(tape.vector(-8..=0)) * (2.0 * MIN_CORNER_SINE * tape.size(0..=20));
         let corners = [DVec3::ZERO, along, along * tape.any(-3..=0) + aside];
@@ -25,5 +25,5 @@ fn worst_normal() {
         let exact = unit(DVec3::from_array(exact))?;
         Some(share(exact.distance(found), NEAREST_DISTANCE_ERROR))
     });
-    found.is_within(60.0);
+    found.assert_within(60.0);
 }

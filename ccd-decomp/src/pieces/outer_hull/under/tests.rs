@@ -3,7 +3,7 @@
 use super::clip_to_half_space;
 use crate::rational::{Exact3, exact};
 use crate::tolerance::excess_rounding;
-use crate::worst::{RandomCase, Worst, share};
+use crate::worst::{RandomCase, WorstCaseSearch, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -30,7 +30,7 @@ fn distance_from_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
 
 /// Clips an edge at a random coordinate plane between its ends, and keeps the part on one side.
 fn cut(tape: &mut RandomCase, polygon: &mut Vec<DVec3>) -> Option<()> {
-    let (axis, keep) = (tape.pick(3), tape.pick(2) == 0);
+    let (axis, keep) = (tape.index_below(3), tape.index_below(2) == 0);
     let (p, q) = (polygon[0][axis], polygon[1][axis]);
     let plane = p + (q - p) * tape.fraction();
     let mut part = Vec::new();
@@ -49,7 +49,7 @@ fn largest_coordinate(of: [DVec3; 2]) -> f64 {
 /// Tests that an edge clipped six times, once for each side of a box, stays on its line to within `excess_rounding`.
 #[test]
 fn worst_cuts() {
-    let found = Worst::of("excess_rounding, 6 cuts", 20_000).search(|tape| {
+    let found = WorstCaseSearch::of("excess_rounding, 6 cuts", 20_000).search(|tape| {
         let edge = edge(tape);
         let mut polygon = edge.to_vec();
         for _ in 0..6 {
@@ -62,5 +62,5 @@ fn worst_cuts() {
         let bound = excess_rounding(0.0, largest_coordinate(edge));
         Some(share(off.fold(0.0, greater), bound))
     });
-    found.is_within(4_000.0);
+    found.assert_within(4_000.0);
 }

@@ -16,15 +16,15 @@ fn is_separated_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32;
         .any(|plane| obstacle.separates(plane, triangle))
 }
 
-fn coarse() -> impl Strategy<Value = DVec3> {
+fn grid_point() -> impl Strategy<Value = DVec3> {
     [0..5i32, 0..5i32, 0..5i32].prop_map(|x| DVec3::from_array(x.map(f64::from)))
 }
 
 proptest! {
     #[test]
     fn agrees_with_all_planes(
-        hull in prop::collection::vec(coarse(), 4..9),
-        triangle in [coarse(), coarse(), coarse()],
+        hull in prop::collection::vec(grid_point(), 4..9),
+        triangle in [grid_point(), grid_point(), grid_point()],
     ) {
         let mut points = hull;
         let facets = ExactHull::facets_of(&points);
@@ -40,8 +40,8 @@ proptest! {
     /// coordinates make the point exact.
     #[test]
     fn triangles_inside_are_not_apart(
-        hull in prop::collection::vec(coarse(), 4..9),
-        triangle in [coarse(), coarse(), coarse()],
+        hull in prop::collection::vec(grid_point(), 4..9),
+        triangle in [grid_point(), grid_point(), grid_point()],
         weights in [1..8i32, 1..8i32],
     ) {
         let mut points = hull;

@@ -1,6 +1,6 @@
 use super::*;
 
-fn with(values: [&str; 3]) -> RecordedOptions {
+fn recorded_options(values: [&str; 3]) -> RecordedOptions {
     let options = ["ccd", "--a", "content-of:--a"];
     let pairs = options.iter().zip(values);
     RecordedOptions(
@@ -12,7 +12,7 @@ fn with(values: [&str; 3]) -> RecordedOptions {
 
 #[test]
 fn changes_are_described() {
-    let before = with(["1", "a \nb.obj", "12"]).to_text();
+    let before = recorded_options(["1", "a \nb.obj", "12"]).to_text();
     for (values, expected) in [
         (["1", "a \nb.obj", "12"], None),
         (
@@ -28,10 +28,12 @@ fn changes_are_described() {
             Some("another version of ccd wrote it"),
         ),
     ] {
-        let changes = with(values).describe_changes(&before);
+        let changes = recorded_options(values).describe_changes(&before);
         assert_eq!(changes.as_deref(), expected, "{values:?}");
     }
     let older = "ccd 1\nQueryArgs {\n    a: \"x\",\n}";
-    let changes = with(["1", "x", "12"]).describe_changes(older).unwrap();
+    let changes = recorded_options(["1", "x", "12"])
+        .describe_changes(older)
+        .unwrap();
     assert_eq!(changes, "another version of ccd wrote it");
 }

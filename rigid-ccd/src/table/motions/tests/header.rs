@@ -1,7 +1,7 @@
 //! Tests which headers are refused, and that files of other formats are recognised.
 
 use super::*;
-use crate::table::courses::Courses;
+use crate::table::courses::MovementRows;
 use crate::table::paths::Grouping;
 
 #[test]
@@ -83,7 +83,7 @@ fn columns_that_need_each_other_come_together() {
         ("a_end_qx", "a_end_qw", "a_end_qx"),
         ("t,b_qz", "b_qw", "b_qz"),
     ] {
-        let message = match Courses::new(header.as_bytes(), Grouping::ById) {
+        let message = match MovementRows::new(header.as_bytes(), Grouping::ById) {
             Err(error) => error.to_string(),
             Ok(_) => panic!("{header} is accepted"),
         };

@@ -26,7 +26,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
         draw.log_uniform(1e-6..1e6)
     };
     for course in &mut case.courses {
-        *course = between_end_poses(draw, course, far, case.duration);
+        *course = far_motion(draw, course, far, case.duration);
         if whole {
             course.start.position = course.start.position.map(f64::round);
         }
@@ -36,7 +36,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
 
 /// Returns a motion with the displacement of `course` and a start moved by `far`, in most cases between end poses and
 /// about a random centre.
-fn between_end_poses(
+fn far_motion(
     draw: &mut RandomSource,
     course: &RawMotion,
     far: [f64; 3],

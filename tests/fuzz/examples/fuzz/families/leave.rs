@@ -18,11 +18,11 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     };
     let (top, half_height) = match draw.count(0..4) {
         0 => (shapes::cuboid(half), half[2]),
-        1 => with_lowest_corner_at_zero(shapes::closed_shape(draw)),
-        2 => with_lowest_corner_at_zero(shapes::tetrahedron(draw)),
+        1 => put_on_floor(shapes::closed_shape(draw)),
+        2 => put_on_floor(shapes::tetrahedron(draw)),
         _ => {
             let count = draw.count(1..5);
-            with_lowest_corner_at_zero(shapes::soup(draw, count))
+            put_on_floor(shapes::soup(draw, count))
         }
     };
     let mut config = settings_with_random_tolerance(draw);
@@ -68,7 +68,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
 }
 
 /// Returns a shape moved so that its lowest corner is at z = 0, with 0 as the height of its origin above that plane.
-fn with_lowest_corner_at_zero(shape: Shape) -> (Shape, f64) {
+fn put_on_floor(shape: Shape) -> (Shape, f64) {
     let lowest = shape
         .vertices
         .iter()

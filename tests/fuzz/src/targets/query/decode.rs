@@ -24,7 +24,7 @@ pub(super) const SPIN_BIT: u8 = 4;
 pub(super) const CENTRE_BIT: u8 = 8;
 pub(super) const END_POSE_BIT: u8 = 16;
 /// The bit that marks a margin, in the byte before the settings.
-pub(super) const MARGIN: u8 = 1;
+pub(super) const MARGIN_BIT: u8 = 1;
 pub(super) const LEAVE_BIT: u8 = 2;
 pub(super) const DURATION_BIT: u8 = 4;
 pub(super) const BUDGET_BIT: u8 = 8;
@@ -37,9 +37,9 @@ pub(super) const MESH_KIND: u8 = 0;
 
 pub(super) fn decode_question(bytes: &[u8]) -> Question {
     let mut source = Source::new(bytes);
-    let flags = source.byte();
+    let flags = source.read_byte();
     let config = config(&mut source, flags);
-    let [duration] = source.numbers_if(flags & DURATION_BIT > 0, [1.0]);
+    let [duration] = source.read_numbers_if(flags & DURATION_BIT > 0, [1.0]);
     let asked = methods(&mut source);
     let shapes = [shape(&mut source), shape(&mut source)];
     let mut courses = [course(&mut source), course(&mut source)];
@@ -68,9 +68,9 @@ fn config(source: &mut Source<'_>, flags: u8) -> Settings {
     } else {
         1e-3
     };
-    let [margin] = source.numbers_if(flags & MARGIN > 0, [0.0]);
+    let [margin] = source.read_numbers_if(flags & MARGIN_BIT > 0, [0.0]);
     let budget = if flags & BUDGET_BIT > 0 {
-        u64::from(source.byte())
+        u64::from(source.read_byte())
     } else {
         BUDGET
     };
@@ -97,7 +97,7 @@ fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
         Method::Fast,
     ];
     const KINDS: [Kind; 3] = [Kind::Triangles, Kind::Patches, Kind::Hull];
-    let other = usize::from(source.byte());
+    let other = usize::from(source.read_byte());
     let mut asked = vec![(Kind::Triangles, Method::Direct)];
     let one = (KINDS[other / 5 % 3], METHODS[other % 5]);
     asked.extend((one != asked[0]).then_some(one));
@@ -105,7 +105,7 @@ fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
 }
 
 fn shape(source: &mut Source<'_>) -> Shape {
-    let kind = source.byte();
+    let kind = source.read_byte();
     let mut shape = match kind & KIND_MASK {
         MESH_KIND => mesh(source),
         1 => soup(source, 1),
@@ -122,7 +122,7 @@ fn shape(source: &mut Source<'_>) -> Shape {
         }
         5 => tetrahedron(source),
         6 => bipyramid(source),
-        _ => grid(source),
+        _ => height_field(source),
     };
     // The kinds of pieces to try; the decomposition finds out whether they are possible.
     shape.form = match kind >> 3 & 3 {
@@ -191,7 +191,7 @@ fn bipyramid(source: &mut Source<'_>) -> Shape {
 }
 
 /// Returns a height field of triangles over a grid of squares.
-fn grid(source: &mut Source<'_>) -> Shape {
+fn height_field(source: &mut Source<'_>) -> Shape {
     let side = u32::from(source.count(1, 5));
     let at = |i: u32, j: u32| i * (side + 1) + j;
     let mut shape = Shape::default();
@@ -211,23 +211,23 @@ fn grid(source: &mut Source<'_>) -> Shape {
 }
 
 fn course(source: &mut Source<'_>) -> RawMotion {
-    let flags = source.byte();
+    let flags = source.read_byte();
     let has = |bit: u8| flags & bit > 0;
     let none = [0.0; 3];
     let start = RawPose {
         position: source.numbers(),
-        quaternion: source.numbers_if(has(ROTATED_BIT), RawPose::at(none).quaternion),
+        quaternion: source.read_numbers_if(has(ROTATED_BIT), RawPose::at(none).quaternion),
     };
-    let centre = source.numbers_if(has(CENTRE_BIT), none);
+    let centre = source.read_numbers_if(has(CENTRE_BIT), none);
     let goal = if has(END_POSE_BIT) {
         Goal::End(RawPose {
             position: source.numbers(),
-            quaternion: source.numbers_if(has(SPIN_BIT), start.quaternion),
+            quaternion: source.read_numbers_if(has(SPIN_BIT), start.quaternion),
         })
     } else {
         Goal::Velocities {
-            linear: source.numbers_if(has(VELOCITY_BIT), none),
-            spin: source.numbers_if(has(SPIN_BIT), none),
+            linear: source.read_numbers_if(has(VELOCITY_BIT), none),
+            spin: source.read_numbers_if(has(SPIN_BIT), none),
         }
     };
     RawMotion {
@@ -249,11 +249,11 @@ fn limit_rotation(course: &mut RawMotion, duration: f64) {
 /// Moves A so that a corner of A meets a corner of B at some time, up to an offset. Bodies at random places rarely
 /// meet.
 fn aim_at_corner(source: &mut Source<'_>, case: &mut Case) {
-    let share = f64::from(source.byte()) / 255.0;
+    let share = f64::from(source.read_byte()) / 255.0;
     let time = share * case.duration;
     let mut corner = |k: usize| {
         let vertices = &case.shapes[k].vertices;
-        let corner = vertices[usize::from(source.byte()) % vertices.len()];
+        let corner = vertices[usize::from(source.read_byte()) % vertices.len()];
         let track = case.courses[k].track(case.duration);
         let placed = track.at(time);
         let arm = placed.arm_of(Vector::from_array(corner) - track.centre);

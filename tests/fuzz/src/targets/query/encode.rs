@@ -1,8 +1,8 @@
 //! Encodes a query as bytes, to turn cases into seeds.
 
 use super::decode::{
-    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN, MESH_KIND, ROTATED_BIT,
-    SPIN_BIT, TOLERANCE, VELOCITY_BIT,
+    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN_BIT, MESH_KIND,
+    ROTATED_BIT, SPIN_BIT, TOLERANCE, VELOCITY_BIT,
 };
 use super::source::{RAW_NUMBER_TAG, SIXTEENTH_TAGS};
 use crate::case::{Case, Form, Shape};
@@ -14,7 +14,7 @@ use ccd_core::StartPolicy;
 pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
     let mut out = Writer(Vec::new());
     let config = &case.config;
-    let mut flags = MARGIN | DURATION_BIT | TOLERANCE;
+    let mut flags = MARGIN_BIT | DURATION_BIT | TOLERANCE;
     if config.start == StartPolicy::Leave {
         flags |= LEAVE_BIT;
     }

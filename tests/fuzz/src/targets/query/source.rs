@@ -21,7 +21,7 @@ impl<'a> Source<'a> {
     }
 
     /// Reads a byte; 0 after the end of the input.
-    pub(super) fn byte(&mut self) -> u8 {
+    pub(super) fn read_byte(&mut self) -> u8 {
         let [byte] = self.array();
         byte
     }
@@ -36,30 +36,30 @@ impl<'a> Source<'a> {
     }
 
     pub(super) fn count(&mut self, from: u8, below: u8) -> u8 {
-        from + self.byte() % (below - from)
+        from + self.read_byte() % (below - from)
     }
 
     pub(super) fn number(&mut self) -> f64 {
         let tag = if self.bytes.is_empty() {
             64
         } else {
-            self.byte()
+            self.read_byte()
         };
         let x = match tag {
             0..SIXTEENTH_TAGS => (f64::from(tag) - 64.0) / 16.0,
             SIXTEENTH_TAGS..192 => self.earlier(tag - SIXTEENTH_TAGS),
             192..208 => {
-                let power = 2f64.powi(i32::from(self.byte().cast_signed()));
+                let power = 2f64.powi(i32::from(self.read_byte().cast_signed()));
                 if tag % 2 == 0 { power } else { -power }
             }
             208..224 => {
-                let ulps = i64::from(self.byte().cast_signed());
+                let ulps = i64::from(self.read_byte().cast_signed());
                 let bits = self.earlier(tag - 208).to_bits();
                 f64::from_bits(bits.wrapping_add_signed(ulps))
             }
             224..240 => f64::from(i32::from_le_bytes(self.array())) / f64::from(1 << 31),
             240..248 => {
-                let power = 10f64.powf(0.25 * f64::from(self.byte().cast_signed()));
+                let power = 10f64.powf(0.25 * f64::from(self.read_byte().cast_signed()));
                 if tag % 2 == 0 { power } else { -power }
             }
             248..=RAW_NUMBER_TAG => f64::from_le_bytes(self.array()),
@@ -79,7 +79,7 @@ impl<'a> Source<'a> {
     }
 
     /// Reads `N` numbers if `bit` is true; otherwise returns `or`.
-    pub(super) fn numbers_if<const N: usize>(&mut self, bit: bool, or: [f64; N]) -> [f64; N] {
+    pub(super) fn read_numbers_if<const N: usize>(&mut self, bit: bool, or: [f64; N]) -> [f64; N] {
         if bit { self.numbers() } else { or }
     }
 }

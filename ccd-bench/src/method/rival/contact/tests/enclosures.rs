@@ -2,7 +2,7 @@
 
 use crate::method::rival::contact::boxes::{BoxRelation, relate_boxes};
 use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
-use crate::method::rival::contact::elementary::{Facet, TrianglePair};
+use crate::method::rival::contact::elementary::{TestTriangle, TrianglePair};
 use crate::method::rival::contact::leaf::{FirstTouch, first_touch};
 use crate::method::rival::contact::relative::{Enclosure, RelativeMotion, Span};
 use crate::method::rival::obb_tree::Obb;
@@ -12,7 +12,7 @@ use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
-fn relative(samples: &mut RandomSource, speed: f64, spin: f64) -> RelativeMotion {
+fn random_relative_motion(samples: &mut RandomSource, speed: f64, spin: f64) -> RelativeMotion {
     let query = samples.query(speed, spin);
     let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
     RelativeMotion::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
@@ -29,8 +29,8 @@ fn distance_outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f6
 }
 
 fn span(samples: &mut RandomSource) -> Span {
-    let start = samples.uniform(0.0, 1.0);
-    let width = samples.uniform(0.0, 1.0).powi(3);
+    let start = samples.uniform_number(0.0, 1.0);
+    let width = samples.uniform_number(0.0, 1.0).powi(3);
     Span {
         start,
         end: start + width,
@@ -49,7 +49,7 @@ fn placements_are_those_of_the_motions() {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let (from_a, from_b) = (samples.vector(1.0), samples.vector(1.0));
         let relative = RelativeMotion::new((&a, from_a), (&b, from_b));
-        let (point, time) = (samples.vector(2.0), samples.uniform(0.0, 1.0));
+        let (point, time) = (samples.vector(2.0), samples.uniform_number(0.0, 1.0));
         let world = query.a.pose(time).transform_point(point);
         let seen = relative.placement_at(time).apply(point - from_a) + from_b;
         let back = query.b.pose(time).transform_point(seen);
@@ -62,7 +62,8 @@ fn enclosures_contain_all_placements_and_rates_between() {
     let mut samples = RandomSource::new(2);
     for k in 0..2000 {
         // Some cases have the second body at rest, some have whole turns.
-        let mut relative = relative(&mut samples, 3.0, if k % 3 == 0 { 30.0 } else { 3.0 });
+        let mut relative =
+            random_relative_motion(&mut samples, 3.0, if k % 3 == 0 { 30.0 } else { 3.0 });
         if k % 2 == 0 {
             let query = samples.query(3.0, 3.0);
             let still = ccd_core::Motion::still(query.b.start());
@@ -90,8 +91,8 @@ fn enclosures_contain_all_placements_and_rates_between() {
 fn enclosures_shrink_with_the_interval() {
     let mut samples = RandomSource::new(3);
     for _ in 0..100 {
-        let relative = relative(&mut samples, 3.0, 3.0);
-        let start = samples.uniform(0.0, 1.0);
+        let relative = random_relative_motion(&mut samples, 3.0, 3.0);
+        let start = samples.uniform_number(0.0, 1.0);
         let width = |width: f64| {
             let over = relative.enclosure_over(Span {
                 start,
@@ -138,12 +139,12 @@ fn separated_boxes_never_meet() {
     let mut samples = RandomSource::new(4);
     let (mut apart, mut near, mut met) = (0, 0, 0);
     for _ in 0..6000 {
-        let relative = relative(&mut samples, 2.0, 3.0);
+        let relative = random_relative_motion(&mut samples, 2.0, 3.0);
         let (a, b) = (random_box(&mut samples), random_box(&mut samples));
-        let start = samples.uniform(0.0, 1.0);
+        let start = samples.uniform_number(0.0, 1.0);
         let span = Span {
             start,
-            end: start + samples.uniform(0.0, 0.2),
+            end: start + samples.uniform_number(0.0, 0.2),
         };
         let meet =
             sample_times(span, 8).any(|time| boxes_meet(&a, &b, &relative.placement_at(time)));
@@ -222,8 +223,8 @@ fn triangles_touch_when_samples_first_cross() {
         }
         let tolerance = [1e-2, 1e-4, 1e-8][k % 3];
         let triangles = TrianglePair {
-            a: Facet::new(&a),
-            b: Facet::new(&b),
+            a: TestTriangle::new(&a),
+            b: TestTriangle::new(&b),
         };
         let mut clock = MotionEncloser::new(relative, tolerance / MAX_SPEED, 1 << 20);
         let touch = first_touch(&triangles, HalvedInterval::whole_duration(1.0), &mut clock);

@@ -1,7 +1,7 @@
 //! Tests that `FreeTimes` returns its lanes in the order of a sorted list.
 
 use crate::body::tree::LANES;
-use crate::engine::nodes::bounds::{FreeTimes, LANE_BITS};
+use crate::engine::nodes::bounds::{FreeTimes, LANE_MASK};
 use crate::math::simd::load;
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
@@ -31,7 +31,7 @@ fn times_come_out_in_order_each_lane_once() {
         let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
         let rounded = |lane: usize| {
             if free[lane] > 0.0 {
-                f32::from_bits(free[lane].to_bits() & !LANE_BITS)
+                f32::from_bits(free[lane].to_bits() & !LANE_MASK)
             } else {
                 0.0
             }
@@ -41,10 +41,10 @@ fn times_come_out_in_order_each_lane_once() {
         expected.sort_by(|&a, &b| rounded(a).total_cmp(&rounded(b)).then(a.cmp(&b)));
         many += usize::from(expected.len() > 2);
         for lane in expected {
-            assert_eq!(times.least(), rounded(lane), "{free:?} {used:b}");
+            assert_eq!(times.least_time(), rounded(lane), "{free:?} {used:b}");
             assert_eq!(times.finish_least_lane(), lane, "{free:?} {used:b}");
         }
-        assert_eq!(times.least(), f32::INFINITY, "{free:?} {used:b}");
+        assert_eq!(times.least_time(), f32::INFINITY, "{free:?} {used:b}");
     }
     assert!(many > 5_000, "{many}");
 }

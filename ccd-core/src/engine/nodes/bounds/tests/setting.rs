@@ -44,10 +44,10 @@ impl Shape {
     /// Draws a box of random size and proportions, often as thin as a plate or a needle.
     pub(super) fn new(rng: &mut impl RngExt) -> Self {
         let size = magnitude(rng, -4.0, 4.0);
-        Shape::random_of_size(rng, size, DVec3::ZERO)
+        Shape::random_box(rng, size, DVec3::ZERO)
     }
 
-    fn random_of_size(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
+    fn random_box(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
         let frame = DMat3::from_quat(rotation(rng));
         let mut ratio = || match rng.random_range(0..3) {
             0 => 1e-7,
@@ -75,7 +75,7 @@ impl Shape {
             half: axes.map(|u| farthest(&|offset| offset.dot(u.as_dvec3()).abs())),
             rounding: 0.0,
             radius: farthest(&DVec3::length),
-            below: NodeChildren::Boxes(0),
+            children: NodeChildren::Boxes(0),
         };
         Shape { points, node }
     }
@@ -94,7 +94,7 @@ impl Shape {
 /// The pose of the other node, and the motions of both bodies.
 pub(super) struct Setting {
     /// The rotation from the other body's frame to the split body's.
-    turn: DMat3,
+    rotation: DMat3,
     place: DVec3,
     /// The scale of the children's sizes, and of their distances from the group's origin.
     size: f64,
@@ -119,7 +119,7 @@ impl Setting {
         let fast = far * magnitude(rng, -3.0, 2.0);
         let offset = size * magnitude(rng, 0.0, 6.0);
         Setting {
-            turn: DMat3::from_quat(rotation(rng)),
+            rotation: DMat3::from_quat(rotation(rng)),
             place,
             size,
             origin: point_in_ball(rng, offset),
@@ -142,7 +142,7 @@ impl Setting {
     }
 
     /// Moves the other node to the distance `far`, in units of the sum of both sizes.
-    pub(super) fn at_distance(self, far: f64, other: &Shape) -> Self {
+    pub(super) fn with_distance(self, far: f64, other: &Shape) -> Self {
         let far = far * (f64::from(other.node.radius) + self.size);
         Setting {
             place: self.place / self.place.length() * far,
@@ -168,12 +168,12 @@ impl Setting {
         }
     }
 
-    fn far(&self, other: &Shape) -> Solid {
+    fn other_solid(&self, other: &Shape) -> Solid {
         Solid {
             points: other
                 .points
                 .iter()
-                .map(|&p| self.turn * p + self.place)
+                .map(|&p| self.rotation * p + self.place)
                 .collect(),
             centre: self.centres[1],
             spin: self.angular_velocities[1],
@@ -183,7 +183,7 @@ impl Setting {
     fn child_shape(&self, rng: &mut impl RngExt) -> Shape {
         let size = self.size * magnitude(rng, -2.0, 0.0);
         let centre = self.origin + point_in_ball(rng, self.size);
-        Shape::random_of_size(rng, size, centre)
+        Shape::random_box(rng, size, centre)
     }
 
     pub(super) fn boxes(&self, rng: &mut impl RngExt, other: &Shape) -> Sample<BoxGroup, OtherBox> {
@@ -191,10 +191,15 @@ impl Setting {
         let nodes: Vec<Node> = shapes.iter().map(|s| s.node.clone()).collect();
         let group = BoxGroup::new(&nodes, 0, self.origin);
         let children = shapes.iter().map(|s| self.child(&s.points)).collect();
-        let [x, y, z] = [self.turn.x_axis, self.turn.y_axis, self.turn.z_axis].map(DVec3::as_vec3);
+        let [x, y, z] = [
+            self.rotation.x_axis,
+            self.rotation.y_axis,
+            self.rotation.z_axis,
+        ]
+        .map(DVec3::as_vec3);
         let node = &other.node;
         let boxed = OtherBox {
-            centre: (self.turn * node.centre + self.place).as_vec3(),
+            centre: (self.rotation * node.centre + self.place).as_vec3(),
             axes: node.axes.map(|u| x * u.x + y * u.y + z * u.z),
             half: node.half,
             rounding: node.rounding,
@@ -202,7 +207,7 @@ impl Setting {
             piece: false,
         };
         let reach = group.header.reach;
-        self.sample(group, boxed, reach, children, self.far(other))
+        self.sample(group, boxed, reach, children, self.other_solid(other))
     }
 
     pub(super) fn triangles(
@@ -218,7 +223,7 @@ impl Setting {
         let row = StoredTriangleGroup::new(&corners, 0, self.origin);
         let group = TriangleGroup::new(&row, &corners);
         let children = corners.iter().map(|t| self.child(t)).collect();
-        let far = self.far(other);
+        let far = self.other_solid(other);
         let [a, b, c] = [far.points[0], far.points[1], far.points[2]];
         let centre = (a + b + c) / 3.0;
         let arms = [a - centre, b - centre, c - centre];
@@ -272,10 +277,10 @@ impl Setting {
                 slack: (kept + allowed).next_up(),
                 closed_gap: LEAST_GAP_F32,
                 rate_slack: RATE_ERROR_F32 * speed,
-                larger: None,
+                larger_body: None,
             },
             group,
-            other,
+            other_node: other,
             kept_gap: f64::from(kept),
             allowed_gap_error: allowed,
             children,

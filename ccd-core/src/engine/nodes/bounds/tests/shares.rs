@@ -13,7 +13,7 @@ use crate::tests::worst::share;
 
 /// The gaps, second derivatives and free times of eight pairs along an axis.
 pub(super) struct AxisFreeTimes {
-    pub(super) apart: [f32; LANES],
+    pub(super) gap_excess: [f32; LANES],
     pub(super) second_derivative: [f32; LANES],
     pub(super) free: [f32; LANES],
 }
@@ -42,7 +42,7 @@ pub(super) fn free_time_error_share(numbers: [f32; 4]) -> f64 {
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
     /// Computes the free times from the gaps and rates of an axis, with exact second derivatives.
-    pub(super) fn clocks(&self, found: &AxisValues) -> AxisFreeTimes {
+    pub(super) fn axis_free_times(&self, found: &AxisValues) -> AxisFreeTimes {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
@@ -54,7 +54,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let level = Instructions::Best.level();
         AxisFreeTimes {
             free: free_times(level, &apart, &found.rate, &second_derivative, closed),
-            apart,
+            gap_excess: apart,
             second_derivative,
         }
     }
@@ -80,7 +80,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             ..ErrorShares::default()
         };
         let turning = [(motion.split, child), (motion.other, &self.other_solid)];
-        for ((turning, body), length) in turning.iter().zip(found.across) {
+        for ((turning, body), length) in turning.iter().zip(found.cross_product_lengths) {
             let across = n.cross(body.spin).length();
             let found = length[lane] * SECOND_DERIVATIVE_FACTOR_F32;
             let of = share(
@@ -93,7 +93,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         if free > 0.0 && free < 1e30 {
             shares.clock = free_time_error_share([
                 free,
-                clocks.apart[lane],
+                clocks.gap_excess[lane],
                 rate,
                 clocks.second_derivative[lane],
             ]);

@@ -19,8 +19,8 @@ struct PairValues {
     radius: [f32; LANES],
     /// The distances of the small nodes from the other body's centre of rotation.
     arms: [f32; LANES],
-    split_reach: [f32; LANES],
-    other_reach: [f32; LANES],
+    split_extent: [f32; LANES],
+    other_extent: [f32; LANES],
     gap: [f32; LANES],
     /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
     free: [[f32; LANES]; 4],
@@ -30,7 +30,13 @@ struct PairValues {
 
 #[inline(never)]
 fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -> EightPairBounds {
-    bound(level, &sample.group, &sample.other, &sample.motion, u8::MAX)
+    bound(
+        level,
+        &sample.group,
+        &sample.other_node,
+        &sample.motion,
+        u8::MAX,
+    )
 }
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
@@ -42,8 +48,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             PairValues {
                 radius: *self.group.radius(level),
                 arms: *self.motion.other.distances_from_centre(self.group.centre(level)),
-                split_reach: *axis.split_extent,
-                other_reach: *axis.other_extent,
+                split_extent: *axis.split_extent,
+                other_extent: *axis.other_extent,
                 gap: along.gap,
                 free: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
                 pieces: self.group.pieces(level).to_bitmask() as u8,
@@ -57,8 +63,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
         let reach = radii.into_iter().fold(0.0, greater);
-        let other = self.other.radius();
-        self.motion.larger = match (
+        let other = self.other_node.radius();
+        self.motion.larger_body = match (
             reach > MUCH_LARGER_RATIO * other,
             other > MUCH_LARGER_RATIO * reach,
         ) {
@@ -78,13 +84,13 @@ fn exceeds(one: f64, other: f64) -> Option<bool> {
 
 /// For each option, the number of pairs for which it was not chosen, and for which it was chosen.
 #[derive(Debug, Default)]
-struct Decisions {
+struct ChoiceCounts {
     revisit: [usize; 2],
-    swept: [usize; 2],
+    swept_counts: [usize; 2],
     split_child: [usize; 2],
 }
 
-impl Decisions {
+impl ChoiceCounts {
     fn check<C: Children, P: OtherNode>(&mut self, sample: &Sample<C, P>) {
         let rows = sample.rows();
         for lane in 0..LANES {
@@ -92,8 +98,8 @@ impl Decisions {
             let split_child = rows.found.split_child_mask >> lane & 1 == 1;
             if let Some(expected) = rows.revisit(lane, sample) {
                 assert_eq!(revisit, expected, "{:?} of {:?}", rows.found, sample.motion);
-                match sample.motion.larger {
-                    Some(_) => self.swept[usize::from(revisit)] += 1,
+                match sample.motion.larger_body {
+                    Some(_) => self.swept_counts[usize::from(revisit)] += 1,
                     None => self.revisit[usize::from(revisit)] += 1,
                 }
             }
@@ -110,7 +116,7 @@ impl PairValues {
         let motion = &sample.motion;
         let (radius, other) = (
             f64::from(self.radius[lane]),
-            f64::from(sample.other.radius()),
+            f64::from(sample.other_node.radius()),
         );
         let apart = f64::from(self.gap[lane]) - f64::from(motion.slack);
         let clear_of = |size: f64| exceeds(apart, size * f64::from(REVISIT_DISTANCE));
@@ -123,10 +129,12 @@ impl PairValues {
                 large * f64::from(MIN_SWEEP),
             )
         };
-        let (swept, past) = match motion.larger {
+        let (swept, past) = match motion.larger_body {
             None => (Some(false), Some(false)),
             Some(LargerBody::SplitBody) => {
-                let arm = motion.split.distance_from_centre(sample.other.centre());
+                let arm = motion
+                    .split
+                    .distance_from_centre(sample.other_node.centre());
                 let other_is_piece = self.pieces >> lane & 1 == 1;
                 (
                     swept(greater(fixed, free(2)), motion.split.rate, arm, radius),
@@ -138,7 +146,7 @@ impl PairValues {
                 )
             }
             Some(LargerBody::OtherBody) => {
-                let (rate, other_is_piece) = (motion.other.rate, sample.other.is_piece());
+                let (rate, other_is_piece) = (motion.other.rate, sample.other_node.is_piece());
                 (
                     swept(greater(fixed, free(3)), rate, self.arms[lane], other),
                     if other_is_piece {
@@ -160,9 +168,9 @@ impl PairValues {
     fn split_child<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
         let thick =
             |reach: f32, radius: f32| f64::from(reach) + f64::from(ADDED_THICKNESS * radius);
-        let split = thick(self.split_reach[lane], self.radius[lane]);
-        let other = thick(self.other_reach[lane], sample.other.radius());
-        match (self.pieces >> lane & 1 == 1, sample.other.is_piece()) {
+        let split = thick(self.split_extent[lane], self.radius[lane]);
+        let other = thick(self.other_extent[lane], sample.other_node.radius());
+        match (self.pieces >> lane & 1 == 1, sample.other_node.is_piece()) {
             (true, _) => Some(false),
             (false, true) => Some(true),
             (false, false) => exceeds(split, other),
@@ -172,11 +180,11 @@ impl PairValues {
 
 #[test]
 fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
-    let (mut rng, mut decisions) = (rng(3), Decisions::default());
+    let (mut rng, mut decisions) = (rng(3), ChoiceCounts::default());
     let mut check = |rng: &mut Pcg64| {
         let other = Shape::new(rng);
         let mut boxes = Setting::new(rng, &other).boxes(rng, &other);
-        boxes.other.piece = rng.random_bool(0.3);
+        boxes.other_node.piece = rng.random_bool(0.3);
         decisions.check(&boxes);
         decisions.check(&boxes.with_larger_side());
         let other = Shape::new(rng).triangle();
@@ -187,9 +195,9 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
     for _ in 0..1_000 {
         check(&mut rng);
     }
-    let Decisions {
+    let ChoiceCounts {
         revisit,
-        swept,
+        swept_counts: swept,
         split_child,
     } = decisions;
     let each = [revisit, swept, split_child].concat();

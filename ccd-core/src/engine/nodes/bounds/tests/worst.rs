@@ -15,7 +15,7 @@ use crate::rounding::{
 };
 use crate::settings::Instructions;
 use crate::tests::scene::{RngExt, direction, magnitude};
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
 
@@ -31,18 +31,18 @@ struct Search {
 impl Search {
     /// Runs the search over boxes, then over triangles, and checks the largest shares.
     fn run(self) {
-        let boxes = Worst::of(self.name[0], 3_000).search(|tape| {
+        let boxes = WorstCaseSearch::of(self.name[0], 3_000).search(|tape| {
             let other = Shape::new(tape);
             let sample = (self.setting)(tape, &other).boxes(tape, &other);
             Some(self.max_error_share(tape, &sample))
         });
-        boxes.is_within(self.looseness);
-        let triangles = Worst::of(self.name[1], 3_000).search(|tape| {
+        boxes.assert_within(self.looseness);
+        let triangles = WorstCaseSearch::of(self.name[1], 3_000).search(|tape| {
             let other = Shape::new(tape).triangle();
             let sample = (self.setting)(tape, &other).triangles(tape, &other);
             Some(self.max_error_share(tape, &sample))
         });
-        triangles.is_within(self.looseness);
+        triangles.assert_within(self.looseness);
     }
 
     /// Returns the largest share of the allowance among eight pairs and three axes.
@@ -53,7 +53,7 @@ impl Search {
     ) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
         let of = |found: &AxisValues, lane: usize| {
-            (self.share)(&sample.error_shares(found, &sample.clocks(found), lane))
+            (self.share)(&sample.error_shares(found, &sample.axis_free_times(found), lane))
         };
         let found = sample.axis_values_on_all_levels(some);
         let all = found
@@ -74,7 +74,7 @@ fn way_f32() {
         ],
         setting: |tape, other| {
             let far = magnitude(tape, 3.0, 5.0);
-            Setting::new(tape, other).at_distance(far, other)
+            Setting::new(tape, other).with_distance(far, other)
         },
         share: |of| of.support,
         looseness: 12.0,
@@ -90,7 +90,7 @@ fn reach_f32() {
         name: ["GAP_PER_RADIUS_F32, boxes", "GAP_PER_RADIUS_F32, triangles"],
         setting: |tape, other| {
             let far = magnitude(tape, -5.0, -2.0);
-            Setting::new(tape, other).at_distance(far, other)
+            Setting::new(tape, other).with_distance(far, other)
         },
         share: |of| of.support,
         looseness: 40.0,
@@ -120,7 +120,7 @@ fn places() {
         ],
         setting: |tape, other| {
             let (far, spin) = (magnitude(tape, 3.0, 5.0), direction(tape));
-            let setting = Setting::new(tape, other).at_distance(far, other);
+            let setting = Setting::new(tape, other).with_distance(far, other);
             let arm = direction(tape) * setting.size();
             setting.turning_in_place(spin * magnitude(tape, -3.0, 1.6), arm)
         },
@@ -153,7 +153,7 @@ fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
 fn turned(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
     let spin = DVec3::from(tape.vector(-20..=5));
     let aside = tape.size(-30..=0);
-    let axes = [(); LANES].map(|()| match tape.pick(2) {
+    let axes = [(); LANES].map(|()| match tape.index_below(2) {
         0 => direction(tape),
         // The axis is next to parallel.
         _ => (spin.normalize_or(DVec3::X) + direction(tape) * aside).normalize(),
@@ -163,7 +163,7 @@ fn turned(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
 
 #[test]
 fn across_f32() {
-    let found = Worst::of("CROSS_PRODUCT_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("CROSS_PRODUCT_F32", 40_000).search(|tape| {
         let (axes, spin) = turned(tape)?;
         let lengths = across(axes.map(DVec3::as_vec3), spin.as_vec3());
         let allowed = f64::from(CROSS_PRODUCT_ERROR_F32) * spin.length();
@@ -171,13 +171,13 @@ fn across_f32() {
         let errors = (0..LANES).map(|k| share(error(k), allowed));
         Some(errors.fold(f64::NEG_INFINITY, greater))
     });
-    found.is_within(8.0);
+    found.assert_within(8.0);
 }
 
 /// Measures the relative error of products of two lengths `|n × ω|`, each above half of its upper bound.
 #[test]
 fn bend_f32() {
-    let found = Worst::of("SECOND_DERIVATIVE_FACTOR_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("SECOND_DERIVATIVE_FACTOR_F32", 40_000).search(|tape| {
         let (axes, spin) = turned(tape)?;
         let arms = [(); LANES].map(|()| direction(tape));
         let [one, other] = [axes, arms].map(|of| across(of.map(DVec3::as_vec3), spin.as_vec3()));
@@ -191,12 +191,12 @@ fn bend_f32() {
         let all = (0..LANES).filter_map(share);
         Some(all.fold(f64::NEG_INFINITY, greater)).filter(|share| share.is_finite() || *share > 0.0)
     });
-    found.is_within(40.0);
+    found.assert_within(40.0);
 }
 
 #[test]
 fn clock_f32() {
-    let found = Worst::of("FREE_TIME_FACTOR_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("FREE_TIME_FACTOR_F32", 40_000).search(|tape| {
         let row = |tape: &mut RandomCase, of: fn(&mut RandomCase) -> f64| {
             [(); LANES].map(|()| of(tape) as f32)
         };
@@ -210,14 +210,14 @@ fn clock_f32() {
             .map(|k| free_time_error_share([free[k], apart[k], rate[k], second_derivative[k]]));
         Some(shares.fold(f64::NEG_INFINITY, greater))
     });
-    found.is_within(16.0);
+    found.assert_within(16.0);
 }
 
 /// Measures by how much a free time uses up more than the whole gap, for gaps just above the least gap. The excess is
 /// due to underflow, and is a share of the allowance for the rounding of the free time.
 #[test]
 fn least_gap_f32() {
-    let found = Worst::of("LEAST_GAP_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("LEAST_GAP_F32", 40_000).search(|tape| {
         let row = |tape: &mut RandomCase, of: fn(&mut RandomCase) -> f64| {
             [(); LANES].map(|()| of(tape) as f32)
         };
@@ -244,13 +244,13 @@ fn least_gap_f32() {
         };
         Some((0..LANES).map(share).fold(f64::NEG_INFINITY, greater))
     });
-    found.is_within(16.0);
+    found.assert_within(16.0);
 }
 
 /// Tests that the lengths of the shortest vectors that give an axis are as accurate as those of longer vectors.
 #[test]
 fn least_axis_f32() {
-    let found = Worst::of("LEAST_AXIS_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("LEAST_AXIS_F32", 40_000).search(|tape| {
         let v = [(); LANES].map(|()| DVec3::from(tape.vector(-79..=-58)).as_vec3());
         let rows = [0, 1, 2].map(|k| v.map(|v| v[k]));
         let inverse = on_all_instruction_sets(
@@ -265,5 +265,5 @@ fn least_axis_f32() {
         assert!(used.clone().all(|k| v[k].length() > LEAST_AXIS_F32));
         Some(used.map(share).fold(0.0, greater))
     });
-    found.is_within(4.0);
+    found.assert_within(4.0);
 }

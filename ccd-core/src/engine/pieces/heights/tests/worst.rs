@@ -3,7 +3,7 @@
 //! The reference takes the axis and the body's rounded frame as given, and computes everything from there on exactly.
 //! Earlier rounding is that of distances.
 
-use super::super::{Heights, Point};
+use super::super::{Heights, PointHeight};
 use crate::body::Body;
 use crate::body::polytope::Polytope;
 use crate::math::order::greater;
@@ -16,7 +16,7 @@ use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
-use crate::tests::worst::{RandomCase, Worst, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::DVec3;
 
 /// The rotation of a body about a centre from a given frame, in double-double arithmetic.
@@ -61,7 +61,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     };
     let piece = body.piece(0);
     let heights = Heights::new(side, &piece, &turning.frame, normal, clock);
-    let share_of = |(point, found): (&DVec3, Point)| {
+    let share_of = |(point, found): (&DVec3, PointHeight)| {
         let arm = turning.arm(*point, side.path.rate * tau);
         let velocity = Double3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = Double3::from(normal).dot(velocity);
@@ -78,14 +78,14 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
 
 #[test]
 fn worst_rate() {
-    let found = Worst::of("RATE_F64, rates of points", 10_000).search(rate_error_share);
-    found.is_within(10.0);
+    let found = WorstCaseSearch::of("RATE_F64, rates of points", 10_000).search(rate_error_share);
+    found.assert_within(10.0);
 }
 
 /// Measures the rounding error of the upper bound of the distances to all points in a ball.
 #[test]
 fn worst_farthest() {
-    let found = Worst::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
+    let found = WorstCaseSearch::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
         let [middle, from] = [(); 2].map(|()| DVec3::from(tape.vector(-20..=20)));
         let radius = tape.size(-20..=20);
         let exact = (Double3::from(middle) - Double3::from(from)).length() + Double::from(radius);
@@ -95,12 +95,12 @@ fn worst_farthest() {
             RATE_ERROR_F64,
         ))
     });
-    found.is_within(16.0);
+    found.assert_within(16.0);
 }
 
 /// Returns the errors of the lowest height and of the least rate of many points, as shares of [`TURNED_SUPPORT_ERROR`].
 /// The points are equally low up to rounding, and far from each other.
-fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
+fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.fraction());
     let ball = Body::sphere(0.1).ok()?;
     let still = Motion::still(Pose::IDENTITY);
@@ -111,14 +111,14 @@ fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let turn = path.rate * tau;
     let angle = (Angle::new(turn), turn);
     let seen = RotatingVector::new(-path.axis, normal);
-    let along = match tape.pick(2) {
+    let along = match tape.index_below(2) {
         0 => seen.at(angle.0),
         _ => seen.derivative_at(angle.0),
     };
     let level = unit(frame.inverse_vector(along))?;
     let (east, north) = level.any_orthonormal_pair();
     let (middle, wide) = (DVec3::from(tape.vector(-20..=4)), tape.size(-10..=4));
-    let fixed = tape.pick(4);
+    let fixed = tape.index_below(4);
     let points = (0..COUNT).map(|k| {
         // A few points are drawn, and the others are between them.
         let [x, y] = if k < 4 {
@@ -156,7 +156,7 @@ fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
         .map(|&p| turning.arm(p, angle.1))
         .collect();
     let miss = |direction: DVec3, of: &dyn Fn(&Double3) -> Double| {
-        let chosen = piece.extremal(frame.inverse_vector(-direction));
+        let chosen = piece.extremal_point(frame.inverse_vector(-direction));
         let least = arms.iter().map(of).reduce(Double::min)?;
         Some((of(&arms[chosen as usize]) - least).get())
     };
@@ -173,12 +173,14 @@ const COUNT: usize = 36;
 
 #[test]
 fn worst_lowest_of_many() {
-    let found = Worst::of("TURNED_SUPPORT, heights", 6_000).search(|tape| Some(missed(tape)?[0]));
-    found.is_within(100.0);
+    let found = WorstCaseSearch::of("TURNED_SUPPORT, heights", 6_000)
+        .search(|tape| Some(support_error_shares(tape)?[0]));
+    found.assert_within(100.0);
 }
 
 #[test]
 fn worst_fastest_of_many() {
-    let found = Worst::of("TURNED_SUPPORT, rates", 6_000).search(|tape| Some(missed(tape)?[1]));
-    found.is_within(100.0);
+    let found = WorstCaseSearch::of("TURNED_SUPPORT, rates", 6_000)
+        .search(|tape| Some(support_error_shares(tape)?[1]));
+    found.assert_within(100.0);
 }

@@ -36,7 +36,7 @@ fn speed(problem: &Problem<'_>, reaches: [f64; 2]) -> f64 {
     let sides = [&problem.a, &problem.b];
     let speeds = sides.iter().zip(reaches).map(|(side, reach)| {
         let motion = side.path.velocities();
-        length(motion.linear) + length(motion.spin) * reach
+        length(motion.linear_velocity) + length(motion.spin) * reach
     });
     speeds.sum()
 }

@@ -59,7 +59,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     );
     assert_eq!(
         meter.stats.point_evaluations,
-        ASSUMED_ORACLE_STEPS * snapshot.pieces.points()
+        ASSUMED_ORACLE_STEPS * snapshot.pieces.evaluations_per_search()
     );
     let mut meter = Meter::new(&problem);
     let mut telling = CountingOracle { steps: 7 };
@@ -183,7 +183,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let speed = chased.length() + velocity.length();
         let allowed = (slack / free - rate) / (RATE_ERROR_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
-        let points = snapshot.pieces.points();
+        let points = snapshot.pieces.evaluations_per_search();
         assert_eq!(snapshot.evaluations(), 2 * points);
     }
 }

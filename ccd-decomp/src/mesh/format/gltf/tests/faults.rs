@@ -106,7 +106,7 @@ fn names_of_nodes_and_meshes_are_in_messages() {
 fn corners_must_be_vertices() {
     let mut gltf = square_gltf();
     let indices = gltf.indices(&[0, 1, 2, 0, 4, 2]);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     let expected =
         "node 0: mesh 0: primitive 0: face 1 names vertex 4, but there are 4, numbered from 0";
     assert_eq!(error(&gltf).to_string(), expected);
@@ -126,7 +126,7 @@ fn corners_must_be_vertices() {
 #[test]
 fn triangles_have_three_corners() {
     let mut gltf = square_gltf();
-    gltf.primitive(json!({"attributes": {"POSITION": 0}}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     let message = error(&gltf).to_string();
     assert!(
         message.contains("primitive 0: has 4 corners, which make no whole triangles"),
@@ -135,7 +135,7 @@ fn triangles_have_three_corners() {
     for mode in [5, 6] {
         let mut gltf = square_gltf();
         let few = gltf.indices(&[0, 1]);
-        gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": few, "mode": mode}));
+        gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": few, "mode": mode}));
         assert!(matches!(
             error(&gltf).fault,
             MeshFault::NoVertices | MeshFault::NoFaces
@@ -147,7 +147,7 @@ fn triangles_have_three_corners() {
 fn coordinates_must_be_finite() {
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&[[0., 0., 0.], [1., f32::NAN, 0.], [0., 1., 0.]]);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     let message = error(&gltf).to_string();
     assert!(
         message.contains("primitive 0: vertex 1 is NaN or infinite"),
@@ -158,7 +158,7 @@ fn coordinates_must_be_finite() {
 #[test]
 fn sparse_accessors_stay_within_their_list() {
     let mut gltf = Gltf::triangle();
-    let places = gltf.view(&[2, 3]);
+    let places = gltf.add_view(&[2, 3]);
     gltf.json["bufferViews"][places]["byteLength"] = json!(1);
     gltf.json["accessors"][0]["sparse"] = json!({
         "count": 1, "indices": {"bufferView": places, "componentType": 5121}, "values": {"bufferView": 0},
@@ -196,7 +196,7 @@ fn sparse_accessors_stay_within_their_list() {
     ] {
         let mut gltf = Gltf {
             json: gltf.json.clone(),
-            binary: gltf.binary.clone(),
+            buffer: gltf.buffer.clone(),
         };
         gltf.json["accessors"][0]["sparse"][key] = value;
         let message = error(&gltf).to_string();
@@ -270,7 +270,7 @@ fn instances_are_limited() {
     const INSTANCE_COUNT: usize = 10_000;
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&vec![[1.0; 3]; 9999]);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     let nodes = vec![json!({"mesh": 0}); INSTANCE_COUNT];
     let tops: Vec<usize> = (0..INSTANCE_COUNT).collect();
     let gltf = gltf

@@ -22,7 +22,7 @@ fn every_mode_of_triangles_is_read(
     if !mode.is_null() {
         primitive["mode"] = mode;
     }
-    gltf.primitive(primitive);
+    gltf.add_primitive(primitive);
     assert_eq!(read(&gltf).faces(), faces);
 }
 
@@ -41,7 +41,7 @@ fn corners_may_go_without_indices() {
         if mode == 4 {
             gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);
         }
-        gltf.primitive(json!({"attributes": {"POSITION": 0}, "mode": mode}));
+        gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "mode": mode}));
         assert_eq!(read(&gltf).faces(), expected, "mode {mode}");
     }
 }
@@ -50,7 +50,7 @@ fn corners_may_go_without_indices() {
 fn points_and_lines_are_passed_over() {
     let mut gltf = square_gltf();
     for mode in 0..4 {
-        gltf.primitive(json!({"attributes": {"POSITION": 0}, "mode": mode}));
+        gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "mode": mode}));
     }
     assert!(
         error(&gltf).to_string().starts_with("has no "),
@@ -58,9 +58,9 @@ fn points_and_lines_are_passed_over() {
         error(&gltf)
     );
     // Primitives without positions are skipped, too.
-    gltf.primitive(json!({"attributes": {"TEXCOORD_0": 7}}));
+    gltf.add_primitive(json!({"attributes": {"TEXCOORD_0": 7}}));
     let indices = gltf.indices(&[0, 1, 2]);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     assert_eq!(read(&gltf).faces(), [[0, 1, 2]]);
 }
 
@@ -69,10 +69,10 @@ fn primitives_share_the_vertices_of_an_accessor() {
     let mut gltf = square_gltf();
     for corners in [[0, 1, 2], [0, 2, 3]] {
         let indices = gltf.indices(&corners);
-        gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
+        gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     }
     let other = gltf.add_vec3_accessor(&[[5., 0., 0.], [6., 0., 0.], [5., 1., 0.]]);
-    gltf.primitive(json!({"attributes": {"POSITION": other}}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": other}}));
     let mesh = read(&gltf);
     assert_eq!(mesh.vertices().len(), 7);
     assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3], [4, 5, 6]]);
@@ -88,12 +88,12 @@ fn indices_are_of_any_size() {
         (5125, vec![0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]),
     ] {
         let mut gltf = square_gltf();
-        let view = gltf.view(&bytes);
+        let view = gltf.add_view(&bytes);
         let indices = gltf.push(
             "accessors",
             json!({"bufferView": view, "componentType": kind, "count": 3, "type": "SCALAR"}),
         );
-        gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
+        gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
         assert_eq!(read(&gltf).faces(), [[0, 1, 2]]);
     }
 }
@@ -107,11 +107,11 @@ fn vertices_may_be_interleaved_with_other_data() {
         .collect();
     // The last row ends with its position.
     let bytes: Vec<u8> = rows[..14].iter().flat_map(|x| x.to_le_bytes()).collect();
-    let view = gltf.view(&bytes);
+    let view = gltf.add_view(&bytes);
     gltf.json["bufferViews"][view]["byteStride"] = json!(20);
     let about = json!({"bufferView": view, "byteOffset": 4, "componentType": 5126, "count": 3, "type": "VEC3"});
     gltf.push("accessors", about);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     assert_eq!(read(&gltf).vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
 }
 
@@ -136,11 +136,11 @@ fn quantized_positions_are_read(
     let mut rows = vec![0; 3 * stride];
     rows[stride..][..bytes.len()].copy_from_slice(bytes);
     rows[2 * stride] = 9;
-    let view = gltf.view(&rows);
+    let view = gltf.add_view(&rows);
     gltf.json["bufferViews"][view]["byteStride"] = json!(stride);
     let about = json!({"bufferView": view, "componentType": kind, "normalized": normalized, "count": 3, "type": "VEC3"});
     gltf.push("accessors", about);
-    gltf.primitive(json!({"attributes": {"POSITION": 0}}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     assert_eq!(corner(&gltf), expected);
 }
 
@@ -149,12 +149,12 @@ fn sparse_accessors_replace_elements() {
     for with_base in [true, false] {
         let mut gltf = Gltf::new();
         let base = gltf.add_vec3_accessor(&[[7., 7., 7.], [0., 0., 0.], [0., 1., 0.]]);
-        let places = gltf.view(&[0, 1]);
+        let places = gltf.add_view(&[0, 1]);
         let bytes: Vec<u8> = [0., 0., 3., 1., 0., 0.]
             .iter()
             .flat_map(|x: &f32| x.to_le_bytes())
             .collect();
-        let values = gltf.view(&bytes);
+        let values = gltf.add_view(&bytes);
         let about = &mut gltf.json["accessors"][base];
         about["sparse"] = json!({
             "count": 2,
@@ -164,7 +164,7 @@ fn sparse_accessors_replace_elements() {
         if !with_base {
             about.as_object_mut().unwrap().remove("bufferView");
         }
-        gltf.primitive(json!({"attributes": {"POSITION": base}}));
+        gltf.add_primitive(json!({"attributes": {"POSITION": base}}));
         let last = if with_base { DVec3::Y } else { DVec3::ZERO };
         assert_eq!(read(&gltf).vertices(), [3.0 * DVec3::Z, DVec3::X, last]);
     }
@@ -174,13 +174,13 @@ fn sparse_accessors_replace_elements() {
 fn indices_may_be_sparse() {
     let mut gltf = square_gltf();
     let indices = gltf.indices(&[0, 1, 1]);
-    let places = gltf.view(&[2, 0, 0, 0]);
-    let values = gltf.view(&[2, 0]);
+    let places = gltf.add_view(&[2, 0, 0, 0]);
+    let values = gltf.add_view(&[2, 0]);
     gltf.json["accessors"][indices]["sparse"] = json!({
         "count": 1,
         "indices": {"bufferView": places, "componentType": 5125},
         "values": {"bufferView": values},
     });
-    gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
+    gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     assert_eq!(read(&gltf).faces(), [[0, 1, 2]]);
 }
