@@ -14,7 +14,7 @@ pub const PARTIAL_EXTENSION: &str = ".partial";
 /// Of several claims of one file, under any path, only one succeeds. The operating system releases it when the process
 /// ends, however it ends. On a file system without locks all succeed.
 ///
-/// A dropped claim removes its file, unless the file was not empty when claimed, or is [kept](Claim::keep).
+/// A dropped claim removes its file, unless the file was not empty when claimed, or is [kept](Claim::keep_on_drop).
 #[derive(Debug)]
 pub struct Claim {
     /// The open file, which is locked as long as it is open.

@@ -16,9 +16,9 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
     CLASS.import(py, "rigid_ccd._answers", "Contact")?.call1((
         hit.time,
         Status::from(&hit.kind).name(),
-        tuple(hit.witness_a()),
-        tuple(hit.witness_b()),
-        separation.map(|separation| tuple(separation.normal)),
+        to_tuple(hit.witness_a()),
+        to_tuple(hit.witness_b()),
+        separation.map(|separation| to_tuple(separation.normal)),
         separation.map(|separation| (separation.lower, separation.upper)),
         contact.map(|contact| contact.feature_a.to_string()),
         contact.map(|contact| contact.feature_b.to_string()),
@@ -39,12 +39,12 @@ pub(crate) fn distance<'py>(
         found.upper(),
         found.time(),
         matches!(found, Outcome::Overlapping { .. }),
-        nearest.map(|nearest| tuple(nearest.witness_a)),
-        nearest.map(|nearest| tuple(nearest.witness_b)),
+        nearest.map(|nearest| to_tuple(nearest.witness_a)),
+        nearest.map(|nearest| to_tuple(nearest.witness_b)),
         compared,
     ))
 }
 
-fn tuple(v: DVec3) -> (f64, f64, f64) {
+fn to_tuple(v: DVec3) -> (f64, f64, f64) {
     v.into()
 }

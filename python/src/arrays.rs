@@ -9,8 +9,8 @@ pub(crate) fn rows<const N: usize>(
     values: &Bound<'_, PyAny>,
     what: &str,
 ) -> PyResult<Vec<[f64; N]>> {
-    let array = floats(values, what)?;
-    let array: PyReadonlyArray2<'_, f64> = readonly_with_columns(&array, N, what)?;
+    let array = float64_array(values, what)?;
+    let array: PyReadonlyArray2<'_, f64> = readonly_matrix(&array, N, what)?;
     let rows = array.as_array();
     Ok(rows
         .rows()
@@ -30,7 +30,7 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
         )));
     }
     let array = as_array(&given, "int64", "faces")?;
-    let array: PyReadonlyArray2<'_, i64> = readonly_with_columns(&array, 3, "faces")?;
+    let array: PyReadonlyArray2<'_, i64> = readonly_matrix(&array, 3, "faces")?;
     let rows = array.as_array();
     let rows = rows.rows().into_iter().enumerate();
     rows.map(|(face, row)| {
@@ -61,7 +61,7 @@ pub(crate) fn finite_numbers<const N: usize>(
 
 /// Reads exactly `N` numbers, which may be NaN or infinite.
 pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; N]> {
-    let found = any_numbers(values, what)?;
+    let found = flat_numbers(values, what)?;
     let length = found.len();
     found
         .try_into()
@@ -69,8 +69,8 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
 }
 
 /// Reads all numbers of an array of any shape as one list.
-pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
-    flat_list(&floats(values, what)?)?.extract()
+pub(crate) fn flat_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
+    flat_list(&float64_array(values, what)?)?.extract()
 }
 
 /// Reads all whole numbers of an array of any shape as one list.
@@ -89,7 +89,7 @@ fn flat_list<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
 }
 
 /// Reads row indices; a boolean array with one element per row stands for the indices of its true elements.
-pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
+pub(crate) fn row_indices(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
     let given = numpy_array(rows, "rows")?;
     if kind(&given)? != 'b' {
         return indices(&given, "rows");
@@ -139,7 +139,7 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
 }
 
 /// Makes an array of float64 elements.
-fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
+fn float64_array<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let given = numpy_array(values, what)?;
     match kind(&given)? {
         // Arrays of objects contain other kinds of numbers, such as fractions.
@@ -163,7 +163,7 @@ fn as_array<'py>(
     array.map_err(|error| input_error_from(py, what, error))
 }
 
-fn readonly_with_columns<'py, T: numpy::Element>(
+fn readonly_matrix<'py, T: numpy::Element>(
     array: &Bound<'py, PyAny>,
     columns: usize,
     what: &str,

@@ -2,7 +2,7 @@
 
 use crate::arrays::{rows, triangles};
 use crate::errors::{InputError, file_error, input_error, warn, wrong_type};
-use crate::pickle::{Recipe, Reduced};
+use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Volume};
@@ -45,7 +45,7 @@ pub(crate) struct PyBody {
 
 /// The data from which pickle makes the body again.
 enum PickleData {
-    Shape(Recipe),
+    Shape(ConstructorCall),
     Mesh(Box<Model>),
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn warn_of_tolerance(
 ) -> PyResult<()> {
     let size =
         |given: &Bound<'_, PyAny>| given.cast::<PyBody>().map_or(0.0, |body| body.get().size);
-    let remark = Remark::of_tolerance(tolerance, bodies.map(size));
+    let remark = Remark::check_tolerance(tolerance, bodies.map(size));
     warn(bodies[0].py(), remark, calls_up)
 }
 
@@ -126,8 +126,8 @@ impl PyBody {
     ) -> PyResult<Self> {
         let detail = detail(pieces, surface)?;
         let mut adjustments = Adjustments::NONE;
-        if let Some(unit) = named_unit("file_unit", file_unit)? {
-            adjustments = adjustments.stated_in(unit);
+        if let Some(unit) = parse_unit("file_unit", file_unit)? {
+            adjustments = adjustments.with_stated_unit(unit);
         }
         if let Some(scale) = scale {
             adjustments = adjustments.scaled(scale).map_err(input_error)?;
@@ -136,7 +136,7 @@ impl PyBody {
             adjustments = adjustments.mirrored(parse_axis(axis)?);
         }
         let as_prepared = adjustments == Adjustments::NONE && !surface;
-        if let Some(unit) = named_unit("unit", unit)? {
+        if let Some(unit) = parse_unit("unit", unit)? {
             adjustments = adjustments.converted_to(unit);
         }
         class.py().detach(|| {
@@ -146,7 +146,7 @@ impl PyBody {
                 return Err(input_error(format!("{}: is no file", path.display())));
             }
             std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
-            let model = if !is_stored(&path) || part.is_some() {
+            let model = if !is_prepared_body(&path) || part.is_some() {
                 let source = MeshSource {
                     file: path,
                     part,
@@ -157,7 +157,7 @@ impl PyBody {
             } else if as_prepared {
                 Model::load(&path).map_err(input_error)?
             } else {
-                let error = SourceError::Prepared { file: path };
+                let error = SourceError::AdjustedStoredBody { file: path };
                 return Err(input_error(error));
             };
             PyBody::from_model(model)
@@ -191,7 +191,7 @@ impl PyBody {
     #[classmethod]
     fn r#box(class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
         let report = format!("box of half extents {x}, {y}, {z}");
-        let recipe = Recipe::new(class.py(), Some("box"), (x, y, z))?;
+        let recipe = ConstructorCall::new(class.py(), Some("box"), (x, y, z))?;
         PyBody::from_shape(Body::cuboid([x, y, z]), recipe, report)
     }
 
@@ -199,7 +199,7 @@ impl PyBody {
     #[classmethod]
     fn sphere(class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
         let report = format!("ball of radius {radius}");
-        let recipe = Recipe::new(class.py(), Some("sphere"), (radius,))?;
+        let recipe = ConstructorCall::new(class.py(), Some("sphere"), (radius,))?;
         PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
 
@@ -207,7 +207,7 @@ impl PyBody {
     #[classmethod]
     fn capsule(class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
         let report = format!("capsule of radius {radius} and half height {half_height}");
-        let recipe = Recipe::new(class.py(), Some("capsule"), (radius, half_height))?;
+        let recipe = ConstructorCall::new(class.py(), Some("capsule"), (radius, half_height))?;
         PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
     }
 
@@ -289,12 +289,12 @@ impl PyBody {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         match &slf.get().made {
-            PickleData::Shape(recipe) => recipe.reduced(slf.get_type()),
+            PickleData::Shape(recipe) => recipe.reduce_tuple(slf.get_type()),
             PickleData::Mesh(model) => {
                 let (py, mut bytes) = (slf.py(), Vec::new());
                 py.detach(|| model.write(&mut bytes)).map_err(input_error)?;
-                Recipe::new(py, Some("_from_bytes"), (PyBytes::new(py, &bytes),))?
-                    .reduced(slf.get_type())
+                ConstructorCall::new(py, Some("_from_bytes"), (PyBytes::new(py, &bytes),))?
+                    .reduce_tuple(slf.get_type())
             }
         }
     }
@@ -331,7 +331,7 @@ impl PyBody {
 
     fn from_shape(
         body: Result<Body, rigid_ccd::InputError>,
-        recipe: Recipe,
+        recipe: ConstructorCall,
         report: String,
     ) -> PyResult<Self> {
         let body = body.map_err(input_error)?;
@@ -345,14 +345,14 @@ impl PyBody {
         [radius, half_height]: [f64; 2],
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let enclosure = round.enclose(excess.unwrap_or(round.usual_excess()));
+        let enclosure = round.enclose(excess.unwrap_or(round.default_excess()));
         let body = enclosure.and_then(|enclosure| enclosure.body());
         let body = body.map_err(input_error)?;
         let report = format!(
             "{name} of radius {radius} and half height {half_height}, sticking out by up to {:.3e}",
             body.excess()
         );
-        let recipe = Recipe::new(py, Some(name), (radius, half_height, excess))?;
+        let recipe = ConstructorCall::new(py, Some(name), (radius, half_height, excess))?;
         PyBody::from_shape(Ok(body), recipe, report)
     }
 
@@ -367,12 +367,12 @@ impl PyBody {
 }
 
 /// Returns whether a file is a prepared body, judged by its extension.
-fn is_stored(path: &Path) -> bool {
+fn is_prepared_body(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
 }
 
-fn named_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
+fn parse_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
     let unit = name.map(str::parse::<Unit>).transpose();
     unit.map_err(|error| input_error(format!("{argument}: {error}")))
 }

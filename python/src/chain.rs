@@ -1,9 +1,9 @@
 //! The Python classes of serial chains, such as robot arms.
 
-use crate::arrays::{any_numbers, finite_numbers, index, numbers};
+use crate::arrays::{finite_numbers, flat_numbers, index, numbers};
 use crate::errors::{input_error, warn};
-use crate::motion::{GivenPose, given_pose, matrix_of};
-use crate::pickle::{Recipe, Reduced};
+use crate::motion::{GivenPose, pose_matrix, read_given_pose};
+use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use rigid_ccd::trajectory::{Chain, Joint, Link, Trajectory};
@@ -14,7 +14,7 @@ use rigid_ccd::{InputError, Remark};
 pub(crate) struct PyJoint {
     joint: Joint,
     kind: Kind,
-    made: Recipe,
+    made: ConstructorCall,
 }
 
 /// The degree of freedom of a joint, with its axis.
@@ -71,7 +71,7 @@ impl PyJoint {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        slf.get().made.reduced(slf.get_type())
+        slf.get().made.reduce_tuple(slf.get_type())
     }
 
     /// The least and the greatest allowed position of the joint.
@@ -109,7 +109,7 @@ impl PyJoint {
         given: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let origin = given_pose(given, "origin")?;
+        let origin = read_given_pose(given, "origin")?;
         let pose = origin.pose("origin")?;
         let joint = match kind {
             Kind::Revolute(axis) => Joint::revolute(pose, axis),
@@ -122,15 +122,15 @@ impl PyJoint {
             Some([low, high]) if !(low <= high) => {
                 return Err(input_error(format!("limits: {low} is not at most {high}")));
             }
-            Some([low, high]) => joint.map_err(input_error)?.within(low..=high),
+            Some([low, high]) => joint.map_err(input_error)?.with_limits(low..=high),
             None => joint.map_err(input_error)?,
         };
         let (py, name) = (given.py(), Some(kind.name()));
         let made = match kind {
             Kind::Revolute(axis) | Kind::Prismatic(axis) => {
-                Recipe::new(py, name, (origin, axis, limits))
+                ConstructorCall::new(py, name, (origin, axis, limits))
             }
-            Kind::Fixed => Recipe::new(py, name, (origin,)),
+            Kind::Fixed => ConstructorCall::new(py, name, (origin,)),
         };
         Ok(PyJoint {
             joint,
@@ -173,7 +173,9 @@ impl PyChain {
             .try_iter()?
             .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));
         let joints: Vec<Py<PyJoint>> = joints.collect::<PyResult<_>>()?;
-        let base = base.map_or(Ok(GivenPose::IDENTITY), |base| given_pose(base, "base"))?;
+        let base = base.map_or(Ok(GivenPose::IDENTITY), |base| {
+            read_given_pose(base, "base")
+        })?;
         let of_chain = joints.iter().map(|joint| joint.get().joint.clone());
         Ok(PyChain {
             chain: Chain::new(base.pose("base")?, of_chain.collect()),
@@ -213,9 +215,9 @@ impl PyChain {
         link: i64,
         positions: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
-        let positions = any_numbers(positions, "positions")?;
+        let positions = flat_numbers(positions, "positions")?;
         let pose = self.chain.pose(index(link, "link")?, &positions);
-        Ok(matrix_of(py, &pose.map_err(input_error)?))
+        Ok(pose_matrix(py, &pose.map_err(input_error)?))
     }
 
     /// Returns the motion of a link while each joint moves at a constant rate from its position in `start` to that in
@@ -238,18 +240,18 @@ impl PyChain {
         end: &Bound<'_, PyAny>,
         duration: f64,
     ) -> PyResult<PyLink> {
-        let (start, end) = (any_numbers(start, "start")?, any_numbers(end, "end")?);
+        let (start, end) = (flat_numbers(start, "start")?, flat_numbers(end, "end")?);
         let joints = slf.get().joints.iter();
         let turning = joints.map(|joint| matches!(joint.get().kind, Kind::Revolute(_)));
         let ends = turning.zip(start.iter().zip(&end));
         let mut remarks = ends
             .filter(|(turns, _)| *turns)
             .flat_map(|(_, (start, end))| [*start, *end])
-            .filter_map(Remark::of_joint);
+            .filter_map(Remark::check_joint);
         warn(slf.py(), remarks.next(), 1)?;
-        let moves = Moves {
+        let moves = LinkMotion {
             link: index(link, "link")?,
-            seen_from: None,
+            frame_link: None,
             start,
             end,
             duration,
@@ -268,15 +270,15 @@ type ChainParts = (Vec<Py<PyJoint>>, GivenPose);
 #[pyclass(name = "Link", module = "rigid_ccd", frozen)]
 pub(crate) struct PyLink {
     chain: Py<PyChain>,
-    moves: Moves,
+    moves: LinkMotion,
 }
 
 /// The number of a link in its chain, and the motion of the chain's joints.
 #[derive(Clone, FromPyObject, IntoPyObject)]
 #[pyo3(from_item_all)]
-struct Moves {
+struct LinkMotion {
     link: usize,
-    seen_from: Option<usize>,
+    frame_link: Option<usize>,
     start: Vec<f64>,
     end: Vec<f64>,
     duration: f64,
@@ -289,8 +291,8 @@ impl PyLink {
     ///
     /// Witnesses and normals are in that frame, too: `chain.pose(other, ...)` takes them to the world.
     fn seen_from(&self, py: Python<'_>, link: i64) -> PyResult<Self> {
-        let moves = Moves {
-            seen_from: Some(index(link, "link")?),
+        let moves = LinkMotion {
+            frame_link: Some(index(link, "link")?),
             ..self.moves.clone()
         };
         PyLink::new(self.chain.clone_ref(py), moves)
@@ -299,7 +301,7 @@ impl PyLink {
     /// Returns the pose of the link at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let pose = Trajectory::pose(&self.link()?, time);
-        Ok(matrix_of(py, &pose.map_err(input_error)?))
+        Ok(pose_matrix(py, &pose.map_err(input_error)?))
     }
 
     /// The time at which the joints reach their positions in `end`.
@@ -310,32 +312,36 @@ impl PyLink {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let parts = (&slf.get().chain, slf.get().moves.clone());
-        let make = slf.get_type().getattr("_of")?;
+        let make = slf.get_type().getattr("_from_parts")?;
         Ok((make, parts.into_pyobject(slf.py())?))
     }
 
     /// Makes a link from its pickled form.
     #[classmethod]
-    fn _of(_class: &Bound<'_, PyType>, chain: Py<PyChain>, moves: Moves) -> PyResult<Self> {
+    fn _from_parts(
+        _class: &Bound<'_, PyType>,
+        chain: Py<PyChain>,
+        moves: LinkMotion,
+    ) -> PyResult<Self> {
         PyLink::new(chain, moves)
     }
 
     fn __repr__(&self) -> String {
-        let Moves {
+        let LinkMotion {
             link,
-            seen_from,
+            frame_link,
             start,
             end,
             duration,
         } = &self.moves;
-        let seen = seen_from.map_or_else(String::new, |link| format!(", seen_from={link}"));
+        let seen = frame_link.map_or_else(String::new, |link| format!(", seen_from={link}"));
         format!("Link({link}, start={start:?}, end={end:?}, duration={duration}{seen})")
     }
 }
 
 impl PyLink {
     /// Makes a moving link, or an error if positions are missing or outside their joints' limits.
-    fn new(chain: Py<PyChain>, moves: Moves) -> PyResult<Self> {
+    fn new(chain: Py<PyChain>, moves: LinkMotion) -> PyResult<Self> {
         let joints = chain.get().chain.joints().len();
         for (what, positions) in [("start", &moves.start), ("end", &moves.end)] {
             if positions.len() != joints {
@@ -356,7 +362,7 @@ impl PyLink {
         let link = chain
             .link(moves.link, &moves.start, &moves.end, moves.duration)
             .map_err(input_error)?;
-        match moves.seen_from {
+        match moves.frame_link {
             Some(from) => link.seen_from(from).map_err(input_error),
             None => Ok(link),
         }

@@ -2,7 +2,7 @@
 
 use crate::arrays::{finite_numbers, shape};
 use crate::errors::{input_error, warn};
-use crate::pickle::{Recipe, Reduced};
+use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
@@ -27,7 +27,7 @@ const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
-    made: Recipe,
+    made: ConstructorCall,
 }
 
 #[pymethods]
@@ -46,7 +46,7 @@ impl PyMotion {
             Some(values) => finite_numbers(values, what),
             None => Ok([0.0; 3]),
         };
-        let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
+        let turned = rotation.map_or(Ok(DQuat::IDENTITY), read_rotation)?;
         let start = GivenPose(given(position, "position")?, turned);
         let velocity = given(velocity, "velocity")?;
         let (spin, center) = (given(spin, "spin")?, given(center, "center")?);
@@ -56,7 +56,7 @@ impl PyMotion {
     /// Makes the motion of a body at rest; the pose takes the same forms as in `Motion.between`.
     #[classmethod]
     fn still(class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let start = given_pose(pose, "pose")?;
+        let start = read_given_pose(pose, "pose")?;
         PyMotion::moving(class.py(), start, [0.0; 3], [0.0; 3], [0.0; 3])
     }
 
@@ -73,23 +73,26 @@ impl PyMotion {
         duration: f64,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (start, end) = (given_pose(start, "start")?, given_pose(end, "end")?);
+        let (start, end) = (
+            read_given_pose(start, "start")?,
+            read_given_pose(end, "end")?,
+        );
         let center = center.map_or(Ok([0.0; 3]), |center| finite_numbers(center, "center"))?;
         let motion = Motion::between(start.pose("start")?, end.pose("end")?, center, duration);
         let parts = (start, end, duration, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
-            made: Recipe::new(class.py(), Some("between"), parts)?,
+            made: ConstructorCall::new(class.py(), Some("between"), parts)?,
         })
     }
 
     /// Returns the pose of the body at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, numpy::PyArray2<f64>> {
-        matrix_of(py, &self.motion.pose(time))
+        pose_matrix(py, &self.motion.pose(time))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        slf.get().made.reduced(slf.get_type())
+        slf.get().made.reduce_tuple(slf.get_type())
     }
 
     fn __repr__(&self) -> String {
@@ -118,7 +121,7 @@ impl PyMotion {
         let parts = (place, wxyz(turned), velocity, spin, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
-            made: Recipe::new(py, None, parts)?,
+            made: ConstructorCall::new(py, None, parts)?,
         })
     }
 }
@@ -153,7 +156,7 @@ fn wxyz(rotation: DQuat) -> [f64; 4] {
 }
 
 /// Converts a pose to a matrix of shape (4, 4).
-pub(crate) fn matrix_of<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::PyArray2<f64>> {
+pub(crate) fn pose_matrix<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::PyArray2<f64>> {
     let (turned, place) = (DMat3::from_quat(pose.rotation()), pose.translation());
     let row = |k: usize| {
         vec![
@@ -168,7 +171,7 @@ pub(crate) fn matrix_of<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::
 }
 
 /// Reads a rotation from a quaternion, a matrix or a SciPy rotation.
-fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
+fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     if value.hasattr("as_matrix")? {
         return matrix(&value.call_method0("as_matrix")?, "rotation");
     }
@@ -176,7 +179,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
         [4] => {
             let [w, x, y, z] = finite_numbers(value, "rotation")?;
             let is_zero = [w, x, y, z] == [0.0; 4];
-            let remark = Remark::of_quaternion([w, x, y, z]).filter(|_| !is_zero);
+            let remark = Remark::check_quaternion([w, x, y, z]).filter(|_| !is_zero);
             warn(value.py(), remark, 1)?;
             Ok(DQuat::from_xyzw(x, y, z, w))
         }
@@ -211,16 +214,16 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
 }
 
 /// Reads a pose from any of its accepted forms; `what` names it in errors.
-pub(crate) fn pose_of(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
-    given_pose(value, what)?.pose(what)
+pub(crate) fn read_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
+    read_given_pose(value, what)?.pose(what)
 }
 
 /// Reads a pose as given, without normalising it.
-pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
+pub(crate) fn read_given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(
             finite_numbers(&place, what)?,
-            rotation_of(&turned)?,
+            read_rotation(&turned)?,
         ));
     }
     if shape(value, what)?[..] != [4, 4] {

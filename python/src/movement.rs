@@ -100,7 +100,7 @@ impl Pair<'_> {
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {
-            GivenMovement::Motion(motion) => Remark::of_spin(motion.spin(), duration),
+            GivenMovement::Motion(motion) => Remark::check_spin(motion.spin(), duration),
             GivenMovement::Link(..) | GivenMovement::Path(_) => None,
         })
     }

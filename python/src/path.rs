@@ -1,9 +1,9 @@
 //! The Python class of paths through poses.
 
-use crate::arrays::{any_numbers, finite_numbers, rows};
+use crate::arrays::{finite_numbers, flat_numbers, rows};
 use crate::errors::input_error;
-use crate::motion::{GivenPose, given_pose, matrix_of};
-use crate::pickle::{Recipe, Reduced};
+use crate::motion::{GivenPose, pose_matrix, read_given_pose};
+use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use rigid_ccd::trajectory::{Poses, Trajectory};
 
@@ -30,7 +30,7 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 #[pyclass(name = "Path", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
     pub(crate) poses: Poses,
-    made: Recipe,
+    made: ConstructorCall,
 }
 
 #[pymethods]
@@ -44,10 +44,10 @@ impl PyPath {
         center: Option<&Bound<'_, PyAny>>,
         spins: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let times = any_numbers(times, "times")?;
+        let times = flat_numbers(times, "times")?;
         let poses = poses.try_iter()?.enumerate();
         let given: Vec<GivenPose> = poses
-            .map(|(k, pose)| given_pose(&pose?, &format!("pose {k}")))
+            .map(|(k, pose)| read_given_pose(&pose?, &format!("pose {k}")))
             .collect::<PyResult<_>>()?;
         if given.len() != times.len() {
             return Err(input_error(format!(
@@ -63,16 +63,18 @@ impl PyPath {
         let mut poses = poses.about(center).map_err(input_error)?;
         let spins = spins.map(|spins| rows::<3>(spins, "spins")).transpose()?;
         if let Some(spins) = &spins {
-            poses = poses.turning(spins.clone()).map_err(input_error)?;
+            poses = poses
+                .with_angular_velocities(spins.clone())
+                .map_err(input_error)?;
         }
         Ok(PyPath {
             poses,
-            made: Recipe::new(py, None, (times, given, center, spins))?,
+            made: ConstructorCall::new(py, None, (times, given, center, spins))?,
         })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        slf.get().made.reduced(slf.get_type())
+        slf.get().made.reduce_tuple(slf.get_type())
     }
 
     /// The time of the last pose of the path.
@@ -86,7 +88,10 @@ impl PyPath {
         if time.is_nan() {
             return Err(input_error("time: NaN is no time"));
         }
-        Ok(matrix_of(py, &self.poses.pose(time).map_err(input_error)?))
+        Ok(pose_matrix(
+            py,
+            &self.poses.pose(time).map_err(input_error)?,
+        ))
     }
 
     fn __repr__(&self) -> String {

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
 /// The constructor of an object and its arguments.
-pub(crate) struct Recipe {
+pub(crate) struct ConstructorCall {
     /// The name of the class method; `None` for the class itself.
     constructor: Option<&'static str>,
     arguments: Py<PyTuple>,
@@ -13,7 +13,7 @@ pub(crate) struct Recipe {
 /// A callable and its arguments, as `__reduce__` returns them.
 pub(crate) type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
-impl Recipe {
+impl ConstructorCall {
     pub(crate) fn new<'py, A>(
         py: Python<'py>,
         constructor: Option<&'static str>,
@@ -23,14 +23,14 @@ impl Recipe {
         A: IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>, Error: Into<PyErr>>,
     {
         let arguments = arguments.into_pyobject(py).map_err(Into::into)?.unbind();
-        Ok(Recipe {
+        Ok(ConstructorCall {
             constructor,
             arguments,
         })
     }
 
     /// Returns the constructor and the arguments of an object of `class`, as its `__reduce__` returns them.
-    pub(crate) fn reduced<'py>(&self, class: Bound<'py, PyType>) -> PyResult<Reduced<'py>> {
+    pub(crate) fn reduce_tuple<'py>(&self, class: Bound<'py, PyType>) -> PyResult<Reduced<'py>> {
         let arguments = self.arguments.bind(class.py()).clone();
         let constructor = match self.constructor {
             Some(name) => class.getattr(name)?,

@@ -4,7 +4,7 @@ use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
 use crate::errors::{input_error, panic_error, unresolved_distance_error, unresolved_error, warn};
 use crate::interruptible::run_interruptibly;
-use crate::motion::pose_of;
+use crate::motion::read_pose;
 use crate::movement::{GivenMovement, Pair};
 use crate::settings::{APPROACH_SETTINGS, CONTACT_SETTINGS, DISTANCE_SETTINGS, read};
 use pyo3::prelude::*;
@@ -31,13 +31,13 @@ thread_local! {
 }
 
 /// Two moving bodies, and the question about them.
-struct Asked<'a> {
+struct PairQuestion<'a> {
     question: Question,
     bodies: [MovingBody<'a>; 2],
     duration: f64,
 }
 
-impl Asked<'_> {
+impl PairQuestion<'_> {
     fn answer(&self, solver: &mut Solver, settings: &Settings) -> Result<Answer, InputError> {
         let [a, b] = self.bodies;
         let query = Query::new(a, b, self.duration, settings)?;
@@ -129,7 +129,7 @@ fn ask(
     warn(py, pair.remarks(duration), 1)?;
     warn_of_tolerance([a, b], settings.tolerance, 1)?;
     let bodies = pair.moving();
-    let asked = Asked {
+    let asked = PairQuestion {
         question,
         bodies,
         duration,
@@ -265,14 +265,14 @@ pub(crate) fn distance<'py>(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let pose = |pose: Option<&Bound<'_, PyAny>>, what| match pose {
-        Some(pose) => pose_of(pose, what),
+        Some(pose) => read_pose(pose, what),
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
     let settings = read(settings, DISTANCE_SETTINGS)?;
     warn_of_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (body_of(a, "a")?, body_of(b, "b")?);
-    let asked = Asked {
+    let asked = PairQuestion {
         question: Question::Distance,
         bodies: [(a, pose_a).into(), (b, pose_b).into()],
         duration: 0.0,

@@ -47,7 +47,7 @@ pub(crate) fn read(
 }
 
 /// Reads the number of threads of a table query; `None` stands for one thread for each core.
-pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<u16>> {
+pub(crate) fn read_thread_count(given: Option<i64>) -> PyResult<Option<u16>> {
     let in_range = |&threads: &u16| (1..=MAX_THREADS).contains(&threads);
     let threads = |given: i64| {
         let threads = u16::try_from(given).ok().filter(in_range);

@@ -9,7 +9,7 @@ mod pieces;
 mod results;
 mod stored;
 
-use crate::arrays::row_numbers;
+use crate::arrays::row_indices;
 use crate::errors::{catching_panics, error_of_table, input_error as refuse};
 use crate::interruptible::run_interruptibly;
 use arrow_array::cast::AsArray;
@@ -64,7 +64,7 @@ impl PyTable {
     /// true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
-        let rows = row_numbers(rows, all)?;
+        let rows = row_indices(rows, all)?;
         if let Some(wrong) = rows.iter().find(|&&row| !(0..all as i64).contains(&row)) {
             return Err(refuse(format!("row {wrong}: the table has {all} rows")));
         }

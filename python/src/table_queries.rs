@@ -44,7 +44,7 @@ pub(crate) fn answer_table(
         },
         settings: &settings,
         question,
-        threads: settings::threads(threads)?,
+        threads: settings::read_thread_count(threads)?,
         has_micros: micros,
     };
     // One query checks the settings, whose error each row would only repeat.

@@ -44,7 +44,7 @@ pub(super) struct ChartArgs {
     #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
     cell_time: Option<Duration>,
     /// Seconds that a peer library may take for a query before it is stopped
-    #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
+    #[arg(long = "patience", value_name = "SECONDS", value_parser = duration_from_seconds)]
     query_time_limit: Option<Duration>,
     #[command(flatten)]
     programs: Programs,

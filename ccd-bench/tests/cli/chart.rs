@@ -14,7 +14,7 @@ fn chart(folder: &Path) -> CommandCall {
         "best-first direct,C2A",
         "--tolerances",
         "1e-2,1e-3",
-        "--cell",
+        "--cell-time",
         "0.1",
     ];
     CommandCall::with_args(&options).args(&["--out", folder.to_str().unwrap()])

@@ -35,7 +35,7 @@ class GapPlot {
     }
     if (gap !== null) parts.push(...this.curves(gap, most));
     for (const contact of contacts) parts.push(`<line class="contact" x1="${this.x(contact.time)}" x2="${this.x(contact.time)}" y1="${GapPlot.UP}" y2="${this.floor()}"/>`);
-    for (const ghost of view.ghosts) parts.push(`<path class="step" d="M${this.x(ghost)},${this.floor()}l-4,7h8z"/>`);
+    for (const ghost of view.ghost_times) parts.push(`<path class="step" d="M${this.x(ghost)},${this.floor()}l-4,7h8z"/>`);
     parts.push(`<line class="floor" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${this.floor()}" y2="${this.floor()}"/>`);
     parts.push(`<line class="now" id="view-cursor" y1="${GapPlot.UP}" y2="${this.floor()}"/>`);
     this.holder.innerHTML = `<svg width="${this.width}" height="${this.height}" role="img" aria-label="Gap between the bodies over time">${parts.join("")}</svg>`;

@@ -13,8 +13,8 @@ const Marks = (() => {
 
   // Draws a contact in a picture of a size.
   function draw(stage, contact, size) {
-    feature(stage, contact.lit_a, LIT.a, size);
-    feature(stage, contact.lit_b, LIT.b, size);
+    feature(stage, contact.highlight_a, LIT.a, size);
+    feature(stage, contact.highlight_b, LIT.b, size);
     if (contact.witnesses === null) return;
     const [a, b] = contact.witnesses;
     for (const point of [a, b]) stage.addBall(point, 0.007 * size, INK);

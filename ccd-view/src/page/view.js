@@ -55,7 +55,7 @@
   }
 
   function ghosts(view) {
-    for (const t of element("ghosts").checked ? view.ghosts : []) {
+    for (const t of element("ghosts").checked ? view.ghost_times : []) {
       for (const body of view.bodies.filter(({ motion }) => Motion.moves(motion))) {
         stage.place(stage.addMesh(ghost(body.mesh), body.color, GHOST), placed(view, body, t));
       }
@@ -81,7 +81,7 @@
   // Seen from the view's origin.
   function moved(view, contact) {
     const shift = (point) => point.map((p, k) => p - view.origin[k]);
-    return { ...contact, witnesses: contact.witnesses?.map(shift) ?? null, lit_a: contact.lit_a.map(shift), lit_b: contact.lit_b.map(shift) };
+    return { ...contact, witnesses: contact.witnesses?.map(shift) ?? null, highlight_a: contact.highlight_a.map(shift), highlight_b: contact.highlight_b.map(shift) };
   }
 
   function choose(number) {
@@ -112,7 +112,7 @@
     shown = { view, contact: null, meshes: null, size: size.length() };
     words.textContent = view.verdict;
     legend(view);
-    element("steps").hidden = view.ghosts.length === 0;
+    element("steps").hidden = view.ghost_times.length === 0;
     element("gap-words").hidden = view.gap === null;
     list.hidden = view.contacts.length < 2;
     list.replaceChildren(...view.contacts.slice(0, LISTED).map(({ words: text }, number) => {

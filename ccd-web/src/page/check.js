@@ -13,7 +13,7 @@
   for (const [row, answer] of answers.entries()) {
     const [part, target] = [named(answer.part), named(answer.target)];
     const numbers = new Float64Array(answer.throw);
-    const thrown = wasm_bindgen.Throw.of_numbers(numbers);
+    const thrown = wasm_bindgen.Throw.from_numbers(numbers);
     const found = thrown.first_contact(part, target);
     const seen = thrown.steps(part, target, answer.steps.length - 1);
     const same = found.verdict === answer.verdict && Math.abs(found.time - answer.time) <= ROUNDING && String(seen) === String(answer.steps);

@@ -53,7 +53,7 @@ const Workshop = (() => {
 
   // Asks both sides about the throw.
   function ask() {
-    const query = wasm_bindgen.Throw.of_numbers(new Float64Array([...state.place, ...state.velocity, ...spin()]));
+    const query = wasm_bindgen.Throw.from_numbers(new Float64Array([...state.place, ...state.velocity, ...spin()]));
     const [part, target] = [state.part.part, state.target.part];
     const { found, micros } = timed(() => query.first_contact(part, target));
     state.found = { verdict: found.verdict, time: found.time, points: found.points };

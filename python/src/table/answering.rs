@@ -1,6 +1,6 @@
 //! Answers the rows of a table on all cores.
 
-use super::batch::{IdReading, id_field, unreadable};
+use super::batch::{IdReading, id_field, unreadable_error};
 use super::input::Reader;
 use super::pieces::{ChunkSize, Piece, Pieces, check};
 use super::results;
@@ -48,7 +48,7 @@ pub(crate) fn answer(
 ) -> Result<Answered, TableError> {
     let columns = check(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
-    let schema = Arc::new(schema.map_err(unreadable)?);
+    let schema = Arc::new(schema.map_err(unreadable_error)?);
     let settings = settings_with_stop(asked, stop);
     let asked = TableQuestion {
         settings: &settings,
@@ -69,7 +69,7 @@ pub(crate) fn answer(
     let found: Vec<_> = found
         .into_iter()
         .collect::<Result<_, _>>()
-        .map_err(unreadable)?;
+        .map_err(unreadable_error)?;
     // The first rows of the piece that was stopped have answers.
     let stopped = found.iter().position(|&(_, is_whole)| !is_whole);
     let first = stopped.map_or(found.len(), |stopped| stopped + 1);
@@ -79,7 +79,7 @@ pub(crate) fn answer(
         .take(first)
         .collect();
     Ok(Answered {
-        results: results::concatenate(&schema, &answered).map_err(unreadable)?,
+        results: results::concatenate(&schema, &answered).map_err(unreadable_error)?,
         remarks: pieces.remarks(&columns),
         fault: pieces.fault,
     })
@@ -96,14 +96,14 @@ fn rows(
     solver: &mut Solver,
     stop: &AtomicBool,
 ) -> Vec<ResultRow> {
-    let rows: Vec<CourseRow> = piece.courses(columns).collect();
+    let rows: Vec<CourseRow> = piece.read_rows(columns).collect();
     let answered: Vec<RowAnswer> = (rows.iter())
         .take_while(|_| !stop.load(Ordering::Relaxed))
         .map_while(|row| answer_row(asked, row, solver))
         .collect();
     rows.iter()
         .zip(&answered)
-        .map(|(row, answer)| result(asked, row, answer))
+        .map(|(row, answer)| result_row(asked, row, answer))
         .collect()
 }
 
@@ -121,7 +121,7 @@ type RowAnswer = Result<TimedAnswer, RowProblem>;
 /// Answers one row; `None` if the query was stopped by the flag.
 fn answer_row(asked: TableQuestion<'_>, row: &CourseRow, solver: &mut Solver) -> Option<RowAnswer> {
     let answer = match row {
-        Ok((_, course)) => timed(asked, course, solver).map_err(RowProblem::from),
+        Ok((_, course)) => answer_timed(asked, course, solver).map_err(RowProblem::from),
         Err(error) => Err(error.problem.clone()),
     };
     let is_stopped =
@@ -129,7 +129,7 @@ fn answer_row(asked: TableQuestion<'_>, row: &CourseRow, solver: &mut Solver) ->
     (!is_stopped).then_some(answer)
 }
 
-fn timed(
+fn answer_timed(
     asked: TableQuestion<'_>,
     course: &Movements,
     solver: &mut Solver,
@@ -142,7 +142,7 @@ fn timed(
 }
 
 /// Returns the row of results for one row of the table, from its answer or its error.
-fn result(asked: TableQuestion<'_>, row: &CourseRow, answer: &RowAnswer) -> ResultRow {
+fn result_row(asked: TableQuestion<'_>, row: &CourseRow, answer: &RowAnswer) -> ResultRow {
     let TableQuestion {
         bodies,
         question,

@@ -131,7 +131,7 @@ fn is_id_type(kind: &DataType) -> bool {
     is_simple || kind.is_string() || is_bytes || is_time
 }
 
-pub(crate) fn unreadable(error: ArrowError) -> TableError {
+pub(crate) fn unreadable_error(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
 
@@ -145,8 +145,8 @@ impl Batch {
         let schema = batch.schema();
         let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
-            let column =
-                decoded_column(column, decoded_type(field.data_type())).map_err(unreadable)?;
+            let column = decoded_column(column, decoded_type(field.data_type()))
+                .map_err(unreadable_error)?;
             columns.push(if field.name() == ID_COLUMN {
                 id = Some(column);
                 None
@@ -185,13 +185,13 @@ impl Numbers {
         };
         let values = if column.data_type().is_decimal() {
             cast(
-                &cast(column, &DataType::Utf8).map_err(unreadable)?,
+                &cast(column, &DataType::Utf8).map_err(unreadable_error)?,
                 &DataType::Float64,
             )
         } else {
             decoded_column(column, &DataType::Float64)
         };
-        let values = values.map_err(unreadable)?;
+        let values = values.map_err(unreadable_error)?;
         Ok(Numbers {
             values: values.as_primitive::<Float64Type>().clone(),
             inexact_integers,

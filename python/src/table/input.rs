@@ -30,11 +30,11 @@ fn open_unguarded(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
         let read = |table: &Bound<'_, PyAny>| {
             let reader = table.extract::<PyRecordBatchReader>();
             let reader = reader.and_then(PyRecordBatchReader::into_reader);
-            reader.map(without_panics).map_err(failed)
+            reader.map(catch_reader_panics).map_err(failed)
         };
         return match library_of_frame(motions)?.as_deref() {
-            Some("pandas") => read(&without_index(motions)?),
-            Some("polars") => read(&without_nulls(motions)?),
+            Some("pandas") => read(&frame_without_index(motions)?),
+            Some("polars") => read(&frame_without_null_types(motions)?),
             _ => read(motions),
         };
     }
@@ -53,7 +53,7 @@ fn open_unguarded(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
 
 /// Wraps a reader so that it returns an error where it would panic. It panics if a batch does not fit its schema, or an
 /// error has no message.
-fn without_panics(mut reader: Reader) -> Reader {
+fn catch_reader_panics(mut reader: Reader) -> Reader {
     let schema = reader.schema();
     let next = move || {
         let batch = catch_unwind(AssertUnwindSafe(|| reader.next()));
@@ -80,7 +80,7 @@ fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
 
 /// Returns a polars frame whose columns of type null are cast to another type. Arrow arrays of type null have no
 /// buffers, but those that polars makes have one.
-fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+fn frame_without_null_types<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let polars = frame.py().import("polars")?;
     let types = PyDict::new(frame.py());
     for column in frame.getattr("schema")?.call_method0("items")?.try_iter()? {
@@ -102,7 +102,7 @@ fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
 }
 
 /// Returns a pandas frame whose index is a column if it has a name, and is left out otherwise.
-fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+fn frame_without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
     let how = PyDict::new(frame.py());
@@ -136,7 +136,7 @@ fn batch_of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
     let mut arrays: Vec<ArrayRef> = Vec::new();
     for item in columns.items()? {
         let (name, values): (String, Bound<'_, PyAny>) = item.extract()?;
-        let array = column(&name, &values)?;
+        let array = read_column(&name, &values)?;
         if let Some(first) = arrays.first().filter(|first| first.len() != array.len()) {
             return Err(input_error(format!(
                 "column {name}: has {} rows, but the first column has {}",
@@ -153,7 +153,7 @@ fn batch_of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
     RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays).map_err(input_error)
 }
 
-fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
+fn read_column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let what = format!("column {name}");
     let numpy = values.py().import("numpy")?;
     if name == ID_COLUMN && !values.is_instance(&numpy.getattr("ndarray")?)? {
@@ -168,9 +168,9 @@ fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     }
     let dtype = array.getattr("dtype")?;
     match (name, kind(&array)?) {
-        (_, 'i' | 'u') => contiguous(&array, &dtype.call_method1("newbyteorder", ("=",))?),
+        (_, 'i' | 'u') => contiguous_array(&array, &dtype.call_method1("newbyteorder", ("=",))?),
         (ID_COLUMN, _) => ids(&array.call_method0("tolist")?),
-        (_, 'f') => contiguous(&array, PyString::new(values.py(), "float64").as_any()),
+        (_, 'f') => contiguous_array(&array, PyString::new(values.py(), "float64").as_any()),
         _ => Err(input_error(format!(
             "{what}: numbers are needed, not {dtype}"
         ))),
@@ -213,7 +213,7 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
 }
 
 /// Returns a contiguous array of the type `dtype`, without a copy if possible.
-fn contiguous(array: &Bound<'_, PyAny>, dtype: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
+fn contiguous_array(array: &Bound<'_, PyAny>, dtype: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let numpy = array.py().import("numpy")?;
     let plain = numpy.call_method1("require", (array, dtype, ["C", "A"]))?;
     let buffer: AnyBufferProtocol = plain.extract()?;

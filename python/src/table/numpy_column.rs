@@ -16,8 +16,8 @@ use pyo3_arrow::buffer::PyArrowBuffer;
 pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     match column.data_type() {
         DataType::Float64 => floats(py, column.as_primitive()),
-        DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => texts(py, column),
-        _ if column.null_count() > 0 => with_empty_cells(py, column),
+        DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => text_array(py, column),
+        _ if column.null_count() > 0 => array_with_empty_cells(py, column),
         DataType::Float32 => view(py, column),
         kind if kind.is_integer() => view(py, column),
         _ => objects(py, column),
@@ -53,7 +53,7 @@ fn view<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> 
     }
 }
 
-fn with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+fn array_with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     if column.data_type().is_integer() {
         let wide = cast(column, &DataType::Float64).map_err(refuse)?;
         let wide: &Float64Array = wide.as_primitive();
@@ -66,7 +66,7 @@ fn with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'
     objects(py, column)
 }
 
-fn texts<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+fn text_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     let texts = cast(column, &DataType::LargeUtf8).map_err(refuse)?;
     let texts: Vec<Option<&str>> = texts.as_string::<i64>().iter().collect();
     py.import("numpy")?.call_method1("array", (texts, "object"))

@@ -1,12 +1,12 @@
 //! Splits a table into pieces, each answered by one thread.
 
-use super::batch::{Batch, IdReading, Row, Rows, check_types, header, unreadable, whole};
+use super::batch::{Batch, IdReading, Row, Rows, check_types, header, unreadable_error, whole};
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use rigid_ccd::Remark;
 use rigid_ccd::batch::Question;
 use rigid_ccd::table::columns::Columns;
-use rigid_ccd::table::courses::{CourseRow, Courses, Movements};
+use rigid_ccd::table::courses::{CourseRow, MovementRows, Movements};
 use rigid_ccd::table::motions::{self, RowError, TableError};
 use std::ops::Range;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ enum Source {
         /// The remaining rows of the last batch.
         rest: Option<(Arc<Batch>, Range<usize>)>,
     },
-    Paths(Box<Courses<Rows>>, Arc<Batch>),
+    Paths(Box<MovementRows<Rows>>, Arc<Batch>),
 }
 
 /// The number of rows in a piece, adapted to the time that pieces take.
@@ -65,7 +65,7 @@ impl ChunkSize {
     }
 
     /// Returns the number of rows of the next piece, if `left` rows remain.
-    fn next_rows(&self, left: usize) -> usize {
+    fn next_row_count(&self, left: usize) -> usize {
         let share = left.div_ceil(2 * self.threads);
         self.rows.load(Ordering::Relaxed).min(share)
     }
@@ -101,9 +101,12 @@ impl<'p> Pieces<'p> {
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
         let source = if columns.is_path_table() {
-            let rows = Rows::new(&whole(reader, stop).map_err(unreadable)?)?;
+            let rows = Rows::new(&whole(reader, stop).map_err(unreadable_error)?)?;
             let batch = rows.batch();
-            Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
+            Source::Paths(
+                Box::new(MovementRows::of(rows, question.grouping())?),
+                batch,
+            )
         } else {
             Source::Motions {
                 reader,
@@ -159,7 +162,8 @@ impl Source {
                 let (batch, rows) = match rest.take() {
                     Some((batch, rows)) if rows.start < rows.end => (batch, rows),
                     _ => {
-                        let Some(batch) = reader.next().transpose().map_err(unreadable)? else {
+                        let Some(batch) = reader.next().transpose().map_err(unreadable_error)?
+                        else {
                             return Ok(None);
                         };
                         let batch = Batch::new(&batch, *read, *names)?;
@@ -168,7 +172,7 @@ impl Source {
                         (Arc::new(batch), rows)
                     }
                 };
-                let end = rows.start + size.next_rows(rows.len());
+                let end = rows.start + size.next_row_count(rows.len());
                 *rest = Some((Arc::clone(&batch), end..rows.end));
                 Ok(Some(Piece::Motions(batch, rows.start..end)))
             }
@@ -205,19 +209,19 @@ impl Piece {
     }
 
     /// Reads the rows of the piece one after another.
-    pub(crate) fn courses<'p>(
+    pub(crate) fn read_rows<'p>(
         &'p self,
         columns: &'p Columns,
     ) -> impl Iterator<Item = CourseRow> + 'p {
         (0..self.rows()).map(move |k| match self {
-            Piece::Motions(batch, rows) => course(batch, rows.start + k, columns),
+            Piece::Motions(batch, rows) => read_row(batch, rows.start + k, columns),
             Piece::Path(row, _) => (**row).clone(),
         })
     }
 }
 
 /// Reads one row of a table of motions.
-fn course(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
+fn read_row(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
     let row = batch.first + at;
     let position = motions::RowPosition {
         row,
