@@ -96,7 +96,7 @@ impl BodySource {
     }
 
     /// Creates the body like [`BodySource::load`], with coordinates in the given unit. The coordinates of a mesh file
-    /// that states its unit are [converted](crate::MeshFile::in_unit); all other lengths, including those of shapes and
+    /// that states its unit are [converted](crate::MeshFile::converted_to_unit); all other lengths, including those of shapes and
     /// stored bodies, are assumed to be in that unit.
     ///
     /// # Errors

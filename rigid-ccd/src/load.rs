@@ -27,7 +27,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
 }
 
 /// Loads a body as [`load`] does, with coordinates converted to a unit. A glTF, which is in metres, is
-/// [converted](MeshFile::in_unit); the coordinates of other files are taken to be in the unit already.
+/// [converted](MeshFile::converted_to_unit); the coordinates of other files are taken to be in the unit already.
 ///
 /// # Errors
 /// Those of [`load`].

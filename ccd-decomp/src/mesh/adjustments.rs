@@ -60,7 +60,7 @@ impl Adjustments {
         }
     }
 
-    /// [Converts](crate::MeshFile::in_unit) the coordinates to a unit. The coordinates of a file without a known unit
+    /// [Converts](crate::MeshFile::converted_to_unit) the coordinates to a unit. The coordinates of a file without a known unit
     /// stay as they are.
     #[must_use]
     pub fn converted_to(self, unit: Unit) -> Self {

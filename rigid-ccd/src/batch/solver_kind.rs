@@ -19,7 +19,7 @@ pub struct SolverKind {
     pub schedule: ScheduleKind,
     /// The backend that computes distances of pieces.
     pub oracle: OracleKind,
-    /// The bound on the bodies' motion over a step, for the schedules that [use one](ScheduleKind::uses_a_bound).
+    /// The bound on the bodies' motion over a step, for the schedules that [use one](ScheduleKind::uses_velocity_bound).
     pub bound: BoundKind,
 }
 

@@ -18,7 +18,7 @@ pub struct QueryContext {
 pub enum TimeMeaning {
     /// The certified time of the first contact or, for a closest approach, of the least distance.
     FirstContact,
-    /// The time of the [first](Claim::First) contact, where a contact at the start is ignored until the bodies part.
+    /// The time of the [first](TimeMeaning::FirstContact) contact, where a contact at the start is ignored until the bodies part.
     FirstContactAfterParting,
     /// The time of some contact, perhaps not the first one.
     Any,

@@ -15,7 +15,7 @@ use segment::Segment;
 /// A path through poses at given times, for example from a planner or a simulator's log.
 ///
 /// From one pose to the next, a point of the body moves straight, and the body turns about it the shortest way,
-/// both at constant rates ([`Motion::between`]); or by any number of turns, at about a [given](Poses::turning) angular
+/// both at constant rates ([`Motion::between`]); or by any number of turns, at about a [given](Poses::with_angular_velocities) angular
 /// velocity. The body rests before the first time and after the last.
 ///
 /// A stretch between two poses is exact, up to rounding. A longer one is a single motion from its first to its

@@ -160,7 +160,7 @@ fn orthonormality_error(frame: &DMat3) -> f64 {
     off.fold(0.0, greater)
 }
 
-/// Tests the error bound `4u` of lengths and unit vectors, for vectors whose squared lengths are within [`SQUARES`] or
+/// Tests the error bound `4u` of lengths and unit vectors, for vectors whose squared lengths are within [`SQUARED_LENGTH_RANGE`] or
 /// below.
 #[test]
 fn units_and_lengths() {
