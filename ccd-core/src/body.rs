@@ -181,7 +181,7 @@ impl Body {
         self.pieces.get(index as usize).with_support_map(support_of)
     }
 
-    /// Computes in advance, on all cores, the values that [`Piece::cached`] would compute when first requested.
+    /// Computes in advance, on all cores, the values that [`Piece::cached_value`] would compute when first requested.
     ///
     /// Searches for extremal points of hulls are prepared in advance as well. Values that exist already stay.
     ///
@@ -216,7 +216,7 @@ impl Body {
     ///
     /// ```
     /// let box_of_4 = ccd_core::Body::cuboid([2.0, 2.0, 1.0])?;
-    /// assert!((box_of_4.span() - 3.0).abs() < 1e-12);
+    /// assert!((box_of_4.bounding_radius() - 3.0).abs() < 1e-12);
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn bounding_radius(&self) -> f64 {

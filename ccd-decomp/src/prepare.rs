@@ -83,7 +83,7 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBod
 /// # Guarantee
 /// The pieces cover the mesh. Except with [`Detail::OuterHull`], they touch nothing outside the solid that it bounds.
 /// Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented
-/// alike, and it is [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside
+/// alike, and it is [clear](Topology::unclear_shells) which shells bound material and which a cavity. Shells that are inside
 /// out are reversed, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
 ///
 /// # Errors

@@ -56,7 +56,7 @@ pub enum BodySource {
         radius: f64,
         /// The half length of the cylinder along z.
         half_height: f64,
-        /// The maximum excess of the cylinder's polytope; `None` for the [usual](SolidOfRevolution::usual_excess)
+        /// The maximum excess of the cylinder's polytope; `None` for the [usual](SolidOfRevolution::default_excess)
         /// excess.
         excess: Option<f64>,
     },
@@ -66,7 +66,7 @@ pub enum BodySource {
         radius: f64,
         /// The half length of the cone along z; the apex is up.
         half_height: f64,
-        /// The maximum excess of the cone's polytope; `None` for the [usual](SolidOfRevolution::usual_excess) excess.
+        /// The maximum excess of the cone's polytope; `None` for the [usual](SolidOfRevolution::default_excess) excess.
         excess: Option<f64>,
     },
     /// A [stored](crate::Model::save) body, by the path of a file that ends in `.ccd`.
@@ -89,7 +89,7 @@ impl BodySource {
     /// stored body keeps its pieces.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`] and [`BodyError::Store`] if the file cannot be read, [`BodyError::InFile`] if its content
+    /// [`BodyError::Mesh`] and [`BodyError::Store`] if the file cannot be read, [`BodyError::FileContent`] if its content
     /// cannot be made into a body, [`BodyError::Input`] if a length is out of range.
     pub fn load(&self, detail: Detail) -> Result<PreparedBody, BodyError> {
         self.load_adjusted(&Adjustments::NONE, detail)
@@ -109,7 +109,7 @@ impl BodySource {
     /// description. Shapes do not change.
     ///
     /// # Errors
-    /// Those of [`BodySource::load`]; [`SourceError::Prepared`] for a stored body, unless only the unit is given.
+    /// Those of [`BodySource::load`]; [`SourceError::AdjustedStoredBody`] for a stored body, unless only the unit is given.
     pub fn load_adjusted(
         &self,
         adjustments: &Adjustments,

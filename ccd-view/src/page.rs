@@ -74,7 +74,7 @@ impl Page<'_> {
     }
 }
 
-/// Returns the scripts that fill [`VIEW_HTML`] with the views of [`data`], which an earlier element with the id `views`
+/// Returns the scripts that fill [`VIEW_HTML`] with the views of [`views_json`], which an earlier element with the id `views`
 /// holds.
 pub fn scripts() -> String {
     let views = [

@@ -53,7 +53,7 @@ pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
 /// let half = Adjustments::default().scaled(0.5)?.mirrored(Axis::X);
 /// let part = load_adjusted("examples/bracket.obj", &half)?;
 /// # let whole = rigid_ccd::load("examples/bracket.obj")?;
-/// # assert!((part.span() / whole.span() - 0.5).abs() < 1e-6);
+/// # assert!((part.bounding_radius() / whole.bounding_radius() - 0.5).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Result<Body, BodyError> {

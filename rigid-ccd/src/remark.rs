@@ -17,9 +17,9 @@ use std::fmt;
 /// // A part in metres, and a tolerance as for millimetres.
 /// let (part, wall) = (Body::sphere(0.0005)?, Body::cuboid([1.0; 3])?);
 /// let sizes = [&part, &wall].map(Remark::size);
-/// let remark = Remark::of_tolerance(0.001, sizes).expect("it is as large as the part");
+/// let remark = Remark::check_tolerance(0.001, sizes).expect("it is as large as the part");
 /// assert!(remark.to_string().starts_with("the tolerance is large against the smaller body"));
-/// assert_eq!(Remark::of_tolerance(0.00001, sizes), None);
+/// assert_eq!(Remark::check_tolerance(0.00001, sizes), None);
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

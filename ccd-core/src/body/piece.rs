@@ -114,7 +114,7 @@ impl<'a> Piece<'a> {
     /// points, only some of them are tested.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal`].
+    /// The guarantee of [`Support::extremal_point`].
     pub fn extremal_point(&self, direction: DVec3) -> u32 {
         if let Some(support) = self.support_map {
             return support.extremal_point(direction);
@@ -173,7 +173,7 @@ pub struct ConvexCombination {
 }
 
 impl ConvexCombination {
-    /// The empty combination, to which terms can be [added](Combination::push).
+    /// The empty combination, to which terms can be [added](ConvexCombination::push).
     pub const EMPTY: ConvexCombination = ConvexCombination {
         indices: [0; 4],
         weights: [0.0; 4],

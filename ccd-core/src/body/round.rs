@@ -21,7 +21,7 @@ use std::f64::consts::{PI, TAU};
 /// let wheel = SolidOfRevolution::cylinder(0.5, 0.1)?;
 /// let fine = wheel.enclose(1e-6)?;
 /// assert!(fine.excess() <= 1e-6 && fine.polytope().points.len() > 3000);
-/// let coarse = wheel.enclose(wheel.usual_excess())?;
+/// let coarse = wheel.enclose(wheel.default_excess())?;
 /// assert_eq!(coarse.polytope().points.len(), 288);
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
@@ -236,7 +236,7 @@ impl Body {
     /// ```
     /// use ccd_core::Body;
     /// let wheel = Body::cylinder(0.5, 0.1)?;
-    /// assert!(wheel.span() > 0.5 && wheel.span() < 0.52);
+    /// assert!(wheel.bounding_radius() > 0.5 && wheel.bounding_radius() < 0.52);
     /// assert!(Body::cylinder(-0.5, 0.1).is_err());
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 /// for a triangle without area.
 ///
 /// # Guarantee
-/// Exact, unless a coordinate is [too fine](too_fine).
+/// Exact, unless a coordinate is [too fine](first_too_fine_point).
 ///
 /// ```
 /// use ccd_core::{exact, glam::DVec3};

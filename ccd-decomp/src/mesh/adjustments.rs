@@ -12,7 +12,7 @@ use std::fmt;
 /// use ccd_decomp::{Adjustments, Axis, Unit};
 /// // The left part, of a right one that was drawn in millimetres; lengths are to be in metres.
 /// let left = Adjustments::default()
-///     .stated_in(Unit::Millimetre)
+///     .with_stated_unit(Unit::Millimetre)
 ///     .converted_to(Unit::Metre)
 ///     .mirrored(Axis::Y);
 /// assert_eq!(left.to_string(), "@mm@mirror=y");

@@ -94,7 +94,7 @@ impl MeshFile {
     }
 
     /// Returns the unit of the coordinates; `None` if it is unknown. It is the unit of the last call of
-    /// [`MeshFile::in_unit`] or [`MeshFile::stated_in`], else that of the format. A glTF is in metres; the other
+    /// [`MeshFile::converted_to_unit`] or [`MeshFile::with_stated_unit`], else that of the format. A glTF is in metres; the other
     /// formats have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
@@ -107,12 +107,12 @@ impl MeshFile {
     /// use ccd_decomp::{Format, MeshFile, Unit};
     /// let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     /// let file = MeshFile::from_reader(Format::Obj, text.as_bytes())?;
-    /// let mesh = file.stated_in(Unit::Inch).in_unit(Unit::Millimetre).into_mesh()?;
+    /// let mesh = file.with_stated_unit(Unit::Inch).in_unit(Unit::Millimetre).into_mesh()?;
     /// assert_eq!(mesh.vertices()[1].x, 25.4);
     /// # Ok::<(), ccd_decomp::MeshError>(())
     /// ```
     #[must_use]
-    pub fn stated_in(mut self, unit: Unit) -> Self {
+    pub fn with_stated_unit(mut self, unit: Unit) -> Self {
         self.content.unit = Some(unit);
         self.conversion = Conversion::NONE;
         self.unit = Some(unit);

@@ -45,7 +45,7 @@ impl MeshSource {
     pub fn read(&self) -> Result<(TriangleMesh, Option<Unit>), MeshError> {
         let mut file = MeshFile::read(&self.file)?;
         if let Some(unit) = self.adjustments.stated_unit {
-            file = file.stated_in(unit);
+            file = file.with_stated_unit(unit);
         }
         if let Some(unit) = self.adjustments.target_unit {
             file = file.converted_to_unit(unit);

@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 /// ```
 /// use rigid_ccd::trajectory::Joint;
 /// use rigid_ccd::Pose;
-/// let hinge = Joint::revolute(Pose::at([0.0, 0.0, 1.0])?, [0.0, 1.0, 0.0])?.within(-1.5..=1.5);
+/// let hinge = Joint::revolute(Pose::at([0.0, 0.0, 1.0])?, [0.0, 1.0, 0.0])?.with_limits(-1.5..=1.5);
 /// // A door that is open by a quarter of a radian opens to 1.25 radians, in two units of time.
 /// let opens = hinge.motion(0.25, 1.25, 2.0)?;
 /// assert_eq!(opens.spin().y, 0.5);

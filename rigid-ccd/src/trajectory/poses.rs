@@ -87,7 +87,7 @@ impl Poses {
     /// // Ten and a half turns, to where half a turn would lead as well.
     /// let turned = Pose::new([0.0; 3], [0.0, 0.0, 1.0, 0.0])?;
     /// let drill = Poses::new(vec![(0.0, Pose::IDENTITY), (1.0, turned)])?;
-    /// let drill = drill.turning(vec![[0.0, 0.0, 66.0]])?;
+    /// let drill = drill.with_angular_velocities(vec![[0.0, 0.0, 66.0]])?;
     /// let turns = 0.25 * 10.5;
     /// let quarter = DQuat::from_rotation_z(turns * std::f64::consts::TAU);
     /// assert!(drill.pose(0.25)?.rotation().angle_between(quarter) < 1e-7);

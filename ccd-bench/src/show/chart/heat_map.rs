@@ -42,7 +42,7 @@ pub struct HeatMapKind {
     legend: &'static [(&'static str, RGBColor)],
 }
 
-/// The kind of map that shows how far each method is right in each family; it has cells of [`HeatCell::reach`].
+/// The kind of map that shows how far each method is right in each family; it has cells of [`HeatCell::solved_range`].
 pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
     title: "How far each method follows each family: bluer is better",
     remark_lines: [

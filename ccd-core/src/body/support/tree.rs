@@ -85,7 +85,7 @@ impl SupportTree {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal`](crate::Support::extremal), for any points.
+    /// The guarantee of [`Support::extremal`](crate::Support::extremal_point), for any points.
     ///
     /// # Complexity
     /// About logarithmic in the number of points of a curved surface; linear if all are equally far.
