@@ -194,7 +194,7 @@ impl Body {
     /// let cube = Body::cuboid([1.0; 3])?;
     /// cube.precompute(|piece| Count(piece.points.len()));
     /// let never = |_: &Piece| -> Count { unreachable!("it is there") };
-    /// assert_eq!(cube.pieces().get(0).cached(never).map(|count| count.0), Some(8));
+    /// assert_eq!(cube.pieces().get(0).cached_value(never).map(|count| count.0), Some(8));
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn precompute<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {

@@ -25,7 +25,7 @@ pub use crate::shortcuts::{Shortcut, Shortcuts};
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 /// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
-/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
 /// #     }
 /// # }
 /// fn outcome(mut schedule: impl Schedule<Balls>, query: &Query<'_>) -> Result<Outcome, InputError> {

@@ -54,7 +54,7 @@ impl Shortcut {
 /// ```
 /// use ccd_core::{Settings, schedule::{Shortcut, Shortcuts}};
 /// let settings = Settings { shortcuts: Shortcuts::ALL.without(Shortcut::Screw), ..Settings::DEFAULT };
-/// assert!(settings.shortcuts.has(Shortcut::Balls) && !settings.shortcuts.has(Shortcut::Screw));
+/// assert!(settings.shortcuts.contains(Shortcut::Balls) && !settings.shortcuts.contains(Shortcut::Screw));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shortcuts(u8);

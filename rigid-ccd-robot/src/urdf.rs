@@ -29,7 +29,7 @@ use urdf_rs::JointType;
 /// # let folder = tempfile::tempdir()?;
 /// # std::fs::write(folder.path().join("door.urdf"), text)?;
 /// # std::env::set_current_dir(&folder)?;
-/// let urdf = Urdf::at("door.urdf").with_meshes(MeshModel::OuterHull);
+/// let urdf = Urdf::at("door.urdf").with_mesh_model(MeshModel::OuterHull);
 /// let robot = urdf.read()?;
 /// let pairs = urdf.link_pairs(&robot, None)?;
 /// assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.5]]);

@@ -64,10 +64,10 @@ impl<'a> Piece<'a> {
     /// let middle = |piece: &Piece| Middle(piece.points.iter().sum::<DVec3>() / 3.0);
     /// let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y];
     /// let list = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
-    /// let kept = list.get(0).cached(middle).unwrap();
+    /// let kept = list.get(0).cached_value(middle).unwrap();
     /// assert_eq!(kept.0, DVec3::new(1.0, 1.0, 0.0));
-    /// assert!(std::ptr::eq(kept, list.get(0).cached(middle).unwrap()));
-    /// assert!(Piece::from_points(&corners).cached(middle).is_none());
+    /// assert!(std::ptr::eq(kept, list.get(0).cached_value(middle).unwrap()));
+    /// assert!(Piece::from_points(&corners).cached_value(middle).is_none());
     /// ```
     #[inline]
     pub fn cached_value<T: Any + Send + Sync>(

@@ -24,7 +24,7 @@ use glam::DVec3;
 /// use ccd_core::{glam::DVec3, Facets, Support};
 /// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let support = Support::new(&corners, Facets::NONE);
-/// assert_eq!(support.extremal(DVec3::new(0.1, 1.0, 5.0)), 2);
+/// assert_eq!(support.extremal_point(DVec3::new(0.1, 1.0, 5.0)), 2);
 /// ```
 #[derive(Clone, Debug)]
 pub enum Support {

@@ -210,7 +210,7 @@ impl std::ops::Add for DeviationBound {
 ///         Motion::new(Pose::at(time.cos() * DVec3::X)?, -time.sin() * DVec3::X, DVec3::ZERO)
 ///     }
 ///     fn accelerations(&self, _from: f64, _to: f64) -> AccelerationBounds {
-///         AccelerationBounds { linear: 1.0, angular: 0.0 }
+///         AccelerationBounds { linear: 1.0, angular_acceleration: 0.0 }
 ///     }
 /// }
 ///

@@ -30,7 +30,7 @@ use std::ops::ControlFlow;
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 /// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
-/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
 /// #     }
 /// # }
 /// let ball = Body::sphere(0.5)?;

@@ -107,7 +107,7 @@ impl MeshFile {
     /// use ccd_decomp::{Format, MeshFile, Unit};
     /// let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     /// let file = MeshFile::from_reader(Format::Obj, text.as_bytes())?;
-    /// let mesh = file.with_stated_unit(Unit::Inch).in_unit(Unit::Millimetre).into_mesh()?;
+    /// let mesh = file.with_stated_unit(Unit::Inch).converted_to_unit(Unit::Millimetre).into_mesh()?;
     /// assert_eq!(mesh.vertices()[1].x, 25.4);
     /// # Ok::<(), ccd_decomp::MeshError>(())
     /// ```
@@ -129,7 +129,7 @@ impl MeshFile {
     /// ```
     /// use ccd_decomp::{Format, MeshFile, Unit};
     /// let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    /// let file = MeshFile::from_reader(Format::Obj, text.as_bytes())?.in_unit(Unit::Inch);
+    /// let file = MeshFile::from_reader(Format::Obj, text.as_bytes())?.converted_to_unit(Unit::Inch);
     /// assert_eq!(file.unit(), Some(Unit::Inch));
     /// assert_eq!(file.into_mesh()?.vertices()[1].x, 1.0);
     /// # Ok::<(), ccd_decomp::MeshError>(())

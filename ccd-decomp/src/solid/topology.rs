@@ -53,7 +53,7 @@ impl Topology {
     /// use ccd_decomp::{Format, Topology, TriangleMesh};
     /// let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
     /// let open = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
-    /// assert_eq!(Topology::of(&open).boundary.count(), 3);
+    /// assert_eq!(Topology::of(&open).boundary_edges.count(), 3);
     /// ```
     pub fn of(mesh: &TriangleMesh) -> Self {
         Topology::with_reoriented_mesh(mesh).0

@@ -89,7 +89,7 @@ impl Scene<'_> {
     /// let shot = Motion::new(Pose::at([-2.0, 0.0, 0.0])?, [800.0, 0.0, 0.0], [0.0; 3])?;
     /// let bullet = scene.add(&bullet, shot);
     /// let stop = scene.stops(1.0 / 60.0)?[bullet];
-    /// assert_eq!(stop.by, Some(0));
+    /// assert_eq!(stop.stopped_by, Some(0));
     /// assert!(shot.pose(stop.time).translation().x < -0.01);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
