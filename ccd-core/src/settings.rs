@@ -41,7 +41,7 @@ pub struct Settings {
     /// early bounds. No path takes more than 65,536. The search for the [last
     /// contact](crate::schedule::BestFirst::contact_interval) has as much again.
     pub budget: u64,
-    /// The longest time before the query is left unresolved; with `None` no clock is read.
+    /// The time after which the query ends as unresolved; `None` for no limit of time.
     ///
     /// The deadline is checked every few hundred visits, and is therefore exceeded by less than a millisecond if
     /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached depends on the

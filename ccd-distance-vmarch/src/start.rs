@@ -32,8 +32,8 @@ impl Cache {
         });
     }
 
-    /// Returns the pair of features to start from: the last pair, or else vertices that are extremal along the last
-    /// axis. Without an axis, the vector between the origins replaces it.
+    /// Returns the pair of features to start from. For each polytope this is its last feature if it is the same polytope,
+    /// or else its extremal vertex along the last axis. Without an axis, the vector between the origins replaces it.
     #[inline]
     pub(crate) fn start(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {

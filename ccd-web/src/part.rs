@@ -8,7 +8,7 @@ use rigid_ccd::mesh::{
 use rigid_ccd::{Body, InputError, Pose};
 use wasm_bindgen::prelude::{JsError, JsValue, wasm_bindgen};
 
-/// A body with the triangles that draw it, relative to the same origin.
+/// A body, and the triangles with which it is drawn, in the same frame.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Part {

@@ -56,7 +56,8 @@ impl QueryDuration {
         QueryDuration::for_duration(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
 
-    /// Returns the duration of the engine's query for a cast that is known to be decided at the time `needed`.
+    /// Returns a query of the duration `needed`, which decides the whole cast, or a query of the longest accepted duration
+    /// if that is shorter.
     pub(crate) fn for_duration(bodies: [MotionWithExtent; 2], needed: f64) -> Self {
         let possible = longest_duration(bodies);
         if needed <= possible {

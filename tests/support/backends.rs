@@ -144,7 +144,7 @@ pub fn for_each_setup(
     }
 }
 
-/// Returns the answer of the default backend for triangles.
+/// Returns the answer of the default backend to a query, with both bodies made of triangles.
 pub fn default_answer(query: &Query, config: &Settings) -> Answer {
     let bodies = query.triangles();
     Backend::DEFAULT.solve(&query.problem(&bodies, config))

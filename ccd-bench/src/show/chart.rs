@@ -58,7 +58,7 @@ pub enum MethodFamily {
 }
 
 impl ChartData<'_> {
-    /// Draws the chart of time against error; returns the text of an SVG file, or `None` without any time.
+    /// Draws the chart of time against error. Returns an SVG file as text, or `None` if no time was measured.
     ///
     /// # Errors
     /// If no row of the table is of a known scene and a known method, or the drawing library fails.

@@ -191,7 +191,8 @@ fn judge_failed_start(error: io::Error) -> io::Result<Judgement> {
     }))
 }
 
-/// Returns a text of the settings that all answers depend on; a folder is resumed only if its text is the same.
+/// Returns a text that identifies this program and the limits of its measurements. A survey is resumed in a folder only
+/// if the text stored there is the same.
 fn stamp() -> String {
     let program = program_stamp();
     format!("{program}patience {QUERY_TIME_LIMIT:?} {PREPARATION_TIME_LIMIT:?}\n")

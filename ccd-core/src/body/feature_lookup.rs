@@ -100,7 +100,7 @@ pub(crate) fn prepare_facets_by_corner(piece: &Piece<'_>) {
     FacetsByCorner::for_piece(piece);
 }
 
-/// Returns the number of the mesh's face on the piece that contains a point, up to rounding.
+/// Returns the number of the piece's mesh face on which a point lies, up to rounding; `None` if it is on none.
 pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     if !is_on_mesh(piece) {
         return None;

@@ -140,7 +140,8 @@ impl<'a> Piece<'a> {
         self.support_map.and_then(Support::bounding_ball)
     }
 
-    /// Returns an upper bound of the distances of the piece's points from `from`, as tight as rounding allows.
+    /// Returns an upper bound of the distances of the piece's points from `from`. It comes from the bounding ball if one is
+    /// stored; otherwise it is exact up to rounding.
     pub(crate) fn max_distance_from(&self, from: DVec3) -> f64 {
         if let Some((middle, radius)) = self.bounding_ball() {
             return (distance(middle, from) + radius) * (1.0 + RATE_ERROR_F64);

@@ -18,7 +18,7 @@ pub struct Polytope {
     pub radius: f64,
 }
 
-/// One facet of a [`Polytope`].
+/// A planar face of the hull of a [`Polytope`]: its corners, and the faces of the mesh that it consists of.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {

@@ -187,8 +187,8 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
         continue_unless_full(waits, problem, question, s)
     }
 
-    /// Puts the remaining siblings of the last pair, and its new item, back among the waiting items if their clocks are
-    /// before the end.
+    /// Lets what remains of the examined item wait on, and adds the item that follows from it. Items with a clock after the
+    /// end are dropped.
     #[inline(always)]
     fn requeue(
         &mut self,

@@ -40,7 +40,8 @@ pub(crate) struct Profiles([BodyProfiles; 2]);
 
 #[derive(Debug, Default)]
 struct BodyProfiles {
-    /// The index of each node's profile, by node id.
+    /// For each node or triangle, by its id, the index of its profile among the known ones, or a mark that it is unknown or
+    /// that there is none.
     profile_indices: Vec<u32>,
     known: Vec<Profile>,
 }

@@ -3,7 +3,7 @@ use ccd_core::order::lesser;
 use proptest::prelude::*;
 
 proptest! {
-    /// Tests that the search tree finds the same boxes that meet a given box as a scan of all boxes. Coordinates are
+    /// Tests that the search tree and a scan of all boxes find the same boxes that meet a given box. Coordinates are
     /// whole numbers, so that many boxes touch.
     #[test]
     fn boxes_that_meet_a_box_are_those_of_the_twin(

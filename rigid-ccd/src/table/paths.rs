@@ -63,7 +63,7 @@ pub(super) struct Paths {
     hasher: RandomState,
 }
 
-/// The paths of a query with their position, or the error of a bad row.
+/// The paths of both bodies of a query, with the place of their first row in the table, or the error of a bad row.
 pub(super) type PathRow = Result<(RowPosition, Path), RowError>;
 
 impl Paths {

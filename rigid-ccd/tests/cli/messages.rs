@@ -5,7 +5,7 @@ use crate::{CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION};
 
 const SPHERES_OPTIONS: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
-/// Returns the messages of a query of two spheres, which ends with the exit code 2 for the given table.
+/// Runs a query of two spheres on a table, asserts that the exit code is 2, and returns the messages.
 fn query_messages(table: &str) -> String {
     let output = CommandCall::query(&SPHERES_OPTIONS)
         .args(&["--quiet"])

@@ -154,7 +154,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks that the distance at a time is within the margin and the tolerance, unless the bodies overlap.
+    /// Checks that the distance at a time is at most the sum of margin, tolerance and rounding, unless the bodies overlap.
     fn check_near_contact(&self, time: f64, tolerance: f64, contact: &Contact) -> CheckResult {
         let reach = self.config.margin + tolerance + self.query.rounding();
         let in_range = (0.0..=self.query.duration).contains(&time);

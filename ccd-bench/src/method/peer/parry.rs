@@ -18,7 +18,7 @@ pub mod double {
     pub mod sweep;
 }
 
-/// The calls of parry in single precision, from the same source files.
+/// The calls of parry in single precision, compiled from the source files of [`double`].
 #[path = "parry"]
 pub mod single {
     use parry3d as library;

@@ -70,7 +70,8 @@ fn the_referee_finds_the_answers_that_are_claimed() {
     assert!(checked >= 200, "{checked}");
 }
 
-/// Asserts that the referee agrees with the exact answers of a step, and returns the number of queries that it decided.
+/// Asserts that the referee agrees with the exact answers of a family's queries at a parameter value, and returns the
+/// number of queries that it decided.
 fn assert_referee_agrees(family: &Family, value: f64) -> usize {
     let step = (family.make)(value).unwrap();
     let FamilyStep { meshes, cases, .. } = &step;

@@ -25,7 +25,7 @@ pub(crate) struct PiecesBuilder {
 }
 
 impl Pieces {
-    /// Creates pieces from convex polytopes, including balls and capsules.
+    /// Creates pieces from convex polytopes, each grown by a radius. A ball is one point and a capsule two, with a radius.
     ///
     /// # Guarantee
     /// A piece is the hull of its points. Facets only name features and confirm overlaps, so a wrong facet list

@@ -130,7 +130,7 @@ impl Siblings {
         usize::from(self.times_advanced)
     }
 
-    /// Removes the pair with the least clock, and returns it as siblings of its own with a later clock.
+    /// Removes the pair with the least clock, and returns it as a group of one pair, whose clock is `clock`.
     pub(crate) fn remove_least_pair(&mut self, clock: f64) -> Self {
         Siblings {
             free: FreeTimes::single_in_lane(self.free.finish_least_lane()),

@@ -99,8 +99,8 @@ impl LowerBoundAttempts {
         })
     }
 
-    /// Records the lower bound that an attempt proved, or `None` if it proved none, and chooses the share for the next
-    /// attempt.
+    /// Records the lower bound that an attempt proved, or `None` if it proved none, and chooses which share of the upper
+    /// bound the next attempt tries to prove.
     pub(crate) fn record_attempt(&mut self, proven: Option<f64>) {
         match proven {
             Some(proven) => {

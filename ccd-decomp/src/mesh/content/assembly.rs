@@ -1,4 +1,4 @@
-//! Assemblies: lists of shapes, with the parts of a scene that place them.
+//! Assemblies: shapes, and the parts of a scene, each of which is a shape at a place.
 
 use super::allowance::{ExpansionBudget, expansion_cost};
 use crate::mesh::affine::AffineMap;

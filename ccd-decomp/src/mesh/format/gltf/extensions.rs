@@ -3,7 +3,8 @@
 use super::schema::Root;
 use crate::mesh::error::{MeshFault, Quote};
 
-/// The name prefixes of extensions about appearance, lights, audio and metadata, which do not change shapes.
+/// The name prefixes of extensions that do not change shapes, such as those about appearance, lights, audio, animation
+/// and metadata.
 const HARMLESS_PREFIXES: [&str; 14] = [
     "KHR_materials_",
     "KHR_texture_",
