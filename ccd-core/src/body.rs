@@ -296,7 +296,7 @@ impl Body {
 /// Builds the search structure for extremal points of a piece with many points.
 #[cfg(not(feature = "hull-tree"))]
 fn support_of(piece: &Piece<'_>) -> Support {
-    Support::of_points(piece.points)
+    Support::from_points(piece.points)
 }
 
 /// Returns six times the volume bounded by a closed surface of triangles; negative if their normals point inward.

@@ -29,8 +29,8 @@ pub(crate) const MAX_PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
 pub(crate) const CERTAIN_DISTANCE: f64 = 1.0 / 4.0;
 
 /// The largest difference between the distance and the support gap at which the distance counts as certified, in units
-/// of the pair's size. It equals [`PLACEMENT_ERROR`], the error of that distance. A larger value would accept a tie with a nearer
-/// pair around it; a smaller one would search around in vain.
+/// of the pair's size. It equals [`PLACEMENT_ERROR`], the error of that distance. A larger value would accept a tie with
+/// a nearer pair around it; a smaller one would search around in vain.
 pub(crate) const CERTIFIED_EXCESS: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The excess of the distance over the support gap that is allowed beyond [`CERTIFIED_EXCESS`], in units of the
