@@ -36,7 +36,7 @@ pub struct HullError {
 ///
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
-pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
+pub fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     if let Some(point) = first_out_of_range(points).or_else(|| first_too_fine_point(points)) {
         let point = point as u32;
         return Err(HullError { point });

@@ -90,7 +90,7 @@ mod worst;
 pub use file::STORED_EXTENSION;
 pub use file::error::{StoreError, StoreFault};
 pub use file::obj::{write_obj, write_obj_pieces};
-pub use hull::HullError;
+pub use hull::{HullError, hull as convex_hull};
 pub use mesh::TriangleMesh;
 pub use mesh::adjustments::{Adjustments, Axis, UnknownAdjustment};
 pub use mesh::affine::AffineMap;

@@ -1,5 +1,6 @@
 //! GJK: a descent in the Minkowski difference of two hulls towards the origin `[GJK88]`.
 
+mod bounds;
 mod fan;
 mod foot;
 mod minkowski;
@@ -16,5 +17,7 @@ mod tests;
 mod tetrahedron;
 mod triangle;
 
+pub use bounds::{DistanceBounds, RequiredBounds, bound_distance};
 pub use oracle::Gjk;
+pub use simplex::Vertex;
 pub use start::Cache;

@@ -61,6 +61,7 @@
 //! | the point of a simplex nearest to the origin | `gjk/simplex.rs`, `gjk/foot.rs`; `gjk/segment.rs`, `gjk/triangle.rs`, `gjk/tetrahedron.rs` |
 //! | better axes where rounding stalls the search | `gjk/sharpen.rs`, `gjk/fan.rs` |
 //! | nearer witnesses there | `gjk/refine.rs` |
+//! | bounds only as tight as they are needed | `gjk/bounds.rs` |
 //! | every tolerance | `tolerance.rs` |
 
 #![allow(
@@ -83,7 +84,7 @@ mod tolerance;
 mod worst;
 
 pub use closed_form::ClosedForm;
-pub use gjk::{Cache, Gjk};
+pub use gjk::{Cache, DistanceBounds, Gjk, RequiredBounds, Vertex, bound_distance};
 
 /// The recommended oracle: the closed form for up to three points, GJK otherwise.
 pub type Direct = ccd_core::OrElse<ClosedForm, Gjk>;

@@ -6,6 +6,12 @@ use rigid_ccd::InputError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotError {
+    /// Two obstacles have the same name.
+    #[error("two obstacles are named `{name}`")]
+    ObstacleNameTaken {
+        /// The name of both obstacles.
+        name: String,
+    },
     /// The robot has no links.
     #[error("the robot has no links")]
     NoLinks,
@@ -43,6 +49,12 @@ pub enum RobotError {
         /// The name of the second base.
         second: String,
     },
+    /// A joint is [reversed](rigid_ccd::trajectory::Joint::reversed).
+    #[error("joint `{joint}` is reversed; exchange its parent and its child instead")]
+    ReversedJoint {
+        /// The name of the joint.
+        joint: String,
+    },
     /// Joints form a loop.
     #[error("link `{link}` is in a loop of joints; loops are no tree")]
     Loop {
@@ -78,4 +90,16 @@ pub enum RobotError {
     /// A pose or a motion is not valid.
     #[error(transparent)]
     Input(#[from] InputError),
+}
+
+/// The error of a question about an edge.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EdgeError {
+    /// A configuration does not fit the robot.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// A query is invalid, or reached a limit.
+    #[error(transparent)]
+    Query(#[from] rigid_ccd::Error),
 }

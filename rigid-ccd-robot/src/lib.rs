@@ -23,17 +23,25 @@
 //! | file | what |
 //! |---|---|
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
+//! | `cell` | a robot among obstacles: [`Cell`] |
+//! | `edge` | one search for all pairs along an edge: [`EdgeSolver`]; `edge/kinematics` the frames of links, `edge/displacement` how far parts move, `edge/search` the search, `edge/exact` what goes to the engine |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
+//! | `tuning` | numbers that only cost time |
 
+mod cell;
+mod edge;
 mod error;
 mod pairs;
 mod robot;
 mod srdf;
+mod tuning;
 mod urdf;
 
-pub use error::RobotError;
+pub use cell::Cell;
+pub use edge::{EdgeContact, EdgeSolver, Other};
+pub use error::{EdgeError, RobotError};
 pub use pairs::{LinkPairs, SkipReason};
 pub use robot::{ChainBetween, Joint, Link, LinkBody, Position, Robot};
 pub use urdf::{Geometry, MeshModel, Urdf, UrdfError};

@@ -79,11 +79,18 @@ pub enum Position {
 
 /// The rule by which a joint's position is computed from a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Source {
+pub(crate) struct Source {
     /// The index of a position in the configuration, from which the joint's position is computed.
     number: usize,
     multiplier: f64,
     offset: f64,
+}
+
+impl Source {
+    /// Returns the position of the joint in a configuration.
+    pub(crate) fn position(&self, configuration: &[f64]) -> f64 {
+        self.multiplier * configuration[self.number] + self.offset
+    }
 }
 
 impl Link {
@@ -108,9 +115,14 @@ impl Robot {
     /// Creates a robot from its links and joints, in any order.
     ///
     /// # Errors
-    /// [`RobotError`] with the link or the joint, if names are not unique or unknown, or the joints form no tree.
+    /// [`RobotError`] with the link or the joint, if names are not unique or unknown, the joints form no tree, or a
+    /// joint is reversed.
     pub fn new(links: Vec<Link>, mut joints: Vec<Joint>) -> Result<Self, RobotError> {
         for joint in &mut joints {
+            if joint.joint.is_reversed() {
+                let joint = joint.name.clone();
+                return Err(RobotError::ReversedJoint { joint });
+            }
             if joint.position != Position::Free {
                 joint.joint = joint
                     .joint
@@ -208,8 +220,28 @@ impl Robot {
         self.tree.parent(link)
     }
 
+    /// Returns the links that a joint moves, each with the link that holds the joint and the joint. Links come after those
+    /// nearer to the base.
+    pub(crate) fn joints_from_base(&self) -> Vec<(usize, usize, usize)> {
+        self.tree.joints_from_base()
+    }
+
+    /// Returns how the position of a joint comes from a configuration; `None` for a fixed one.
+    pub(crate) fn source(&self, joint: usize) -> Option<Source> {
+        self.position_sources[joint]
+    }
+
+    /// Returns the joints on the way from one link to another, each with whether it is passed from the link after it.
+    pub(crate) fn joints_between(&self, from: usize, to: usize) -> Vec<(usize, bool)> {
+        let steps = self.tree.steps_between(from, to);
+        steps
+            .iter()
+            .map(|step| (step.joint, step.leads_to_parent))
+            .collect()
+    }
+
     /// Refuses a configuration with a wrong number of positions, or with a position outside of its joint's limits.
-    fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+    pub(crate) fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let expected = self.free_joints.len();
         if configuration.len() != expected {
             return Err(RobotError::PositionCount {
@@ -230,9 +262,7 @@ impl Robot {
 
     /// Returns the position of a joint in a configuration; 0 for a fixed joint.
     fn position(&self, joint: usize, configuration: &[f64]) -> f64 {
-        self.position_sources[joint].map_or(0.0, |source| {
-            source.multiplier * configuration[source.number] + source.offset
-        })
+        self.position_sources[joint].map_or(0.0, |source| source.position(configuration))
     }
 }
 

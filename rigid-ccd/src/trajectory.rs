@@ -37,7 +37,7 @@ pub use ccd_core::{
 };
 pub use chain::Chain;
 pub use curve::Curve;
-pub use joint::Joint;
+pub use joint::{Joint, JointKind};
 pub use link::Link;
 pub use poses::Poses;
 pub use screw::screw;

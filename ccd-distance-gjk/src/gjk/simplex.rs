@@ -6,10 +6,13 @@ use ccd_core::glam::DVec3;
 
 /// A vertex `b − a` of the Minkowski difference, with the indices of both points in their pieces.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Vertex {
-    pub(crate) point: DVec3,
-    pub(crate) a: u32,
-    pub(crate) b: u32,
+pub struct Vertex {
+    /// The position of the vertex: B's point minus A's.
+    pub point: DVec3,
+    /// The index of A's point.
+    pub a: u32,
+    /// The index of B's point.
+    pub b: u32,
 }
 
 /// A simplex of up to four vertices, all with different pairs of points.

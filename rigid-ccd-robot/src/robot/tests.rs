@@ -220,6 +220,10 @@ fn what_is_no_tree_is_refused() {
     let same = vec![Link::named("x"), Link::named("x")];
     let error = Robot::new(same, Vec::new()).unwrap_err();
     assert!(matches!(error, RobotError::LinkNameTaken { .. }));
+    let mut reversed = hinge("a", "link0", "link1");
+    reversed.joint = reversed.joint.reversed();
+    let error = refused(2, vec![reversed]);
+    assert_eq!(error, RobotError::ReversedJoint { joint: "a".into() });
     // Two links that hang on each other, beside a base.
     let error = refused(
         3,

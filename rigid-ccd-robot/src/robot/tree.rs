@@ -84,6 +84,18 @@ impl Tree {
         self.parents[link].map(|above| above.parent)
     }
 
+    /// Returns all links but the base, each with its parent and the joint between them. Parents come first.
+    pub(super) fn joints_from_base(&self) -> Vec<(usize, usize, usize)> {
+        let mut links: Vec<(usize, usize)> = (0..self.parents.len())
+            .map(|link| (self.ancestors(link).count(), link))
+            .collect();
+        links.sort_unstable();
+        let above = |&(_, link): &(usize, usize)| {
+            self.parents[link].map(|above| (link, above.parent, above.joint))
+        };
+        links.iter().filter_map(above).collect()
+    }
+
     /// Iterates over a link and its ancestors, up to the base. A loop ends after more links than there are.
     fn ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
         let up = |&link: &usize| self.parent(link);

@@ -23,7 +23,7 @@ use std::ops::RangeInclusive;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     origin: Pose,
-    kind: Kind,
+    kind: JointKind,
     limits: RangeInclusive<f64>,
     direction: Direction,
 }
@@ -39,9 +39,12 @@ pub(super) enum Direction {
 
 /// The degree of freedom of a joint; a rotation or a translation has a unit axis in the joint's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kind {
+pub enum JointKind {
+    /// The joint has no degree of freedom.
     Fixed,
+    /// The joint rotates about an axis.
     Revolute(DVec3),
+    /// The joint slides along an axis.
     Prismatic(DVec3),
 }
 
@@ -55,7 +58,7 @@ impl Joint {
     pub fn fixed(origin: Pose) -> Self {
         Joint {
             origin,
-            kind: Kind::Fixed,
+            kind: JointKind::Fixed,
             limits: f64::NEG_INFINITY..=f64::INFINITY,
             direction: Direction::Forward,
         }
@@ -67,7 +70,7 @@ impl Joint {
     /// [`InputError::NotFinite`] for an axis that is not finite, [`InputError::OutOfRange`] for one without a length.
     pub fn revolute(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Joint {
-            kind: Kind::Revolute(unit_axis(axis)?),
+            kind: JointKind::Revolute(unit_axis(axis)?),
             ..Joint::fixed(origin)
         })
     }
@@ -78,7 +81,7 @@ impl Joint {
     /// [`InputError::NotFinite`] for an axis that is not finite, [`InputError::OutOfRange`] for one without a length.
     pub fn prismatic(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Joint {
-            kind: Kind::Prismatic(unit_axis(axis)?),
+            kind: JointKind::Prismatic(unit_axis(axis)?),
             ..Joint::fixed(origin)
         })
     }
@@ -120,9 +123,25 @@ impl Joint {
         &self.limits
     }
 
+    /// Returns the pose of the joint in the frame of the link before it; of a [reversed](Joint::reversed) joint, in the frame
+    /// of the link after it.
+    pub fn origin(&self) -> &Pose {
+        &self.origin
+    }
+
+    /// Returns the degree of freedom of the joint.
+    pub fn kind(&self) -> JointKind {
+        self.kind
+    }
+
+    /// Returns true if a chain passes the joint from the link after it to the link before it.
+    pub fn is_reversed(&self) -> bool {
+        self.direction == Direction::Backward
+    }
+
     /// Returns true if the joint has no degree of freedom: its position is ignored.
     pub fn is_fixed(&self) -> bool {
-        self.kind == Kind::Fixed
+        self.kind == JointKind::Fixed
     }
 
     /// Returns the pose of the link after the joint in the frame of the link before it. For a
@@ -139,9 +158,11 @@ impl Joint {
     /// Returns the pose as [`Joint::pose`] does, but does not check that the position is within the limits.
     pub(super) fn unchecked_pose(&self, position: f64) -> Result<Pose, InputError> {
         let moved = match self.kind {
-            Kind::Fixed => Pose::IDENTITY,
-            Kind::Revolute(axis) => Pose::new(DVec3::ZERO, DQuat::from_axis_angle(axis, position))?,
-            Kind::Prismatic(axis) => Pose::at(axis * position)?,
+            JointKind::Fixed => Pose::IDENTITY,
+            JointKind::Revolute(axis) => {
+                Pose::new(DVec3::ZERO, DQuat::from_axis_angle(axis, position))?
+            }
+            JointKind::Prismatic(axis) => Pose::at(axis * position)?,
         };
         let pose = self.origin.compose(&moved);
         Ok(match self.direction {
@@ -180,9 +201,9 @@ impl Joint {
         };
         let along = |axis: DVec3| frame * axis * rate;
         match self.kind {
-            Kind::Fixed => Ok(Motion::still(start)),
-            Kind::Revolute(axis) => Motion::about(start, DVec3::ZERO, along(axis), centre),
-            Kind::Prismatic(axis) => Motion::new(start, along(axis), DVec3::ZERO),
+            JointKind::Fixed => Ok(Motion::still(start)),
+            JointKind::Revolute(axis) => Motion::about(start, DVec3::ZERO, along(axis), centre),
+            JointKind::Prismatic(axis) => Motion::new(start, along(axis), DVec3::ZERO),
         }
     }
 
@@ -207,15 +228,7 @@ impl Joint {
         }
     }
 
-    pub(super) fn kind(&self) -> Kind {
-        self.kind
-    }
-
     pub(super) fn direction(&self) -> Direction {
         self.direction
-    }
-
-    pub(super) fn origin(&self) -> &Pose {
-        &self.origin
     }
 }

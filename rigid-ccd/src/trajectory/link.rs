@@ -5,7 +5,7 @@ mod bounds;
 use super::U;
 use super::chain::Chain;
 use super::checks::check_duration;
-use super::joint::{Direction, Joint, Kind};
+use super::joint::{Direction, Joint, JointKind};
 use bounds::{LinkBounds, PositionBounds};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
@@ -266,15 +266,15 @@ impl State {
     }
 
     /// Adds the motion of a joint about or along its axis; `held` rotates the axis into the frame of the state.
-    fn add_joint_motion(&mut self, kind: Kind, held: DQuat, rate: f64) {
+    fn add_joint_motion(&mut self, kind: JointKind, held: DQuat, rate: f64) {
         match kind {
-            Kind::Fixed => {}
-            Kind::Revolute(axis) => {
+            JointKind::Fixed => {}
+            JointKind::Revolute(axis) => {
                 let turn = held * axis * rate;
                 self.angular += self.spin.cross(turn);
                 self.spin += turn;
             }
-            Kind::Prismatic(axis) => {
+            JointKind::Prismatic(axis) => {
                 let slide = held * axis * rate;
                 self.acceleration += 2.0 * self.spin.cross(slide);
                 self.velocity += slide;

@@ -36,7 +36,7 @@ impl SupportScan {
     ///
     /// # Complexity
     /// Linear in the number of points.
-    #[inline]
+    #[inline(always)]
     pub fn extremal_point(&self, direction: DVec3) -> u32 {
         let (mut highest, mut of) = ([f64::NEG_INFINITY; LANES], [0u64; LANES]);
         for ([x, y, z], block) in self.blocks.iter().zip(0u64..) {

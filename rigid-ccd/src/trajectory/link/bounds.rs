@@ -1,6 +1,6 @@
 //! Bounds on the velocities and accelerations of a link, accumulated joint by joint.
 
-use crate::trajectory::joint::{Direction, Joint, Kind};
+use crate::trajectory::joint::{Direction, Joint, JointKind};
 use ccd_core::AccelerationBounds;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
@@ -46,8 +46,8 @@ impl PositionBounds {
     /// Returns the largest distance by which a prismatic joint slides; 0 for other joints.
     fn slide_distance(&self, joint: &Joint) -> f64 {
         match joint.kind() {
-            Kind::Prismatic(_) => self.largest_with_start,
-            Kind::Fixed | Kind::Revolute(_) => 0.0,
+            JointKind::Prismatic(_) => self.largest_with_start,
+            JointKind::Fixed | JointKind::Revolute(_) => 0.0,
         }
     }
 }
@@ -82,8 +82,8 @@ impl LinkBounds {
     fn add_freedom(&mut self, joint: &Joint, positions: &PositionBounds) {
         let PositionBounds { rate, .. } = *positions;
         match joint.kind() {
-            Kind::Fixed => {}
-            Kind::Prismatic(_) => {
+            JointKind::Fixed => {}
+            JointKind::Prismatic(_) => {
                 self.add_arm(positions.largest);
                 let (turn, turning) =
                     (self.speeds.angular, self.accelerations.angular_acceleration);
@@ -91,7 +91,7 @@ impl LinkBounds {
                 self.accelerations.linear += 2.0 * turn * rate;
                 self.speeds.linear += rate;
             }
-            Kind::Revolute(axis) => {
+            JointKind::Revolute(axis) => {
                 self.angles += positions.largest_with_start;
                 if rate > 0.0 {
                     self.add_rotation(axis, rate);

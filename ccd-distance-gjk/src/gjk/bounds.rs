@@ -1,0 +1,91 @@
+//! Bounds of the distance of two convex sets, only as tight as the caller needs them.
+
+use super::simplex::{Simplex, Vertex};
+use crate::tolerance::MAX_STEPS;
+use ccd_core::glam::DVec3;
+
+/// The bounds at which a search ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RequiredBounds {
+    /// The search ends when the lower bound exceeds this distance.
+    pub lower: f64,
+    /// The search ends when the upper bound is at most this distance.
+    pub upper: f64,
+}
+
+/// Bounds of the distance of two convex sets, up to the rounding of their points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistanceBounds {
+    /// A lower bound: the support gap along `axis`. It is negative if no axis was found that separates the sets.
+    pub lower: f64,
+    /// An upper bound: the distance of two points of the sets. It is 0 if the sets intersect.
+    pub upper: f64,
+    /// The vector from A's set to B's, of any length, that gives the lower bound.
+    pub axis: DVec3,
+}
+
+/// Bounds the distance of two convex sets by GJK `[GJK88]`, and ends as soon as one of the required bounds is reached.
+///
+/// The function `support` returns the vertex `b − a` of the Minkowski difference with the least height along a direction
+/// of any length. The first axis is tried first; it decides alone if the sets are far enough apart along it.
+///
+/// # Guarantee
+/// Both bounds hold up to the rounding of the vertices that `support` returns and of their heights, whatever the first
+/// axis is. The search ends after at most 64 vertices.
+///
+/// ```
+/// use ccd_core::glam::DVec3;
+/// use ccd_distance_gjk::{RequiredBounds, Vertex, bound_distance};
+/// // A point at the origin, and a segment from (1, -1, 0) to (1, 1, 0).
+/// let ends = [DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0)];
+/// let support = |direction: DVec3| {
+///     let b = if ends[1].dot(direction) < ends[0].dot(direction) { 1 } else { 0 };
+///     Vertex { point: ends[b as usize], a: 0, b }
+/// };
+/// let required = RequiredBounds { lower: 0.5, upper: 0.0 };
+/// let bounds = bound_distance(support, DVec3::X, required);
+/// assert_eq!((bounds.lower, bounds.axis), (1.0, DVec3::X));
+/// ```
+#[inline(always)]
+pub fn bound_distance(
+    support: impl Fn(DVec3) -> Vertex,
+    first_axis: DVec3,
+    required: RequiredBounds,
+) -> DistanceBounds {
+    let mut bounds = DistanceBounds {
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+        axis: first_axis,
+    };
+    let (mut simplex, mut axis) = (Simplex::EMPTY, first_axis);
+    for _ in 0..MAX_STEPS {
+        let vertex = support(axis);
+        let gap = axis.dot(vertex.point) / axis.length();
+        if gap > bounds.lower {
+            (bounds.lower, bounds.axis) = (gap, axis);
+        }
+        if bounds.lower > required.lower || !simplex.push(vertex) {
+            break;
+        }
+        let Some(foot) = simplex.foot() else { break };
+        let Some(direction) = foot.direction else {
+            bounds.upper = 0.0;
+            break;
+        };
+        let distance = foot.point.length();
+        // Written so that NaN ends the search.
+        if !(distance < bounds.upper) {
+            break;
+        }
+        bounds.upper = distance;
+        if bounds.upper <= required.upper {
+            break;
+        }
+        (simplex, _) = simplex.without_zero_weights(&foot);
+        axis = direction;
+    }
+    bounds
+}
+
+#[cfg(test)]
+mod tests;

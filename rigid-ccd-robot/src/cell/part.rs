@@ -1,0 +1,149 @@
+//! A convex hull around a body, in the frame in which the body rests.
+
+use crate::tuning::MIN_PIECES_TO_SPLIT;
+use ccd_core::order::greater;
+use ccd_core::{Body, Piece, Pieces, SupportScan, Volume};
+use rigid_ccd::Pose;
+use rigid_ccd::glam::DVec3;
+use std::sync::Arc;
+
+/// A body in a cell, at rest in a frame: that of the moving joint above its link, or the base for an obstacle.
+#[derive(Clone, Debug)]
+pub(crate) struct PlacedBody {
+    pub(crate) body: Arc<Body>,
+    /// The pose of the body in the frame.
+    pub(crate) pose: Pose,
+    /// The number of the frame.
+    pub(crate) frame: usize,
+}
+
+/// A convex hull around some pieces of a body, in the frame in which the body rests.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// The number of the body in the cell.
+    pub(crate) owner: usize,
+    /// The number of the frame.
+    pub(crate) frame: usize,
+    /// The corners of the hull.
+    pub(crate) points: Vec<DVec3>,
+    pub(crate) support: SupportScan,
+    /// The radius of the ball by which the hull is grown.
+    pub(crate) radius: f64,
+    /// Whether the grown hull is the body itself.
+    pub(crate) is_convex: bool,
+    /// The centre and the half extents of the box along the frame's axes around the grown hull.
+    pub(crate) centre: DVec3,
+    pub(crate) half_extents: DVec3,
+    /// The radius of the ball about `centre` around the grown hull.
+    pub(crate) ball_radius: f64,
+}
+
+impl PlacedBody {
+    /// Creates a body in a cell. The engine takes the triangles of a polytope against other bodies of many triangles.
+    pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize) -> Self {
+        let body = match surface_of(&body) {
+            Some(surface) => Body::clone(&body)
+                .with_surface(surface)
+                .map_or(body, Arc::new),
+            None => body,
+        };
+        PlacedBody { body, pose, frame }
+    }
+}
+
+/// Returns the triangles of the facets of a body that is one polytope; `None` for other bodies.
+fn surface_of(body: &Body) -> Option<Body> {
+    if body.pieces().len() != 1 || body.volume() != Volume::Solid {
+        return None;
+    }
+    let piece = body.pieces().get(0);
+    if piece.radius > 0.0 || piece.facets.is_empty() {
+        return None;
+    }
+    let fans = piece.facets.iter().flat_map(|facet| {
+        let (first, rest) = (facet[0], &facet[1..]);
+        rest.windows(2).map(move |ends| [first, ends[0], ends[1]])
+    });
+    let triangles: Vec<[u32; 3]> = fans.collect();
+    let ids: Vec<u32> = (0..triangles.len() as u32).collect();
+    let pieces = Pieces::triangles(piece.points, &triangles, &ids).ok()?;
+    let hierarchy = ccd_decomp::build_hierarchy(&pieces).ok()?;
+    Body::with_hierarchy(&pieces, &hierarchy, Volume::Solid).ok()
+}
+
+impl Part {
+    /// Creates the parts of a body, of which there are at most `max_count`.
+    pub(crate) fn of_body(placed: &PlacedBody, owner: usize, max_count: usize) -> Vec<Self> {
+        let pieces: Vec<Piece<'_>> = placed.body.pieces().iter().collect();
+        let clusters = clusters(pieces, max_count);
+        clusters
+            .iter()
+            .map(|pieces| Part::new(pieces, placed, owner))
+            .collect()
+    }
+
+    fn new(pieces: &[Piece<'_>], placed: &PlacedBody, owner: usize) -> Self {
+        let radii = pieces.iter().map(|piece| piece.radius);
+        let radius = radii.fold(0.0, greater);
+        let points: Vec<DVec3> = pieces
+            .iter()
+            .flat_map(|piece| piece.points)
+            .copied()
+            .collect();
+        let points: Vec<DVec3> = hull_corners(points)
+            .into_iter()
+            .map(|point| placed.pose.transform_point(point))
+            .collect();
+        let (mut min, mut max) = (points[0], points[0]);
+        for &point in &points {
+            (min, max) = (min.min(point), max.max(point));
+        }
+        let centre = 0.5 * (min + max);
+        let farthest = points
+            .iter()
+            .map(|point| point.distance(centre))
+            .fold(0.0, greater);
+        Part {
+            owner,
+            frame: placed.frame,
+            support: SupportScan::new(&points),
+            points,
+            radius,
+            is_convex: placed.body.pieces().len() == 1,
+            centre,
+            half_extents: 0.5 * (max - min) + DVec3::splat(radius),
+            ball_radius: farthest + radius,
+        }
+    }
+
+    /// Returns the largest distance of a point of the body from the frame's origin.
+    pub(crate) fn reach(&self) -> f64 {
+        self.centre.length() + self.ball_radius
+    }
+}
+
+/// Splits pieces at medians along the longest sides of their boxes, into at most `max_count` clusters.
+fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>> {
+    if max_count < 2 || pieces.len() < MIN_PIECES_TO_SPLIT {
+        return vec![pieces];
+    }
+    let middle = |piece: &Piece<'_>| piece.points.iter().sum::<DVec3>() / piece.points.len() as f64;
+    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for piece in &pieces {
+        (min, max) = (min.min(middle(piece)), max.max(middle(piece)));
+    }
+    let axis = (max - min).max_position();
+    pieces.sort_by(|a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
+    let second = pieces.split_off(pieces.len() / 2);
+    let mut all = clusters(pieces, max_count / 2);
+    all.extend(clusters(second, max_count / 2));
+    all
+}
+
+/// Returns the corners of the hull of points; all points if the hull cannot be computed.
+fn hull_corners(points: Vec<DVec3>) -> Vec<DVec3> {
+    match ccd_decomp::convex_hull(&points) {
+        Ok(hull) if points.len() > 8 => hull.points,
+        _ => points,
+    }
+}

@@ -1,0 +1,65 @@
+//! The boxes of all obstacles, eight at once.
+
+use crate::cell::part::Part;
+use rigid_ccd::glam::DVec3;
+
+/// The number of boxes that are compared together.
+const LANES: usize = 8;
+
+/// The boxes of obstacles along the base's axes, in a layout for vector instructions.
+#[derive(Clone, Debug)]
+pub(crate) struct ObstacleBoxes {
+    blocks: Vec<Block>,
+    count: usize,
+}
+
+/// Eight boxes, coordinate by coordinate. Empty places have boxes that meet no other.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    min: [[f64; LANES]; 3],
+    max: [[f64; LANES]; 3],
+}
+
+impl ObstacleBoxes {
+    pub(crate) fn new(obstacles: &[Part]) -> Self {
+        let blocks = obstacles.chunks(LANES).map(|parts| {
+            let mut block = Block {
+                min: [[f64::INFINITY; LANES]; 3],
+                max: [[f64::NEG_INFINITY; LANES]; 3],
+            };
+            for (lane, part) in parts.iter().enumerate() {
+                let (min, max) = (
+                    part.centre - part.half_extents,
+                    part.centre + part.half_extents,
+                );
+                for axis in 0..3 {
+                    (block.min[axis][lane], block.max[axis][lane]) = (min[axis], max[axis]);
+                }
+            }
+            block
+        });
+        ObstacleBoxes {
+            blocks: blocks.collect(),
+            count: obstacles.len(),
+        }
+    }
+
+    /// Calls a function with the number of each obstacle whose box meets a box.
+    #[inline(always)]
+    pub(crate) fn for_each_meeting(&self, min: DVec3, max: DVec3, mut each: impl FnMut(usize)) {
+        for (block, first) in self.blocks.iter().zip((0..self.count).step_by(LANES)) {
+            let mut meets = [true; LANES];
+            for axis in 0..3 {
+                let (mins, maxs) = (&block.min[axis], &block.max[axis]);
+                for ((meets, other_min), other_max) in meets.iter_mut().zip(mins).zip(maxs) {
+                    *meets &= *other_min <= max[axis] && min[axis] <= *other_max;
+                }
+            }
+            for (lane, meets) in meets.into_iter().enumerate() {
+                if meets {
+                    each(first + lane);
+                }
+            }
+        }
+    }
+}

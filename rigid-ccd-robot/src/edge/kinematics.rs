@@ -1,0 +1,158 @@
+//! The frames of all moving links at one configuration.
+
+use crate::robot::{Robot, Source};
+use rigid_ccd::Pose;
+use rigid_ccd::glam::{DMat3, DVec3};
+use rigid_ccd::oracle::Frame;
+use rigid_ccd::trajectory::JointKind;
+
+/// The joints of a robot that move, each after those nearer to the base. Joint `k` moves frame `k + 1`; frame 0 is the
+/// base.
+#[derive(Clone, Debug)]
+pub(crate) struct Kinematics {
+    joints: Vec<MovingJoint>,
+    /// For each link, the frame in which it rests, and its pose there.
+    links: Vec<(usize, Pose)>,
+    /// For each joint of the robot, its number among those that move; `None` for a fixed one.
+    numbers: Vec<Option<usize>>,
+    /// The sum of the lengths of all joints' origins, and the number of all joints.
+    pub(crate) arms: f64,
+    pub(crate) joint_count: usize,
+}
+
+/// A joint that moves, with what does not change.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MovingJoint {
+    /// The number of the frame that holds the joint.
+    pub(crate) parent: usize,
+    /// How the joint's position comes from a configuration.
+    pub(crate) source: Source,
+    /// The position of the joint's origin in the parent frame.
+    pub(crate) origin: DVec3,
+    /// The unit vector along the axis in the parent frame.
+    pub(crate) axis: DVec3,
+    pub(crate) is_prismatic: bool,
+    /// The rotation from the joint's frame to the parent's is `fixed + sin(q) sine + cos(q) cosine`.
+    fixed: DMat3,
+    sine: DMat3,
+    cosine: DMat3,
+}
+
+impl Kinematics {
+    /// Prepares the joints of a robot. Fixed joints become part of the joints after them.
+    pub(crate) fn of_robot(robot: &Robot) -> Self {
+        let mut joints: Vec<MovingJoint> = Vec::new();
+        let mut links = vec![(0, Pose::IDENTITY); robot.links().len()];
+        let mut numbers = vec![None; robot.joints().len()];
+        let mut arms = 0.0;
+        for (link, parent, joint) in robot.joints_from_base() {
+            arms += robot.joints()[joint].joint.origin().translation().length();
+            let (frame, held) = links[parent];
+            let origin = held.compose(robot.joints()[joint].joint.origin());
+            let source = robot.source(joint);
+            let (axis, is_prismatic) = match (robot.joints()[joint].joint.kind(), source) {
+                (JointKind::Revolute(axis), Some(_)) => (axis, false),
+                (JointKind::Prismatic(axis), Some(_)) => (axis, true),
+                _ => {
+                    links[link] = (frame, origin);
+                    continue;
+                }
+            };
+            let Some(source) = source else { continue };
+            numbers[joint] = Some(joints.len());
+            joints.push(MovingJoint::new(frame, source, &origin, axis, is_prismatic));
+            links[link] = (joints.len(), Pose::IDENTITY);
+        }
+        Kinematics {
+            joints,
+            links,
+            numbers,
+            arms,
+            joint_count: robot.joints().len(),
+        }
+    }
+
+    pub(crate) fn joints(&self) -> &[MovingJoint] {
+        &self.joints
+    }
+
+    /// Returns the frame in which a link rests, and its pose there.
+    pub(crate) fn link(&self, link: usize) -> (usize, Pose) {
+        self.links[link]
+    }
+
+    /// Returns the number of a joint of the robot among those that move; `None` for a fixed one.
+    pub(crate) fn number(&self, joint: usize) -> Option<usize> {
+        self.numbers[joint]
+    }
+
+    /// Returns the nearest frame from which two frames move.
+    pub(crate) fn common_frame(&self, [mut a, mut b]: [usize; 2]) -> usize {
+        // A frame has a greater number than those nearer to the base.
+        while a != b {
+            if a > b {
+                a = self.joints[a - 1].parent;
+            } else {
+                b = self.joints[b - 1].parent;
+            }
+        }
+        a
+    }
+
+    /// Computes the poses of all frames in the base, for one position for each moving joint.
+    pub(crate) fn place(&self, positions: impl Iterator<Item = f64>, frames: &mut Vec<Frame>) {
+        frames.clear();
+        frames.push(Frame::IDENTITY);
+        for (joint, position) in self.joints.iter().zip(positions) {
+            let parent = frames[joint.parent];
+            frames.push(joint.place(&parent, position));
+        }
+    }
+}
+
+impl MovingJoint {
+    fn new(parent: usize, source: Source, origin: &Pose, axis: DVec3, is_prismatic: bool) -> Self {
+        let frame = DMat3::from_quat(origin.rotation());
+        let along = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
+        let cross = DMat3::from_cols(
+            axis.cross(DVec3::X),
+            axis.cross(DVec3::Y),
+            axis.cross(DVec3::Z),
+        );
+        let (fixed, sine, cosine) = if is_prismatic {
+            (frame, DMat3::ZERO, DMat3::ZERO)
+        } else {
+            (
+                frame * along,
+                frame * cross,
+                frame * (DMat3::IDENTITY - along),
+            )
+        };
+        MovingJoint {
+            parent,
+            source,
+            origin: origin.translation(),
+            axis: frame * axis,
+            is_prismatic,
+            fixed,
+            sine,
+            cosine,
+        }
+    }
+
+    /// Returns the pose of the frame after the joint.
+    fn place(&self, parent: &Frame, position: f64) -> Frame {
+        if self.is_prismatic {
+            return Frame {
+                rotation: parent.rotation * self.fixed,
+                translation: parent.point(self.origin + self.axis * position),
+            };
+        }
+        let (sine, cosine) = position.sin_cos();
+        let turned = self.fixed + self.sine * sine + self.cosine * cosine;
+        Frame {
+            rotation: parent.rotation * turned,
+            translation: parent.point(self.origin),
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! The rounding of poses that are computed along an edge.
+
+use super::kinematics::Kinematics;
+use crate::cell::part::Part;
+use ccd_core::order::greater;
+
+/// Half the distance of 1 to the next number.
+const U: f64 = 0.5 * f64::EPSILON;
+
+/// The error of a rotation matrix for each joint. The product of two rotations rounds each entry by 3 units, and the
+/// matrix by at most 9. The joint's rotation is a sum of three matrices, each a product of two, whose entries are rounded
+/// by 8 units together: at most 24 for the matrix, and 8 for the quaternion of which it was made. The sine and the cosine
+/// are rounded by 2. That is less than 64.
+const ROTATION_PER_JOINT: f64 = 64.0;
+
+/// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. A
+/// joint that follows another one has a factor and an offset more.
+const POSITION: f64 = 8.0;
+
+/// Returns a bound of the distance between points of all parts, as computed with frames along an edge, and the points
+/// themselves. The positions of the moving joints are at most `positions`.
+pub(crate) fn point_error(
+    kinematics: &Kinematics,
+    parts: &[Part],
+    positions: impl Iterator<Item = f64>,
+) -> f64 {
+    let joints = kinematics.joints();
+    let (mut angles, mut arms) = (0.0, kinematics.arms);
+    for (joint, position) in joints.iter().zip(positions) {
+        if joint.is_prismatic {
+            arms += position;
+        } else {
+            angles += position;
+        }
+    }
+    let reach = parts.iter().map(Part::reach).fold(0.0, greater);
+    let turn = ROTATION_PER_JOINT * (kinematics.joint_count + 1) as f64 + POSITION * angles;
+    U * (turn + POSITION) * (arms + reach)
+}
