@@ -240,6 +240,11 @@ impl Body {
         }
     }
 
+    /// Returns whether the body has a [surface](Body::with_surface) of triangles beside its one piece.
+    pub fn has_surface(&self) -> bool {
+        self.surface.is_some()
+    }
+
     /// Returns the hull tree over the body's pieces, if it has one. The leaves name [`Body::pieces`].
     #[cfg(feature = "hull-tree")]
     pub fn hull_tree(&self) -> Option<&HullTree> {

@@ -78,6 +78,20 @@ impl Settings {
         stop: None,
     };
 
+    /// Checks that the tolerance, the margin and the clearance are in the ranges that queries accept.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`].
+    ///
+    /// ```
+    /// use ccd_core::Settings;
+    /// let negative = Settings { margin: -0.1, ..Settings::DEFAULT };
+    /// assert!(negative.check().is_err() && Settings::DEFAULT.check().is_ok());
+    /// ```
+    pub fn check(&self) -> Result<(), InputError> {
+        self.terms().check(0.0)
+    }
+
     /// Returns the settings in the form that a query stores, with the stop flag borrowed.
     pub(crate) fn terms(&self) -> QuerySettings<'_> {
         QuerySettings {

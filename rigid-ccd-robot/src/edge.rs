@@ -49,7 +49,8 @@ impl Cell {
 }
 
 impl EdgeSolver<'_> {
-    /// Sets tolerance, margin and limits of the questions that follow.
+    /// Sets the tolerance and the margin of the questions that follow. Limits of work and time are for each query of two
+    /// bodies that an edge leaves to the engine.
     #[must_use]
     pub fn with_settings(mut self, settings: Settings) -> Self {
         self.search.settings = settings;
@@ -80,13 +81,15 @@ impl EdgeSolver<'_> {
         for configuration in [from, to] {
             self.cell.robot().check(configuration)?;
         }
+        let settings = self.search.settings.check();
+        settings.map_err(rigid_ccd::Error::from)?;
         let found = self.search.any_contact(from, to)?;
         Ok(found.map(|(share, pair)| self.contact(share, pair)))
     }
 
     fn contact(&self, share: f64, pair: Candidate) -> EdgeContact {
         let cell = self.cell;
-        let [a, b] = [pair.a, pair.b].map(|part| cell.parts()[part as usize].owner);
+        let [a, b] = pair.owners(cell.parts());
         let name = |body| cell.robot().links()[cell.link_of(body)].name.clone();
         EdgeContact {
             share,

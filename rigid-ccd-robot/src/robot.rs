@@ -231,15 +231,6 @@ impl Robot {
         self.position_sources[joint]
     }
 
-    /// Returns the joints on the way from one link to another, each with whether it is passed from the link after it.
-    pub(crate) fn joints_between(&self, from: usize, to: usize) -> Vec<(usize, bool)> {
-        let steps = self.tree.steps_between(from, to);
-        steps
-            .iter()
-            .map(|step| (step.joint, step.leads_to_parent))
-            .collect()
-    }
-
     /// Refuses a configuration with a wrong number of positions, or with a position outside of its joint's limits.
     pub(crate) fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let expected = self.free_joints.len();

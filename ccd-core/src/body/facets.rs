@@ -63,7 +63,7 @@ pub(crate) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Cl
 }
 
 /// Returns the triangles of a fan about the first corner of a polygon.
-pub(crate) fn fan_of<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + Clone {
+pub fn fan_of<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + Clone {
     (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])
 }
 

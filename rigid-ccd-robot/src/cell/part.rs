@@ -1,6 +1,7 @@
 //! A convex hull around a body, in the frame in which the body rests.
 
 use crate::tuning::MIN_PIECES_TO_SPLIT;
+use ccd_core::fan_of;
 use ccd_core::order::greater;
 use ccd_core::{Body, Piece, Pieces, SupportScan, Volume};
 use rigid_ccd::Pose;
@@ -51,22 +52,24 @@ impl PlacedBody {
     }
 }
 
-/// Returns the triangles of the facets of a body that is one polytope; `None` for other bodies.
+/// Returns the triangles of the hull of a body that is one polytope with a volume and has no surface yet; `None` for other
+/// bodies. The hull is computed anew: the facets that a polytope comes with are not checked.
 fn surface_of(body: &Body) -> Option<Body> {
-    if body.pieces().len() != 1 || body.volume() != Volume::Solid {
+    if body.pieces().len() != 1 || body.volume() != Volume::Solid || body.has_surface() {
         return None;
     }
     let piece = body.pieces().get(0);
-    if piece.radius > 0.0 || piece.facets.is_empty() {
+    if piece.radius > 0.0 {
         return None;
     }
-    let fans = piece.facets.iter().flat_map(|facet| {
-        let (first, rest) = (facet[0], &facet[1..]);
-        rest.windows(2).map(move |ends| [first, ends[0], ends[1]])
-    });
-    let triangles: Vec<[u32; 3]> = fans.collect();
+    let hull = ccd_decomp::convex_hull(piece.points).ok()?;
+    // A flat polygon has two facets, and no volume.
+    if hull.facets.iter().count() < 3 {
+        return None;
+    }
+    let triangles: Vec<[u32; 3]> = hull.facets.iter().flat_map(fan_of).collect();
     let ids: Vec<u32> = (0..triangles.len() as u32).collect();
-    let pieces = Pieces::triangles(piece.points, &triangles, &ids).ok()?;
+    let pieces = Pieces::triangles(&hull.points, &triangles, &ids).ok()?;
     let hierarchy = ccd_decomp::build_hierarchy(&pieces).ok()?;
     Body::with_hierarchy(&pieces, &hierarchy, Volume::Solid).ok()
 }
@@ -143,7 +146,7 @@ fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>>
 /// Returns the corners of the hull of points; all points if the hull cannot be computed.
 fn hull_corners(points: Vec<DVec3>) -> Vec<DVec3> {
     match ccd_decomp::convex_hull(&points) {
-        Ok(hull) if points.len() > 8 => hull.points,
-        _ => points,
+        Ok(hull) => hull.points,
+        Err(_) => points,
     }
 }

@@ -13,7 +13,7 @@ pub(crate) struct ObstacleBoxes {
     count: usize,
 }
 
-/// Eight boxes, coordinate by coordinate. Empty places have boxes that meet no other.
+/// Eight boxes, coordinate by coordinate. Empty places have boxes that meet no finite one.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     min: [[f64; LANES]; 3],
@@ -52,11 +52,12 @@ impl ObstacleBoxes {
             for axis in 0..3 {
                 let (mins, maxs) = (&block.min[axis], &block.max[axis]);
                 for ((meets, other_min), other_max) in meets.iter_mut().zip(mins).zip(maxs) {
-                    *meets &= *other_min <= max[axis] && min[axis] <= *other_max;
+                    // Written so that a box whose bounds are NaN meets all others.
+                    *meets &= !(*other_min > max[axis] || min[axis] > *other_max);
                 }
             }
             for (lane, meets) in meets.into_iter().enumerate() {
-                if meets {
+                if meets && first + lane < self.count {
                     each(first + lane);
                 }
             }

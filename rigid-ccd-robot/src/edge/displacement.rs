@@ -45,28 +45,29 @@ impl Displacements {
         kinematics: &Kinematics,
         part: usize,
         seen_from: usize,
-    ) -> Option<usize> {
+    ) -> Option<u32> {
         let joints = &self.joints[self.starts[part]..self.starts[part + 1]];
         let parent = |joint: usize| kinematics.joints()[joint].parent;
         let step = joints
             .iter()
             .position(|&joint| parent(joint) == seen_from)?;
-        Some(self.starts[part] + step)
+        Some((self.starts[part] + step) as u32)
     }
 
     /// Returns the place of the bound for a part as the base sees it; `None` for a part that rests there.
-    pub(crate) fn slot_at_base(&self, part: usize) -> Option<usize> {
+    pub(crate) fn slot_at_base(&self, part: usize) -> Option<u32> {
         let range = self.starts[part]..self.starts[part + 1];
-        (!range.is_empty()).then(|| range.end - 1)
+        (!range.is_empty()).then(|| range.end as u32 - 1)
     }
 
     /// Returns the bound at a place; 0 without one.
-    pub(crate) fn bound(&self, slot: Option<usize>) -> f64 {
-        slot.map_or(0.0, |slot| self.bounds[slot])
+    pub(crate) fn bound(&self, slot: Option<u32>) -> f64 {
+        slot.map_or(0.0, |slot| self.bounds[slot as usize])
     }
 
     /// Computes the bounds for the time `half` before and after the one at which the frames are placed, with the absolute
-    /// rates of all joints. Errors of the frames move points by at most `rounding`.
+    /// rates of all joints. Errors of the frames move points by at most `rounding`. The centre, the joint's origin and its
+    /// axis have such an error each.
     pub(crate) fn update(
         &mut self,
         kinematics: &Kinematics,
@@ -86,7 +87,7 @@ impl Displacements {
                 } else {
                     let axis = frames[joint.parent].rotation * joint.axis;
                     let arm = centre - frames[number + 1].translation;
-                    axis.cross(arm).length() + part.ball_radius + half * speed + rounding
+                    axis.cross(arm).length() + part.ball_radius + half * speed + 3.0 * rounding
                 };
                 speed += rates[number] * distance;
                 self.bounds[slot] = half * speed * ROUNDED_UP;

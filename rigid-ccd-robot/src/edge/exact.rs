@@ -1,11 +1,11 @@
-//! Pairs of parts as the engine takes them: a body with the trajectory of its link, against another one at rest.
+//! Pairs of bodies as the engine takes them: a body with the trajectory of its link, against another one at rest.
 
 use crate::cell::Cell;
 use rigid_ccd::trajectory::{Chain, Joint};
 use rigid_ccd::{Answer, Error, Motion, Pose, Solver};
 use std::collections::HashMap;
 
-/// The chains of joints by which one part moves as another one sees it. Each is made when it is needed first.
+/// The chains of joints by which one body moves as another one sees it. Each is made when it is needed first.
 pub(crate) struct ExactPairs<'c> {
     cell: &'c Cell,
     chains: HashMap<[usize; 2], PairChain>,
@@ -40,7 +40,7 @@ impl<'c> ExactPairs<'c> {
         let cell = self.cell;
         let [a, b] = pair;
         let is_obstacle = b >= cell.robot_body_count();
-        // All obstacles see a part move by the same chain.
+        // All obstacles see a body move by the same chain.
         let key = if is_obstacle { [a, usize::MAX] } else { pair };
         let PairChain { chain, moving } = self
             .chains
@@ -69,21 +69,18 @@ impl<'c> ExactPairs<'c> {
 fn pair_chain(cell: &Cell, a: usize, b: Option<usize>) -> PairChain {
     let (robot, kinematics) = (cell.robot(), cell.kinematics());
     let seen_from = b.map_or(robot.base(), |b| cell.link_of(b));
-    let numbers = robot.joints_between(seen_from, cell.link_of(a));
+    let between = robot.chain_between(seen_from, cell.link_of(a));
     let mut joints = Vec::new();
     let mut moving = Vec::new();
     if let Some(b) = b {
         joints.push(Joint::fixed(cell.pose_in_link(b)).reversed());
         moving.push(None);
     }
-    for (number, is_reversed) in numbers {
-        let joint = robot.joints()[number]
-            .joint
-            .clone()
-            .with_limits(f64::NEG_INFINITY..=f64::INFINITY);
-        joints.push(if is_reversed { joint.reversed() } else { joint });
-        moving.push(kinematics.number(number));
-    }
+    // Configurations are checked already; positions within an edge are rounded.
+    let unlimited = |joint: &Joint| joint.clone().with_limits(f64::NEG_INFINITY..=f64::INFINITY);
+    joints.extend(between.chain().joints().iter().map(unlimited));
+    let numbers = between.joint_numbers().iter();
+    moving.extend(numbers.map(|&joint| kinematics.number(joint)));
     joints.push(Joint::fixed(cell.pose_in_link(a)));
     moving.push(None);
     PairChain {

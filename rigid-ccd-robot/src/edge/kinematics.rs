@@ -49,16 +49,15 @@ impl Kinematics {
             arms += robot.joints()[joint].joint.origin().translation().length();
             let (frame, held) = links[parent];
             let origin = held.compose(robot.joints()[joint].joint.origin());
-            let source = robot.source(joint);
-            let (axis, is_prismatic) = match (robot.joints()[joint].joint.kind(), source) {
-                (JointKind::Revolute(axis), Some(_)) => (axis, false),
-                (JointKind::Prismatic(axis), Some(_)) => (axis, true),
+            let kind = robot.joints()[joint].joint.kind();
+            let (axis, is_prismatic, source) = match (kind, robot.source(joint)) {
+                (JointKind::Revolute(axis), Some(source)) => (axis, false, source),
+                (JointKind::Prismatic(axis), Some(source)) => (axis, true, source),
                 _ => {
                     links[link] = (frame, origin);
                     continue;
                 }
             };
-            let Some(source) = source else { continue };
             numbers[joint] = Some(joints.len());
             joints.push(MovingJoint::new(frame, source, &origin, axis, is_prismatic));
             links[link] = (joints.len(), Pose::IDENTITY);

@@ -85,24 +85,31 @@ struct Stretch {
     halvings: u32,
 }
 
+impl Candidate {
+    fn new([a, b]: [usize; 2], slots: [Option<u32>; 2]) -> Self {
+        Candidate {
+            a: a as u32,
+            b: b as u32,
+            slots,
+            axis: DVec3::ZERO,
+            share: 0.0,
+        }
+    }
+
+    /// Returns the numbers of both bodies.
+    pub(crate) fn owners(&self, parts: &[Part]) -> [usize; 2] {
+        [self.a, self.b].map(|part| parts[part as usize].owner)
+    }
+}
+
 impl<'c> Search<'c> {
     pub(crate) fn new(cell: &'c Cell) -> Self {
         let (parts, kinematics) = (cell.parts(), cell.kinematics());
         let robot_parts = cell.robot_part_count();
         let displacements = Displacements::new(kinematics, parts);
         let own_pairs = cell.own_pairs().map(|([a, b], frame)| {
-            let slot = |part| {
-                displacements
-                    .slot(kinematics, part, frame)
-                    .map(|slot| slot as u32)
-            };
-            Candidate {
-                a: a as u32,
-                b: b as u32,
-                slots: [slot(a), slot(b)],
-                axis: DVec3::ZERO,
-                share: 0.0,
-            }
+            let slots = [a, b].map(|part| displacements.slot(kinematics, part, frame));
+            Candidate::new([a, b], slots)
         });
         let own_pairs = own_pairs.collect();
         Search {
@@ -208,36 +215,48 @@ impl<'c> Search<'c> {
 
     /// Asks the engine whether one of the suspects is in contact at a time.
     fn check_suspects(&mut self, share: f64) -> Result<Option<(f64, Candidate)>, Error> {
+        if self.suspects.is_empty() {
+            return Ok(None);
+        }
+        self.prepare_solver();
         self.suspects
             .sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
-        for k in 0..self.suspects.len() {
-            let pair = self.suspects[k];
-            let bodies = [pair.a, pair.b].map(|part| self.parts[part as usize].owner);
-            let known = self.suspects[..k].iter().any(|other| {
-                bodies == [other.a, other.b].map(|part| self.parts[part as usize].owner)
-            });
-            if known {
+        let positions = self.positions(share);
+        for (k, pair) in self.suspects.iter().enumerate() {
+            let bodies = pair.owners(self.parts);
+            let mut earlier = self.suspects[..k].iter();
+            if earlier.any(|other| bodies == other.owners(self.parts)) {
                 continue;
             }
-            let positions = self.start.iter().zip(&self.change);
-            let positions: Vec<f64> = positions
-                .map(|(start, change)| start + share * change)
-                .collect();
-            self.solver.set_settings(self.settings.clone());
-            let answer =
-                self.exact
-                    .any_contact(&mut self.solver, bodies, &positions, &positions)?;
+            let solver = &mut self.solver;
+            let answer = self
+                .exact
+                .any_contact(solver, bodies, &positions, &positions)?;
             if answer.hit()?.is_some() {
-                return Ok(Some((share, pair)));
+                return Ok(Some((share, *pair)));
             }
         }
         Ok(None)
     }
 
+    /// Returns the positions of all moving joints at a share of the edge.
+    fn positions(&self, share: f64) -> Vec<f64> {
+        let ends = self.start.iter().zip(&self.change);
+        ends.map(|(start, change)| start + share * change).collect()
+    }
+
+    /// Sets the margin of the engine, which is larger because the positions that the engine gets are rounded.
+    fn prepare_solver(&mut self) {
+        self.solver.set_settings(Settings {
+            margin: self.settings.margin + 2.0 * self.rounding,
+            ..self.settings.clone()
+        });
+    }
+
     /// Leaves a pair in a stretch to the engine, together with neighbouring stretches of the pair.
     fn leave_open(&mut self, pair: Candidate, stretch: Stretch) {
         let Stretch { from, to, .. } = stretch;
-        let bodies = [pair.a, pair.b].map(|part| self.parts[part as usize].owner);
+        let bodies = pair.owners(self.parts);
         let known = self.open.iter_mut();
         // Later stretches are searched first.
         let mut known = known.filter(|open| open.bodies == bodies && open.from <= to);
@@ -311,16 +330,12 @@ impl<'c> Search<'c> {
             let (centre, extents) =
                 swept_box(part, &self.frames, self.displacements.bound(slot) + margin);
             let candidates = &mut self.candidates;
-            let slots = [slot.map(|slot| slot as u32), None];
             self.boxes
                 .for_each_meeting(centre - extents, centre + extents, |obstacle| {
-                    candidates.push(Candidate {
-                        a: a as u32,
-                        b: (self.robot_parts + obstacle) as u32,
-                        slots,
-                        axis: DVec3::ZERO,
-                        share: 0.0,
-                    });
+                    candidates.push(Candidate::new(
+                        [a, self.robot_parts + obstacle],
+                        [slot, None],
+                    ));
                 });
         }
         self.candidates.extend_from_slice(&self.own_pairs);
@@ -329,9 +344,7 @@ impl<'c> Search<'c> {
     #[inline(always)]
     fn measure(&mut self, pair: &mut Candidate, is_last: bool) -> Measured {
         let (a, b) = (&self.parts[pair.a as usize], &self.parts[pair.b as usize]);
-        let displacement = pair
-            .slots
-            .map(|slot| self.displacements.bound(slot.map(|slot| slot as usize)));
+        let displacement = pair.slots.map(|slot| self.displacements.bound(slot));
         let displacement = displacement[0] + displacement[1];
         let (frame_a, frame_b) = (self.frames[a.frame], self.frames[b.frame]);
         let margin = self.settings.margin;
@@ -414,11 +427,7 @@ impl<'c> Search<'c> {
         if self.open.is_empty() {
             return Ok(None);
         }
-        let settings = Settings {
-            margin: self.settings.margin + 2.0 * self.rounding,
-            ..self.settings.clone()
-        };
-        self.solver.set_settings(settings);
+        self.prepare_solver();
         self.open
             .sort_unstable_by(|a, b| a.pair.share.total_cmp(&b.pair.share));
         for &OpenPair {
@@ -428,14 +437,9 @@ impl<'c> Search<'c> {
             to,
         } in &self.open
         {
-            let positions = |share: f64| {
-                let positions = self.start.iter().zip(&self.change);
-                positions.map(move |(start, change)| start + share * change)
-            };
-            let ends = [from, to].map(|share| positions(share).collect::<Vec<f64>>());
-            let answer = self
-                .exact
-                .any_contact(&mut self.solver, bodies, &ends[0], &ends[1])?;
+            let ends = [from, to].map(|share| self.positions(share));
+            let solver = &mut self.solver;
+            let answer = self.exact.any_contact(solver, bodies, &ends[0], &ends[1])?;
             if let Some(hit) = answer.hit()? {
                 return Ok(Some((from + hit.time * (to - from), pair)));
             }

@@ -43,6 +43,11 @@ impl ChainBetween {
         &self.chain
     }
 
+    /// Returns the number in the robot of each joint of the chain.
+    pub(crate) fn joint_numbers(&self) -> &[usize] {
+        &self.joints
+    }
+
     /// Returns the positions of the chain's joints in a configuration of the robot. The position of a joint that
     /// follows another joint is rounded twice.
     ///
