@@ -3,13 +3,13 @@
 use std::process::Command;
 
 /// The first major version of LLVM that compiles AVX-512 correctly.
-const FIRST_CORRECT_LLVM: u32 = 23;
+const FIRST_CORRECT_LLVM_VERSION: u32 = 23;
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rustc-check-cfg=cfg(faulty_avx512)");
     // An unknown version counts as faulty.
-    if llvm_major_version().is_none_or(|major| major < FIRST_CORRECT_LLVM) {
+    if llvm_major_version().is_none_or(|major| major < FIRST_CORRECT_LLVM_VERSION) {
         println!("cargo::rustc-cfg=faulty_avx512");
     }
 }

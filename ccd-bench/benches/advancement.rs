@@ -9,7 +9,7 @@
 mod settings;
 
 use ccd_bench::method::PAPER_TOLERANCE;
-use ccd_bench::method::guarded::Programs;
+use ccd_bench::method::guarded::MethodPrograms;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, ProjectSolver};
 use ccd_bench::run::contest::{MeasurementLimits, PreparedScene, Session};
@@ -32,10 +32,10 @@ const SCENE_NAMES: [&str; 7] = [
     "knot11520 turning",
     "knot34560 turning",
     "falling rings",
-    SMALL_SCENE,
+    NAIVE_SCHEDULE_SCENE,
 ];
 /// The name of the only scene with few enough pairs of pieces for the naive schedule, which is the slowest.
-const SMALL_SCENE: &str = "knot216";
+const NAIVE_SCHEDULE_SCENE: &str = "knot216";
 
 fn benchmark_queries(criterion: &mut Criterion) {
     let mut models = ModelCache::default();
@@ -59,11 +59,11 @@ fn benchmark_queries(criterion: &mut Criterion) {
                 continue;
             };
             // The schedule that advances all pairs in every step runs on one scene only.
-            if kind.schedule == ScheduleKind::Naive && scene.name != SMALL_SCENE {
+            if kind.schedule == ScheduleKind::Naive && scene.name != NAIVE_SCHEDULE_SCENE {
                 continue;
             }
             // A method that does not support the scene is not timed. A wrong answer stops the benchmark.
-            if !supports_scene(&contest, method) {
+            if !assert_right_if_supported(&contest, method) {
                 continue;
             }
             let bodies = scene
@@ -83,15 +83,15 @@ fn benchmark_queries(criterion: &mut Criterion) {
 }
 
 /// Returns true if the method supports the scene, after asserting that all its answers are right.
-fn supports_scene(contest: &PreparedScene<'_>, method: Method) -> bool {
+fn assert_right_if_supported(contest: &PreparedScene<'_>, method: Method) -> bool {
     let allowance = MeasurementLimits {
-        cell: Duration::MAX,
+        cell_time: Duration::MAX,
         patience: Duration::MAX,
         max_rows: ROWS_PER_SCENE,
         min_rows: ROWS_PER_SCENE,
         preparation_limit: Duration::MAX,
     };
-    let session = Session::open(method, contest.scene(), &Programs::default());
+    let session = Session::open(method, contest.scene(), &MethodPrograms::default());
     let session = session.expect("no peer is asked");
     session.is_some_and(|mut session| {
         let measured = contest.run(&mut session, PAPER_TOLERANCE, &allowance);

@@ -48,12 +48,12 @@ const SEQUENCE_KINDS: [(&str, f64, CacheState); 3] = [
 ];
 
 /// The separations of the pieces: a name, and the distance of their bounding balls, which have radius 1.
-const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
+const CLEARANCES: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
 
 fn benchmark_distances(criterion: &mut Criterion) {
     let mut rng = Pcg64::seed_from_u64(7);
     for (shape, a, b) in pieces_in_unit_ball(&mut rng) {
-        for (separation, clearance) in SEPARATIONS {
+        for (separation, clearance) in CLEARANCES {
             for (coherence, turn, start) in SEQUENCE_KINDS {
                 let course = PoseSequence {
                     a: a.clone(),
@@ -115,14 +115,14 @@ fn run_sequence<O: DistanceOracle + Default>(course: &PoseSequence) -> f64 {
         if let CacheState::Cold = course.cache_state {
             cache = O::Cache::default();
         }
-        let claim = oracle.separation(black_box(&course.pair(*pose)), &mut cache);
+        let claim = oracle.separation(black_box(&course.pair_at_pose(*pose)), &mut cache);
         sum += claim.map_or(0.0, |claim| claim.axis.x);
     }
     sum
 }
 
 impl PoseSequence {
-    fn pair(&self, b_to_a: Frame) -> PiecePair<'_> {
+    fn pair_at_pose(&self, b_to_a: Frame) -> PiecePair<'_> {
         PiecePair {
             a: self.a.get(0),
             b: self.b.get(0),
@@ -134,7 +134,7 @@ impl PoseSequence {
     fn distances<O: DistanceOracle + Default>(&self) -> Vec<f64> {
         let (mut oracle, mut cache) = (O::default(), O::Cache::default());
         let distance = |&pose: &Frame| {
-            let pair = self.pair(pose);
+            let pair = self.pair_at_pose(pose);
             let claim = oracle.separation(&pair, &mut cache).expect("no give-up");
             let on_a = claim.a.position(pair.a.points).expect("a point of A");
             let on_b = claim.b.position(pair.b.points).expect("a point of B");

@@ -23,16 +23,16 @@ const STEP_DURATION: f64 = 1.0 / 60.0;
 /// The number of steps in a flight, and the number of flying bodies.
 const STEP_AND_BODY_COUNTS: (u32, usize) = (20, 200);
 /// The number of grid squares along each side of the terrain, and half the length of a side.
-const HILL_CELLS_AND_HALF_WIDTH: (u32, f64) = (119, 30.0);
+const TERRAIN_SIDE_CELLS_AND_HALF_WIDTH: (u32, f64) = (119, 30.0);
 
 /// A function that returns the start position and the velocity of a body. Its arguments are a random vector for each of
 /// the two, and the height of the ground as a vector.
-type Start = fn(DVec3, DVec3, DVec3) -> (DVec3, DVec3);
+type StartFunction = fn(DVec3, DVec3, DVec3) -> (DVec3, DVec3);
 
 /// The flights by name, each with the function that gives a body its start. In turn, the bodies fall onto the hills,
 /// skim along them, fly from all sides to one place, fly in all directions within a crowd, or fall ten times as fast as
 /// in the first flight.
-const FLIGHTS: [(&str, Start); 5] = [
+const FLIGHTS: [(&str, StartFunction); 5] = [
     ("hail", |place, way, _| {
         let high = DVec3::Z * (4.0 + 2.0 * place.z);
         (
@@ -72,7 +72,7 @@ fn terrain_height(x: f64, y: f64) -> f64 {
 /// Returns the body of the hills, followed by the four flying bodies: a sphere, a box, a capsule and a torus knot.
 fn hills_and_bodies() -> anyhow::Result<[Body; 5]> {
     let of_mesh = |mesh: &TriangleMesh| anyhow::Ok(body_from_mesh(mesh, Detail::Auto)?.body);
-    let (cells, half) = HILL_CELLS_AND_HALF_WIDTH;
+    let (cells, half) = TERRAIN_SIDE_CELLS_AND_HALF_WIDTH;
     let row = cells + 1;
     let vertices = (0..row * row).map(|k| {
         let [x, y] =
@@ -96,7 +96,7 @@ fn hills_and_bodies() -> anyhow::Result<[Body; 5]> {
 }
 
 /// Returns the motions of all bodies in each step of a flight.
-fn flight_motions(start: Start) -> anyhow::Result<Vec<Vec<Motion>>> {
+fn flight_motions(start: StartFunction) -> anyhow::Result<Vec<Vec<Motion>>> {
     let mut rng = Pcg64::seed_from_u64(7);
     let mut any =
         |size: f64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..size)));

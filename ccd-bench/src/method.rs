@@ -10,7 +10,7 @@ pub mod wire;
 use crate::method::peer::PeerKind;
 use crate::method::rival::{C2a, Contact, DynamicChecker, FixedTimeSteps, to_screw_motions};
 use crate::method::script::ScriptKind;
-use crate::method::solver::{Claim, Reply, Solver};
+use crate::method::solver::{ContactClaim, Reply, Solver};
 use crate::names::name_of;
 use crate::scene::PieceKind;
 use ccd_core::Answer;
@@ -128,7 +128,7 @@ impl Method {
     /// the tolerance are not, nor are models of the bodies that are only compared with each other.
     pub fn runs_at_all_tolerances(self) -> bool {
         match self {
-            Method::ThisProject(..) => !self.is_piece_variant(),
+            Method::ThisProject(..) => !self.is_default_with_other_pieces(),
             Method::Rival(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
             Method::Script(kind) => kind != ScriptKind::CoalDistance,
@@ -137,7 +137,7 @@ impl Method {
 
     /// Returns true if the method is this project's default on triangles or patches, instead of the fewest exact
     /// pieces.
-    pub fn is_piece_variant(self) -> bool {
+    pub fn is_default_with_other_pieces(self) -> bool {
         matches!(self, Method::ThisProject(kind, pieces)
             if pieces != PieceKind::FewestPieces && !kind.schedule.uses_hull_trees())
     }
@@ -156,7 +156,7 @@ impl MotionKind {
     ///
     /// # Errors
     /// If a screw's parameters overflow.
-    pub fn apply(self, query: Motions) -> Result<Motions, InputError> {
+    pub fn convert_motions(self, query: Motions) -> Result<Motions, InputError> {
         match self {
             MotionKind::ConstantVelocity => Ok(query),
             MotionKind::Screw => to_screw_motions(&query),
@@ -227,15 +227,17 @@ impl Solver for ProjectSolver<'_> {
             Err(error) => {
                 return Reply {
                     reason: Some(error.to_string()),
-                    ..Reply::new(Claim::Refused, 0)
+                    ..Reply::new(ContactClaim::Refused, 0)
                 };
             }
         };
         let claim = match answer.outcome {
-            Outcome::Contact { time, .. } => Claim::Contact { time },
-            Outcome::Touching { .. } | Outcome::Overlapping { .. } => Claim::Contact { time: 0.0 },
-            Outcome::Free { .. } => Claim::NoContact,
-            Outcome::Unresolved(known) => Claim::Unresolved {
+            Outcome::Contact { time, .. } => ContactClaim::Contact { time },
+            Outcome::Touching { .. } | Outcome::Overlapping { .. } => {
+                ContactClaim::Contact { time: 0.0 }
+            }
+            Outcome::Free { .. } => ContactClaim::NoContact,
+            Outcome::Unresolved(known) => ContactClaim::Unresolved {
                 safe_until: known.safe_until,
             },
             Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {

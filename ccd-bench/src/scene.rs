@@ -5,7 +5,7 @@ pub mod model;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use listing::{SceneEntry, listings};
+pub use listing::{SceneListing, listings};
 
 use crate::scene::model::Model;
 use anyhow::{Context, Result};

@@ -26,7 +26,7 @@ mod track;
 mod triangle;
 
 pub use surface::Surface;
-pub use table::{STATUSES, TRUTH_COLUMNS, TruthRow};
+pub use table::{TRUTH_COLUMNS, TRUTH_STATUSES, TruthRow};
 
 use rigid_ccd::table::motions::Motions;
 use search::Search;

@@ -4,7 +4,7 @@ mod contact;
 mod hit;
 mod unresolved;
 
-use crate::body::excess::Excess;
+use crate::body::excess::ExcessSum;
 use crate::distance::oracle::Effort;
 use crate::math::order::greater;
 use crate::tuning::EVALUATIONS_PER_VISIT;
@@ -149,7 +149,7 @@ impl Answer {
 
     /// Converts an answer about enclosing bodies to an answer about the enclosed shapes. It is called once for each
     /// query about a distance.
-    pub(crate) fn widened_by_excess(self, excess: Excess) -> Self {
+    pub(crate) fn widened_by_excess(self, excess: ExcessSum) -> Self {
         let outcome = self.outcome.for_enclosed_shapes(excess);
         Answer {
             outcome,
@@ -337,11 +337,11 @@ impl Outcome {
     }
 
     /// Converts an outcome about enclosing bodies to an outcome about the enclosed shapes.
-    fn for_enclosed_shapes(self, excess: Excess) -> Self {
-        match self.map_contacts(|contact, _| contact.to_shapes(excess)) {
+    fn for_enclosed_shapes(self, excess: ExcessSum) -> Self {
+        match self.map_contacts(|contact, _| contact.widened_by_excess(excess)) {
             Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
                 overlap,
-                upper: excess.distance_of_overlap(),
+                upper: excess.upper_bound_of_overlap(),
             },
             outcome => outcome,
         }

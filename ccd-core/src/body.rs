@@ -34,13 +34,13 @@ use hull_tree::convex::support_of;
 use hull_tree::{HullTree, HullTreeError};
 use piece::{ConvexCombination, Piece};
 use pieces::Pieces;
-use shell::{ExtremePoints, shells};
+use shell::{ExtremePoints, part_extreme_points};
 use std::any::Any;
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
 use threads::{join, parallel_for_each};
-use tree::point_query::pieces_at;
-use tree::{Layout, Tree};
+use tree::point_query::polytopes_at;
+use tree::{Tree, TreeLayout};
 
 /// A rigid body that is ready for queries: convex pieces in the body's own frame, and a tree over them. It is
 /// immutable, and can be shared between queries.
@@ -57,7 +57,7 @@ pub struct Body {
     pieces: Pieces,
     tree: Tree,
     volume: Volume,
-    part_extremes: Vec<ExtremePoints>,
+    part_extreme_points: Vec<ExtremePoints>,
     /// The tree of convex hulls, if one was given; its leaves refer to the pieces by their index in `pieces`.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
@@ -71,7 +71,7 @@ pub struct Body {
 struct Surface {
     triangles: Body,
     /// True if the body fills the box at the root of its tree nearly completely.
-    is_box: bool,
+    fills_root_box: bool,
 }
 
 /// Whether another body that is completely inside this one counts as touching.
@@ -107,10 +107,10 @@ impl Body {
         hierarchy: &Hierarchy,
         volume: Volume,
     ) -> Result<Self, InputError> {
-        let (layout, pieces) = Layout::from_hierarchy(pieces, hierarchy)?;
+        let (layout, pieces) = TreeLayout::from_hierarchy(pieces, hierarchy)?;
         let (shells, tree) = join(
             pieces.len(),
-            || shells(&pieces),
+            || part_extreme_points(&pieces),
             || layout.fit_tree(&pieces),
         );
         if !pieces.are_all_triangles() {
@@ -121,7 +121,7 @@ impl Body {
             }
         }
         Ok(Body {
-            part_extremes: shells,
+            part_extreme_points: shells,
             pieces,
             tree,
             volume,
@@ -152,7 +152,7 @@ impl Body {
         let volume = sextuple_signed_volume(&surface.pieces).abs() / 6.0;
         self.excess = greater(self.excess, surface.excess);
         self.surface = Some(Box::new(Surface {
-            is_box: volume >= MIN_BOX_FILL * 8.0 * x * y * z,
+            fills_root_box: volume >= MIN_BOX_FILL * 8.0 * x * y * z,
             triangles: surface,
         }));
         Ok(self)
@@ -220,7 +220,7 @@ impl Body {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn bounding_radius(&self) -> f64 {
-        self.tree.span()
+        self.tree.max_distance_from_origin()
     }
 
     /// Returns whether the body is a solid or a surface, so whether a body inside it counts as touching.
@@ -235,7 +235,7 @@ impl Body {
         let many = other.pieces.are_all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
         match &self.surface {
-            Some(surface) if many && !(larger && surface.is_box) => &surface.triangles,
+            Some(surface) if many && !(larger && surface.fills_root_box) => &surface.triangles,
             _ => self,
         }
     }
@@ -259,7 +259,7 @@ impl Body {
         let hulls = 0;
         let surface = self.surface.as_ref();
         let surface = surface.map_or(0, |surface| surface.triangles.memory_usage());
-        self.pieces.bytes() + self.tree.bytes() + hulls + surface
+        self.pieces.memory_usage() + self.tree.memory_usage() + hulls + surface
     }
 
     /// Returns the mesh's vertex, edge or face that contains a point of a piece.
@@ -274,7 +274,7 @@ impl Body {
         let at = point.position(self.pieces.get(piece as usize).points);
         at.and_then(|at| {
             let mut faces =
-                pieces_at(&self.tree, at).map(|k| face_at(&self.pieces.get(k as usize), at));
+                polytopes_at(&self.tree, at).map(|k| face_at(&self.pieces.get(k as usize), at));
             faces.find_map(|face| face)
         })
         .map_or(feature, Feature::Face)
@@ -293,8 +293,8 @@ impl Body {
     /// Returns the extreme points of every connected part of the body, to test whether the part is inside another
     /// solid. If one of a part's points is inside another solid, the whole part is, or its surface crosses that of the
     /// solid.
-    pub(crate) fn shells(&self) -> &[ExtremePoints] {
-        &self.part_extremes
+    pub(crate) fn part_extreme_points(&self) -> &[ExtremePoints] {
+        &self.part_extreme_points
     }
 }
 

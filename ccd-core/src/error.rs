@@ -47,7 +47,7 @@ pub enum InputError {
         link: usize,
     },
     /// The number of positions differs from the number of joints. Each joint needs one, fixed ones included.
-    JointCount {
+    JointCountMismatch {
         /// The number of given positions.
         positions: usize,
         /// The number of joints in the chain.
@@ -85,7 +85,7 @@ pub enum InputError {
         vertices: usize,
     },
     /// The number of face numbers differs from the number of faces.
-    FaceIds {
+    FaceIdCountMismatch {
         /// The number of faces in the mesh.
         faces: usize,
         /// The number of given face numbers.
@@ -162,7 +162,7 @@ impl fmt::Display for InputError {
                 "link {link} cannot be seen from link {from}, which is farther from the base: see link {from} from \
                  link {link}"
             ),
-            Self::JointCount { positions, joints } => write!(
+            Self::JointCountMismatch { positions, joints } => write!(
                 f,
                 "there are {positions} positions of {joints} joints: each joint needs one, fixed ones included"
             ),
@@ -185,7 +185,7 @@ impl fmt::Display for InputError {
                 f,
                 "face {face} names vertex {vertex}, but there are {vertices}"
             ),
-            Self::FaceIds { faces, ids } => {
+            Self::FaceIdCountMismatch { faces, ids } => {
                 write!(f, "{faces} faces need as many numbers, not {ids}")
             }
             Self::BadSurface => write!(

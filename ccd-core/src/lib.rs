@@ -106,7 +106,7 @@ pub use answer::{
     Answer, Clearance, Contact, Hit, HitKind, Limit, Outcome, Overlap, Separation, Stats,
     Unresolved,
 };
-pub use body::facets::{Facets, fan_of};
+pub use body::facets::{Facets, fan_triangles};
 pub use body::feature::Feature;
 pub use body::hierarchy::{Hierarchy, HierarchyNode};
 #[cfg(feature = "hull-tree")]

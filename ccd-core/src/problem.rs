@@ -1,7 +1,7 @@
 //! Queries about two motions in normalised units, as schedules search them.
 
 use crate::body::Body;
-use crate::body::excess::Excess;
+use crate::body::excess::ExcessSum;
 use crate::body::piece::Piece;
 use crate::error::{InputError, check};
 use crate::limits::{MAX_COORDINATE, MAX_ROTATION_ANGLE};
@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
-use crate::rounding::{self, NODE_GAP};
+use crate::rounding::{self, NODE_CLOCK_GAP};
 use crate::settings::{QuerySettings, StartPolicy};
 use crate::shortcuts::{Shortcut, Shortcuts};
 use crate::touching_plane::TouchingPlane;
@@ -37,11 +37,11 @@ pub(crate) struct Problem<'a> {
     pub(crate) clearance: Option<f64>,
     pub(crate) start: StartPolicy,
     /// The plane of the contact at the start, if that contact is to be ignored.
-    pub(crate) touching: Option<TouchingPlane>,
+    pub(crate) touching_plane: Option<TouchingPlane>,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
     /// A flag that another thread sets to stop the query.
-    pub(crate) stop: Option<&'a AtomicBool>,
+    pub(crate) stop_flag: Option<&'a AtomicBool>,
     /// A bound of the rounding of distances in f64, from [`rounding::distance_rounding`].
     pub(crate) rounding: f64,
     /// The vector instructions with which bounds of nodes are computed.
@@ -95,7 +95,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Creates the problem of two bodies whose centres may accelerate, for schedules that handle
-    /// [accelerations](crate::engine::answer::EngineSchedule::takes_accelerations).
+    /// [accelerations](crate::engine::answer::EngineSchedule::handles_accelerations).
     pub(crate) fn with_accelerations(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
@@ -123,7 +123,7 @@ impl<'a> Problem<'a> {
             side.check()?;
         }
         let rounding = rounding::distance_rounding(
-            [a.span(), b.span()],
+            [a.max_distance_bound(), b.max_distance_bound()],
             [a.path.rate, b.path.rate],
             distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
                 + a.path.speed()
@@ -140,10 +140,10 @@ impl<'a> Problem<'a> {
             margin: terms.margin,
             clearance: terms.clearance,
             start: terms.start,
-            touching: None,
+            touching_plane: None,
             budget: terms.budget,
             deadline: terms.deadline,
-            stop: terms.stop,
+            stop_flag: terms.stop,
             rounding,
             level: terms.level,
             shortcuts: terms.shortcuts,
@@ -151,9 +151,9 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the distance by which the caller's bodies may exceed their shapes.
-    pub(crate) fn excess(&self) -> Excess {
+    pub(crate) fn excess(&self) -> ExcessSum {
         let given = |side: &BodyWithPath<'a>| side.given_body.unwrap_or(side.body);
-        Excess::sum_of_bodies(given(&self.a), given(&self.b))
+        ExcessSum::sum_of_bodies(given(&self.a), given(&self.b))
     }
 
     /// Returns whether the query uses a shortcut.
@@ -189,7 +189,7 @@ impl<'a> Problem<'a> {
     /// Returns the gap that the clocks of pairs of nodes keep if rounding allows. It is the same for all sizes of
     /// nodes, so that clocks that run out at a common contact run out together.
     pub(crate) fn node_gap(&self) -> f64 {
-        self.margin + NODE_GAP * self.tolerance
+        self.margin + NODE_CLOCK_GAP * self.tolerance
     }
 
     /// Converts a time of the motions to a clock, up to rounding.
@@ -241,7 +241,7 @@ impl<'a> Problem<'a> {
         };
         Problem {
             start,
-            touching,
+            touching_plane: touching,
             tolerance: lesser(tolerance, self.tolerance),
             ..self.clone()
         }
@@ -276,7 +276,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the problem between two clocks, with the margin raised by a distance and with another tolerance.
-    /// Positions are off by more than in the whole, see [`place_rounding`](rounding::place_rounding).
+    /// Positions are off by more than in the whole, see [`position_rounding`](rounding::position_rounding).
     pub(crate) fn between_clocks(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
         let of = |side: &BodyWithPath<'a>| BodyWithPath {
             path: side.path.subpath(clocks),
@@ -336,8 +336,8 @@ impl BodyWithPath<'_> {
     }
 
     /// Returns the span of the body plus twice the distance of its centre of rotation from its origin.
-    pub(crate) fn span(&self) -> f64 {
-        self.body.tree().span() + 2.0 * length(self.path.centre)
+    pub(crate) fn max_distance_bound(&self) -> f64 {
+        self.body.tree().max_distance_from_origin() + 2.0 * length(self.path.centre)
     }
 
     pub(crate) fn check(&self) -> Result<(), InputError> {

@@ -1,7 +1,7 @@
 //! Queries: two moving bodies, a duration and settings.
 
 use crate::body::Body;
-use crate::body::excess::Excess;
+use crate::body::excess::ExcessSum;
 use crate::contacts::{ContactsError, FeaturePair};
 use crate::error::{InputError, check};
 use crate::limits::MAX_DURATION;
@@ -175,7 +175,7 @@ impl<'a> Query<'a> {
         duration: f64,
         settings: &'a Settings,
     ) -> Result<Self, InputError> {
-        let (a, b, terms) = (a.into(), b.into(), settings.terms());
+        let (a, b, terms) = (a.into(), b.into(), settings.to_query_settings());
         // One expression for each case: a problem is large, and is not moved again.
         if let (Movement::Motion(of_a), Movement::Motion(of_b)) = (a.movement, b.movement) {
             let bodies = [(a.body, of_a), (b.body, of_b)];
@@ -289,7 +289,7 @@ impl<'a> Query<'a> {
     }
 
     /// Returns the distance by which the two bodies may exceed their shapes.
-    pub(crate) fn excess(&self) -> Excess {
-        Excess::sum_of_bodies(self.a.body, self.b.body)
+    pub(crate) fn excess(&self) -> ExcessSum {
+        ExcessSum::sum_of_bodies(self.a.body, self.b.body)
     }
 }

@@ -17,7 +17,7 @@ pub const UNIT_ROUNDOFF_F32: f32 = f32::EPSILON / 2.0;
 /// The relative amount by which a skipped pair of pieces may be nearer than the nearest measured pair. Bounds of nodes
 /// are rounded by at most this share ([`FREE_TIME_FACTOR_F32`]). With this allowance, one measured pair suffices if
 /// many pairs share a corner, or lie in two planes.
-pub const SKIPPED_NEARER_SHARE: f64 = 1.0 / 65536.0;
+pub const SKIPPED_PAIR_ALLOWANCE: f64 = 1.0 / 65536.0;
 
 /// The range of squared lengths that are computed with a relative error of a few [`UNIT_ROUNDOFF_F64`]. A component
 /// whose own square underflows, below 2.2e-308, is negligible in this range.
@@ -157,7 +157,7 @@ pub const RATE_ERROR_F32: f32 = 2e-6;
 /// centre of rotation, when the largest speed is computed. That vector, the arm, is the difference of two positions, a
 /// node's and that of its body's centre of rotation, each rounded by 1u. The share is 4u of the 33u of
 /// [`RATE_ERROR_F32`].
-pub const ARM_DISTANCE_SHARE: f64 = 1.0 / 8.0;
+pub const ARM_INCREASE_PER_DISTANCE: f64 = 1.0 / 8.0;
 
 /// The factor that lowers a free time computed in f32, to allow for the rounding of the computation from gap and rate.
 ///
@@ -176,7 +176,7 @@ pub const CROSS_PRODUCT_ERROR_F32: f32 = 8.0 * UNIT_ROUNDOFF_F32;
 /// 7e-46, are less than `u` of their sum; below 1e-22 they would leave a vector that is off by a fifth. Half sizes'
 /// products with it that underflow are less than 1e-27 of a unit vector's. Nothing is lost: shorter vectors cross gaps
 /// below [`LEAST_GAP_F32`].
-pub const LEAST_AXIS_F32: f32 = 1e-18;
+pub const LEAST_AXIS_LENGTH_F32: f32 = 1e-18;
 
 /// The least gap for which a free time is computed in f32, in the scene's unit of length; smaller gaps count as closed.
 /// Above it, a second derivative whose product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the
@@ -209,7 +209,7 @@ pub fn turning_axis_rounding(turns: f64) -> f64 {
 /// The decrease of a pair's distance from which on the pair counts as approaching, in units of the distance's rounding.
 /// It is for pairs that are in contact at the start, and is measured from the distance at the start. Four units cover
 /// the rounding of both distances, and the rounding that a rate of zero accumulates over the whole duration.
-pub const RESTING_DECREASE: f64 = 4.0;
+pub const APPROACH_DECREASE: f64 = 4.0;
 
 /// The height along a direction up to which the corners around a point count as level with the point, in units of the
 /// distance's rounding. One unit is for the point, and one for the corners.
@@ -250,7 +250,7 @@ pub const RAY_BOX_WIDENING_F64: f64 = 1e-5;
 /// rounding of nodes that are not too large, so that all of them stop at the same gap. With a slack that grows with the
 /// size of the nodes instead, two flat faces that meet would have all of their larger nodes split before a pair of
 /// pieces is seen.
-pub const NODE_GAP: f64 = 7.0 / 8.0;
+pub const NODE_CLOCK_GAP: f64 = 7.0 / 8.0;
 
 /// The accepted range of weights of a convex combination before they are divided by their sum. No product of a weight
 /// with a coordinate, and no sum of four weights, overflows or underflows.
@@ -258,7 +258,7 @@ pub const WEIGHT_RANGE: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// The least distance from a surface at which a point is certainly inside or outside, in units of the rounding of
 /// distances. The positions of both are rounded.
-pub const INSIDE_DISTANCE: f64 = 4.0;
+pub const CERTAIN_SIDE_DISTANCE: f64 = 4.0;
 
 /// The distance beside an edge at which points of a flat piece are tested, in units of the length of the edge's part on
 /// the piece. It is far above rounding, and below the distance to other features.
@@ -317,7 +317,7 @@ pub const FLAT_THICKNESS_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the velocity along a screw axis, relative to the whole velocity. The axis is off by 4.5u, twice, and
 /// products, sums and differences by 9u; 32u are taken.
-pub const ADVANCE_ERROR_F64: f64 = 32.0 * UNIT_ROUNDOFF_F64;
+pub const SCREW_VELOCITY_ERROR_F64: f64 = 32.0 * UNIT_ROUNDOFF_F64;
 
 /// The amount by which an interval of numbers of turns is widened before the whole numbers in it are taken, both in
 /// turns and relative to the numbers. It is far above the rounding of a quotient, a few units in the last place.

@@ -54,7 +54,7 @@ pub trait Schedule<O: DistanceOracle> {
 impl<O: DistanceOracle, S: EngineSchedule<O>> Schedule<O> for S {
     fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
         match &query.problem {
-            Some(problem) => Ok(self.solve(problem, oracle)),
+            Some(problem) => Ok(self.answer_first_contact(problem, oracle)),
             None => first::first_contact(self, query, oracle),
         }
     }

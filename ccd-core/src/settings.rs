@@ -48,7 +48,7 @@ pub struct Settings {
     /// machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
     /// The vector instructions that are used; answers are the same with any, to the last bit.
-    pub instructions: Instructions,
+    pub vector_instructions: Instructions,
     /// The shortcuts that the search uses; answers have the same guarantee with any of them.
     pub shortcuts: Shortcuts,
     /// A flag that another thread sets to stop the query; `None` if nothing stops it. Soon after it is set, a query
@@ -73,7 +73,7 @@ impl Settings {
         start: StartPolicy::Report,
         budget: limits::DEFAULT_BUDGET,
         deadline: None,
-        instructions: Instructions::Best,
+        vector_instructions: Instructions::Best,
         shortcuts: Shortcuts::ALL,
         stop: None,
     };
@@ -89,11 +89,11 @@ impl Settings {
     /// assert!(negative.check().is_err() && Settings::DEFAULT.check().is_ok());
     /// ```
     pub fn check(&self) -> Result<(), InputError> {
-        self.terms().check(0.0)
+        self.to_query_settings().check(0.0)
     }
 
     /// Returns the settings in the form that a query stores, with the stop flag borrowed.
-    pub(crate) fn terms(&self) -> QuerySettings<'_> {
+    pub(crate) fn to_query_settings(&self) -> QuerySettings<'_> {
         QuerySettings {
             tolerance: self.tolerance,
             margin: self.margin,
@@ -101,7 +101,7 @@ impl Settings {
             start: self.start,
             budget: self.budget,
             deadline: self.deadline,
-            level: self.instructions.level(),
+            level: self.vector_instructions.level(),
             shortcuts: self.shortcuts,
             stop: self.stop.as_deref(),
         }

@@ -55,7 +55,7 @@ impl MovingBody<'_> {
     /// [`InputError::OutOfRange`] for values that [`Query::new`](crate::Query::new) refuses, with a travel of at most
     /// 1e12 from the world's origin.
     pub fn swept_box(&self, duration: f64, settings: &Settings) -> Result<SweptBox, InputError> {
-        let terms = settings.terms();
+        let terms = settings.to_query_settings();
         terms.check(duration)?;
         match self.movement {
             Movement::Motion(motion) => swept_box_of_motion(self.body, &motion, duration, &terms),
@@ -67,7 +67,7 @@ impl MovingBody<'_> {
 }
 
 /// The number of equal parts into which the duration of a trajectory is cut; each part is cut again at a corner.
-const PART_COUNT: usize = 16;
+const DURATION_PART_COUNT: usize = 16;
 
 /// Computes a box that contains the body on its whole trajectory, as the union of the boxes of short stretches.
 fn swept_box_of_stretches(
@@ -77,9 +77,9 @@ fn swept_box_of_stretches(
     terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     let (mut whole, mut from): (Option<SweptBox>, f64) = (None, 0.0);
-    for k in 1..=PART_COUNT {
-        let to = if k < PART_COUNT {
-            duration * (k as f64 / PART_COUNT as f64)
+    for k in 1..=DURATION_PART_COUNT {
+        let to = if k < DURATION_PART_COUNT {
+            duration * (k as f64 / DURATION_PART_COUNT as f64)
         } else {
             duration
         };
@@ -97,7 +97,7 @@ fn swept_box_of_stretches(
             from = end;
         }
     }
-    // `PART_COUNT` is not 0.
+    // `DURATION_PART_COUNT` is not 0.
     whole.map_or_else(
         || swept_box_of_motion(body, &Motion::STILL, duration, terms),
         Ok,
@@ -114,7 +114,7 @@ fn swept_box_of_stretch(
     let swept = swept_box_of_motion(body, &stretch.motion, time, terms)?;
     let reach = body.tree().max_distance_from(stretch.motion.centre());
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
-    let room = (moved + stretch.deviation.at(reach)) * (1.0 + RETIMED_POSE_ERROR_F64);
+    let room = (moved + stretch.deviation_bound.at(reach)) * (1.0 + RETIMED_POSE_ERROR_F64);
     // A value that is no bound is NaN. Then the body may be anywhere.
     let room = DVec3::splat(if room >= 0.0 { room } else { f64::INFINITY });
     let rounding =
@@ -140,10 +140,10 @@ fn swept_box_of_motion(
     };
     side.check()?;
     let BodyWithPath { path, .. } = &side;
-    let (low, high) = box_at_start(&side);
+    let (low, high) = box_of_all_orientations(&side);
     // As seen from the centre of rotation, which moves straight, the body only turns.
     let way = path.velocity;
-    let room = DVec3::splat(half_contact_distance(&side, terms));
+    let room = DVec3::splat(box_growth(&side, terms));
     Ok(SweptBox {
         min: low + componentwise_min(way, DVec3::ZERO) - room,
         max: high + componentwise_max(way, DVec3::ZERO) + room,
@@ -152,14 +152,17 @@ fn swept_box_of_motion(
 
 /// Returns a box, by its least and greatest corner, that contains the body in all orientations of its motion with its
 /// centre of rotation held at the start.
-fn box_at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
+fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().body_box();
     let frame = path.frame(0.0);
     let centre = frame.point(whole.centre);
     let reach = DVec3::AXES.map(|axis| {
         let along = frame.inverse_vector(axis);
-        let half = (whole.axes.transpose() * along).abs().dot(whole.half) + whole.slack;
+        let half = (whole.axes.transpose() * along)
+            .abs()
+            .dot(whole.half_extents)
+            + whole.slack;
         lesser(half, whole.radius)
     });
     // No point is farther from the centre of rotation.
@@ -175,10 +178,10 @@ fn box_at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
 
 /// Returns the length by which a box is grown: half the contact distance plus a bound of the rounding of the box. The
 /// contact distance is the margin plus the tolerance, which may be raised to the least that can be certified.
-fn half_contact_distance(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
+fn box_growth(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;
-    let rounding = body_distance_rounding(side.span(), path.rate, way);
+    let rounding = body_distance_rounding(side.max_distance_bound(), path.rate, way);
     // The box takes no more operations than a distance, and its sums round by a few units of the greatest number.
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }

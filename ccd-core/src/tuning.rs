@@ -17,11 +17,11 @@ pub const WORK_BETWEEN_CLOCK_READS: u64 = 256;
 /// the tolerance, for bodies that turn many times. A contact in the searched period is then a contact of the bodies.
 /// The rest of the tolerance suffices for the search. Twice this share is reserved, for rounding and for the change
 /// together.
-pub const PERIOD_CHANGE_SHARE: f64 = 0.25;
+pub const MAX_DISTANCE_CHANGE_SHARE: f64 = 0.25;
 
 /// The largest share of the duration that the searched periods of repeating motions may take together. If they take
 /// more, the whole duration is searched at once.
-pub const MAX_PERIOD_SHARE: f64 = 0.5;
+pub const MAX_SEARCHED_SHARE: f64 = 0.5;
 
 /// The share of the gap along a fixed plane that rotation must use up for a plane that turns with the body to be tried.
 /// Measured: pieces as small as those of common meshes stay far below, large ones that turn past small ones are far
@@ -62,7 +62,7 @@ pub const CUT_DEVIATION_RATIO: f64 = 16.0;
 /// The length above which a stretch of time is halved without a measurement of the distance, as a share of the
 /// duration. Measured: over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves
 /// alone. With measurements in long stretches as well it takes 1.02 of them, and in the worst scene 51 times as many.
-pub const MIN_UNMEASURED_SHARE: f64 = 0.125;
+pub const MIN_UNMEASURED_LENGTH_SHARE: f64 = 0.125;
 
 /// The estimated length below which a stretch of time is cut to that length before it is searched, as a share of the
 /// stretch.
@@ -91,7 +91,7 @@ pub const MIN_NEWTON_GROWTH: f64 = 1.0 / 64.0;
 
 /// The slack above which a pair of pieces in contact at the start is advanced further, in units of the distance's
 /// rounding. The slack is the excess of the gap over the required gap. It is a part of
-/// [`RESTING_DECREASE`](crate::rounding::RESTING_DECREASE). Below it is the rounding of heights: each visit would find
+/// [`APPROACH_DECREASE`](crate::rounding::APPROACH_DECREASE). Below it is the rounding of heights: each visit would find
 /// some of it again, and a slowly approaching pair would be visited a million times before it is in contact.
 pub const MIN_RESTING_SLACK: f64 = 1.0 / 16.0;
 
@@ -102,19 +102,19 @@ pub const REVISIT_DISTANCE: f32 = 0.5;
 
 /// The share of a node's radius that is added to its thickness when the thicker of two nodes is chosen for a split. It
 /// lets flat nodes that are seen edge-on be split as well.
-pub const ADDED_THICKNESS: f32 = 0.1;
+pub const THICKNESS_PER_RADIUS: f32 = 0.1;
 
 /// The longest time for which a bound along a plane that turns with a body is used, in units of the duration. The bound
 /// has to cover the motion of the bodies in that time.
 pub const MAX_TURNING_PLANE_TIME: f32 = 1.0 / 16.0;
 
 /// The ratio of two nodes' radii above which a plane that turns with the larger node is tried.
-pub const MUCH_LARGER_RATIO: f32 = 3.0;
+pub const MIN_TURNING_PLANE_RADIUS_RATIO: f32 = 3.0;
 
 /// The distance that a large turning node moves past a small node, beyond which the pair is advanced once more rather
 /// than split, in units of the large node's radius. It is the distance during the certified time. The children of the
 /// large node would be swept past all the same. Measured on discs and on soups of large triangles.
-pub const MIN_SWEEP: f32 = 1.0 / 128.0;
+pub const MIN_REVISIT_SWEEP: f32 = 1.0 / 128.0;
 
 /// The largest number of rays that are tried to compute the winding number of a surface about a point. A ray fails if
 /// it passes an edge by less than rounding: one in 10⁸ does, even of a million triangles.
@@ -128,7 +128,7 @@ pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 /// The largest number of corners of the polytope that is grown inside the Minkowski difference of two pieces to decide
 /// whether they intersect. Each corner improves the least depth found. A few tens were enough for pieces of a thousand
 /// corners that begin to overlap.
-pub const MAX_INNER_POLYTOPE_CORNERS: usize = 256;
+pub const MAX_OVERLAP_POLYTOPE_CORNERS: usize = 256;
 
 /// The depths below a flat piece at which a point inside its solid is sought, in this order, in units of the piece's
 /// size. The first is far above the distance at which a point counts as off the surface; the others reach inside

@@ -43,7 +43,7 @@ impl Model {
     /// [`StoreFault::Unwritable`] if the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
-        ccd_file::write(path, |out| self.store(out))
+        ccd_file::write(path, |out| self.write_stored(out))
             .map_err(|error| StoreError::new(path, StoreFault::Unwritable(error)))
     }
 
@@ -58,7 +58,7 @@ impl Model {
     pub fn load(path: impl AsRef<Path>) -> Result<Self, StoreError> {
         let path = path.as_ref();
         let file = File::open(path).map_err(StoreFault::Unreadable);
-        file.and_then(|file| Model::unpack(BufReader::new(file)))
+        file.and_then(|file| Model::read_stored(BufReader::new(file)))
             .map_err(|fault| StoreError::new(path, fault))
     }
 
@@ -67,7 +67,7 @@ impl Model {
     /// # Errors
     /// [`StoreFault::Unwritable`] if the writer fails.
     pub fn write(&self, writer: impl Write) -> Result<(), StoreError> {
-        Ok(self.store(writer).map_err(StoreFault::Unwritable)?)
+        Ok(self.write_stored(writer).map_err(StoreFault::Unwritable)?)
     }
 
     /// Reads a model from any reader, to the end, with the guarantee of [`Model::load`].
@@ -75,10 +75,10 @@ impl Model {
     /// # Errors
     /// [`StoreError`], without the name of a file.
     pub fn read(reader: impl Read) -> Result<Self, StoreError> {
-        Ok(Model::unpack(reader)?)
+        Ok(Model::read_stored(reader)?)
     }
 
-    fn store(&self, writer: impl Write) -> io::Result<()> {
+    fn write_stored(&self, writer: impl Write) -> io::Result<()> {
         let Model {
             pieces,
             hierarchy,
@@ -97,7 +97,7 @@ impl Model {
         frame::write(writer, &payload)
     }
 
-    fn unpack(reader: impl Read) -> Result<Self, StoreFault> {
+    fn read_stored(reader: impl Read) -> Result<Self, StoreFault> {
         let payload = frame::read(reader)?;
         let (stored, rest): (Stored, &[u8]) = postcard::take_from_bytes(&payload)
             .map_err(|error| StoreFault::invalid_content(&error))?;

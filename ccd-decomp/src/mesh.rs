@@ -91,7 +91,7 @@ impl TriangleMesh {
         Ok(TriangleMesh::from_polygons(Polygons {
             vertices: vertices.collect(),
             corners: faces.iter().flatten().map(|&v| i64::from(v)).collect(),
-            ends: (1..=faces.len()).map(|k| 3 * k).collect(),
+            corner_ends: (1..=faces.len()).map(|k| 3 * k).collect(),
             ..Polygons::default()
         })?)
     }
@@ -104,7 +104,7 @@ impl TriangleMesh {
         };
         let triangles = polygons.triangulate(&mut repairs);
         repairs.note_unreferenced_vertices(polygons.vertices.len(), &polygons.corners);
-        let face_count = polygons.ends.len() as u32;
+        let face_count = polygons.corner_ends.len() as u32;
         let vertices = std::mem::take(&mut polygons.vertices);
         // Freed early: it may be larger than the mesh.
         drop(polygons);

@@ -17,7 +17,7 @@ use crate::work::Work;
 use ccd_core::Volume;
 use error::PrepareError;
 use model::{Model, PreparedBody};
-use parts::{PiecesByKind, PiecesChoice, triangle_tree};
+use parts::{PiecesChoice, PiecesOfOneKind, triangle_tree};
 use report::PieceReason;
 
 /// The kind of pieces that a body is made of.
@@ -106,23 +106,23 @@ impl PiecesChoice {
         let (parts, why) = match detail {
             Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK_BUDGET)),
             Detail::Triangles | Detail::Surface => {
-                (PiecesByKind::Triangles, PieceReason::Requested)
+                (PiecesOfOneKind::Triangles, PieceReason::Requested)
             }
             Detail::Patches(order) => (
-                PiecesByKind::Patches(decompose(mesh, order)?),
+                PiecesOfOneKind::Patches(decompose(mesh, order)?),
                 PieceReason::Requested,
             ),
             Detail::Hull => {
                 let polytope = convex_polytope(&solid_surface(mesh)?)?;
                 (
-                    PiecesByKind::Hull(Box::new(polytope)),
+                    PiecesOfOneKind::Hull(Box::new(polytope)),
                     PieceReason::Requested,
                 )
             }
             Detail::OuterHull => {
                 let hull = outer_hull(mesh, &topology)?;
                 (
-                    PiecesByKind::OuterHull(Box::new(hull)),
+                    PiecesOfOneKind::OuterHull(Box::new(hull)),
                     PieceReason::Requested,
                 )
             }

@@ -46,19 +46,22 @@ impl TriangleBoxes {
     ///
     /// # Guarantee
     /// An omitted triangle shares no point with the region, except perhaps a common corner.
-    pub(crate) fn all_faces_meeting(
+    pub(crate) fn all_meeting_faces_satisfy(
         &self,
         region: &Region,
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        if !self.single_face_tree.all_meeting(region, work, &mut holds) {
+        if !self
+            .single_face_tree
+            .all_meeting_faces_satisfy(region, work, &mut holds)
+        {
             return false;
         }
         self.bounds
             .all_meeting_boxes_satisfy(&region.bounds, |fan| {
                 let fan = &self.fans[fan as usize];
-                work.spend(1) && fan.all_meeting(&region.shape, work, &mut holds)
+                work.spend(1) && fan.all_meeting_faces_satisfy(&region.shape, work, &mut holds)
             })
     }
 

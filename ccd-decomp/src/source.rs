@@ -102,7 +102,7 @@ impl BodySource {
     /// # Errors
     /// Those of [`BodySource::load`].
     pub fn load_in_unit(&self, unit: Unit, detail: Detail) -> Result<PreparedBody, BodyError> {
-        self.load_adjusted(&Adjustments::NONE.converted_to(unit), detail)
+        self.load_adjusted(&Adjustments::NONE.with_target_unit(unit), detail)
     }
 
     /// Creates the body like [`BodySource::load`], with adjustments to mesh files in addition to those of the
@@ -140,11 +140,11 @@ impl BodySource {
                 &SolidOfRevolution::cone(radius, half_height)?,
                 excess,
             )?,
-            BodySource::Stored(ref path) if adjustments.are_for_meshes_only() => {
+            BodySource::Stored(ref path) if adjustments.has_mesh_only_adjustment() => {
                 return Err(SourceError::AdjustedStoredBody { file: path.clone() }.into());
             }
             BodySource::Stored(ref path) => {
-                with_file_path(path, Model::load(path)?.into_prepared_body())?
+                add_file_path_to_error(path, Model::load(path)?.into_prepared_body())?
             }
             BodySource::Mesh(ref source) => {
                 let source = MeshSource {
@@ -153,7 +153,7 @@ impl BodySource {
                 };
                 let (mesh, unit) = source.read()?;
                 let made = body_from_mesh(&mesh, source.detail(detail));
-                let prepared = with_file_path(source.to_string().as_ref(), made)?;
+                let prepared = add_file_path_to_error(source.to_string().as_ref(), made)?;
                 return Ok(PreparedBody { unit, ..prepared });
             }
         };
@@ -183,7 +183,7 @@ impl BodySource {
     }
 }
 
-fn with_file_path<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
+fn add_file_path_to_error<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
     made.map_err(|error| BodyError::FileContent {
         file: path.into(),
         error,
@@ -202,7 +202,10 @@ impl FromStr for BodySource {
             Some((shape, given)) => (shape, given.split(',').map(str::trim).collect()),
             None => (text, Vec::new()),
         };
-        if let Some(&(shape, expected)) = SHAPE_LENGTHS.iter().find(|(known, _)| *known == shape) {
+        if let Some(&(shape, expected)) = SHAPE_LENGTH_COUNTS
+            .iter()
+            .find(|(known, _)| *known == shape)
+        {
             return parse_shape(shape, expected, &given);
         }
         match text.split_once(':') {
@@ -227,7 +230,7 @@ impl FromStr for BodySource {
 }
 
 /// The names of the shapes, with the number of lengths that each takes.
-const SHAPE_LENGTHS: [(&str, usize); 5] = [
+const SHAPE_LENGTH_COUNTS: [(&str, usize); 5] = [
     ("box", 3),
     ("sphere", 1),
     ("capsule", 2),
@@ -247,8 +250,8 @@ fn parse_shape(
     if given != expected && !(is_round && given == expected + 1) {
         return Err(SourceError::WrongLengthCount {
             shape,
-            expected,
-            given,
+            expected_count: expected,
+            given_count: given,
         });
     }
     let lengths = words.iter().map(|word| parse_length(shape, word));
@@ -281,7 +284,7 @@ fn parse_length(shape: &'static str, word: &str) -> Result<f64, SourceError> {
     match word.parse::<f64>() {
         Ok(value) if (0.0..=MAX_COORDINATE).contains(&value) => Ok(value),
         Ok(value) if value > MAX_COORDINATE && value.is_finite() => {
-            Err(SourceError::TooLong { shape, length })
+            Err(SourceError::LengthTooLarge { shape, length })
         }
         _ => Err(SourceError::BadLength { shape, length }),
     }

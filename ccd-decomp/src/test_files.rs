@@ -83,7 +83,7 @@ mod gltf {
         }
 
         /// Appends bytes to the buffer as a buffer view, and returns the view's index.
-        pub(crate) fn add_view(&mut self, bytes: &[u8]) -> usize {
+        pub(crate) fn add_buffer_view(&mut self, bytes: &[u8]) -> usize {
             while !self.buffer.len().is_multiple_of(4) {
                 self.buffer.push(0);
             }
@@ -99,14 +99,14 @@ mod gltf {
                 .flatten()
                 .flat_map(|x| x.to_le_bytes())
                 .collect();
-            let view = self.add_view(&bytes);
+            let view = self.add_buffer_view(&bytes);
             let about = json!({"bufferView": view, "componentType": 5126, "count": points.len(), "type": "VEC3"});
             self.push("accessors", about)
         }
 
         pub(crate) fn indices(&mut self, numbers: &[u16]) -> usize {
             let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
-            let view = self.add_view(&bytes);
+            let view = self.add_buffer_view(&bytes);
             let about = json!({"bufferView": view, "componentType": 5123, "count": numbers.len(), "type": "SCALAR"});
             self.push("accessors", about)
         }
@@ -139,7 +139,7 @@ mod gltf {
         }
 
         /// Returns the file in the text form, with an embedded buffer.
-        pub(crate) fn text(&self) -> Vec<u8> {
+        pub(crate) fn text_with_embedded_buffer(&self) -> Vec<u8> {
             let data = STANDARD.encode(&self.buffer);
             self.text_with_buffer_uri(&format!("data:application/octet-stream;base64,{data}"))
         }

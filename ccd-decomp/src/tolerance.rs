@@ -24,7 +24,7 @@ pub(crate) const NEIGHBOUR_SEARCH_DISTANCE: usize = 6;
 /// The fraction of the nodes, largest first, that are candidates for reinsertion.
 ///
 /// Unit: one. Larger: better trees by a percent for every doubling, but slower to build.
-pub(crate) const REINSERTED_SHARE: f32 = 0.02;
+pub(crate) const REINSERTION_CANDIDATE_SHARE: f32 = 0.02;
 
 /// The number of rays from a shell after which its nesting counts as unknown.
 ///
@@ -61,7 +61,7 @@ pub(crate) const MAX_EIGEN_ITERATIONS: usize = 256;
 pub(crate) const EXCESS_WORK_BUDGET: u64 = 3 << 23;
 
 /// The number of plane tests that cost as much as one triangle test, which is one step of [`EXCESS_WORK_BUDGET`].
-pub(crate) const PLANES_PER_STEP: usize = 16;
+pub(crate) const PLANE_TESTS_PER_STEP: usize = 16;
 
 /// The maximum number of waiting boxes in the search for a bound on the excess of a hull.
 ///
@@ -74,7 +74,7 @@ pub(crate) const SUFFICIENT_EXCESS_RATIO: f64 = 1.01;
 
 /// The search for a bound on the excess ends when the bound exceeds the largest distance found by at most this, in
 /// units of half the mesh's diagonal. Either this or [`SUFFICIENT_EXCESS_RATIO`] suffices.
-pub(crate) const EXCESS_ABSOLUTE_TOLERANCE: f64 = 1e-4;
+pub(crate) const EXCESS_TOLERANCE_PER_HALF_DIAGONAL: f64 = 1e-4;
 
 /// The maximum number of triangles near a box that are used to bound the excess within the box.
 pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;
@@ -94,7 +94,7 @@ pub(crate) struct PieceCost {
 /// Measured on a perforated plate (coarse and fine), an L-prism, a comb and a gear of 460 to 7,452
 /// triangles against a ring of 10,000: medians of 22, 23, 24, 20, 38 µs. Laid flat on themselves, to a
 /// tolerance of 1e-9, about 1 to 13 µs for every triangle of the plane.
-pub(crate) const TRIANGLE_COST: PieceCost = PieceCost {
+pub(crate) const TRIANGLE_QUERY_COST: PieceCost = PieceCost {
     typical_time: 23.0,
     resting_time: 5.0,
 };
@@ -104,7 +104,7 @@ pub(crate) const TRIANGLE_COST: PieceCost = PieceCost {
 /// A query takes 2.4 times as long with patches, the median of random pairs of parts of real robots
 /// (`ccd-bench/scripts/pieces.py`; a third to 600 times); and about 4 to 10 µs for every patch of a plane
 /// laid flat.
-pub(crate) const PATCH_COST: PieceCost = PieceCost {
+pub(crate) const PATCH_QUERY_COST: PieceCost = PieceCost {
     typical_time: 55.0,
     resting_time: 6.0,
 };
@@ -115,10 +115,10 @@ pub(crate) const RESTING_QUERY_SHARE: f64 = 1.0 / 50.0;
 
 /// The number of bins per doubling of the length, into which edges are sorted by length. Edges in one bin count as
 /// equally long, so that rounding does not separate the edges of a grid.
-pub(crate) const LENGTH_BINS: f64 = 16.0;
+pub(crate) const BINS_PER_LENGTH_DOUBLING: f64 = 16.0;
 
 /// The number of bins per unit of each coordinate of a unit vector, into which edges are sorted by direction.
-pub(crate) const DIRECTION_BINS: f64 = 64.0;
+pub(crate) const DIRECTION_BINS_PER_UNIT: f64 = 64.0;
 
 /// The minimum number of pieces for which the two sides of a hull tree node are built in parallel.
 ///
@@ -152,21 +152,21 @@ pub(crate) const MAX_CROSSINGS: usize = 1000;
 pub(crate) const AUTO_WORK_BUDGET: u64 = 1 << 24;
 
 /// The cost of a vertex that a file expands to, in units of the cost of a face corner, which takes about 25 bytes.
-pub(crate) const VERTEX_COST: u64 = 4;
+pub(crate) const VERTEX_EXPANSION_COST: u64 = 4;
 
 /// The constant part of the limit on what a file may expand to by repeated references, in face corners.
 ///
 /// Unit: the cost of a corner, and of a part. More: a hostile file of a kilobyte takes more memory. Fewer: small
 /// files with many instances are refused.
-pub(crate) const EXPANSION_BASE: u64 = 1 << 20;
+pub(crate) const BASE_EXPANSION_LIMIT: u64 = 1 << 20;
 
 /// The part of the limit on what a file may expand to that is proportional to its size, per byte. An assembly of
 /// 1,000 screws of 1,000 triangles takes about 50.
-pub(crate) const EXPANSION_PER_BYTE: u64 = 1 << 8;
+pub(crate) const EXPANSION_LIMIT_PER_BYTE: u64 = 1 << 8;
 
 /// The largest limit on what a file of any size may expand to: about ten million triangles, which take up to 3 GB to
 /// prepare.
-pub(crate) const MAX_EXPANSION: u64 = 1 << 25;
+pub(crate) const MAX_EXPANSION_LIMIT: u64 = 1 << 25;
 
 #[cfg(test)]
 mod tests;

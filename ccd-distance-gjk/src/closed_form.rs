@@ -6,7 +6,7 @@ mod pierce;
 #[cfg(test)]
 mod tests;
 
-use crate::tolerance::{INTERSECTION_SHARE, MIN_CERTIFIED_SHARE};
+use crate::tolerance::{INTERSECTION_TEST_SHARE, MIN_CERTIFIED_SHARE};
 use axis::SeparatingAxisCandidates;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
@@ -14,7 +14,7 @@ use ccd_core::{
     Claim, ConvexCombination, DistanceOracle, GiveUpReason, Instructions, Piece, PiecePair,
     vectorize,
 };
-use nearest::{Corners, Nearest, nearest, support_gap};
+use nearest::{Corners, NearestPoints, nearest_points, support_gap};
 
 /// An oracle for the distance of two points, segments or triangles in closed form, degenerate ones included.
 ///
@@ -73,7 +73,7 @@ impl DistanceOracle for ClosedForm {
     #[inline]
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
         let (p, q) = corners_in_local_frame(pair).ok_or(GiveUpReason::TooManyPoints)?;
-        let near = nearest(self.level, &p, &q);
+        let near = nearest_points(self.level, &p, &q);
         let w = near.difference(&p, &q);
         let separated = support_gap(&p, &q, w) >= MIN_CERTIFIED_SHARE * w.length_squared();
         let (axis, near) = if separated && w.length_squared().is_normal() {
@@ -92,14 +92,22 @@ impl DistanceOracle for ClosedForm {
 /// Returns the best separating axis for pieces that nearly touch or intersect, and a common point if there is one.
 #[cold]
 #[inline(never)]
-fn best_axis_and_points(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
+fn best_axis_and_points(
+    level: Level,
+    p: &Corners,
+    q: &Corners,
+    near: NearestPoints,
+) -> (DVec3, NearestPoints) {
     let w = near.difference(p, q);
     let (axis, gap) =
         vectorize!(level, level => SeparatingAxisCandidates::new(level, p, q, w).best());
-    if gap >= INTERSECTION_SHARE * w.length() && gap > 0.0 {
+    if gap >= INTERSECTION_TEST_SHARE * w.length() && gap > 0.0 {
         return (axis, near);
     }
-    (axis, pierce::common_point(p, q, near))
+    (
+        axis,
+        pierce::nearest_with_edge_plane_intersections(p, q, near),
+    )
 }
 
 /// Returns the corners of both pieces along A's axes, with A's first point as origin; `None` unless both have one to

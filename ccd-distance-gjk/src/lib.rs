@@ -92,4 +92,4 @@ pub type Direct = ccd_core::OrElse<ClosedForm, Gjk>;
 /// Compiles the code in the README as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+struct ReadmeDoctests;

@@ -38,7 +38,7 @@ macro_rules! obeys {
             fn intersecting_triangles() {
                 check_scenes(
                     |rng| scene::intersecting_hulls(rng, 3, 3),
-                    |scene| laws::finds_common_point::<$oracle>(scene, 1e-12),
+                    |scene| laws::check_common_point::<$oracle>(scene, 1e-12),
                 );
             }
 
@@ -59,7 +59,7 @@ macro_rules! obeys {
 
             #[test]
             fn touching() {
-                check_scenes(scene::touching, laws::separates_touching_pieces::<$oracle>);
+                check_scenes(scene::touching, laws::check_touching_pieces::<$oracle>);
             }
 
             #[test]
@@ -69,7 +69,7 @@ macro_rules! obeys {
 
             #[test]
             fn far_from_the_origin() {
-                super::far_from_the_origin::<$oracle>();
+                super::check_far_from_origin::<$oracle>();
             }
 
             #[test]
@@ -102,7 +102,7 @@ fn hulls_of_few_points_obey_all_laws(
 fn intersecting_hulls_have_a_common_point(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::intersecting_hulls(rng, a, b);
     check_scenes(draw, |scene| {
-        laws::finds_common_point::<Gjk>(scene, 1e-12);
+        laws::check_common_point::<Gjk>(scene, 1e-12);
     });
 }
 
@@ -114,9 +114,9 @@ fn flattened_hulls_have_a_common_point(
     #[values(3, 4, 30)] b: usize,
 ) {
     let draw = |rng: &mut Pcg64| scene::flattened_hulls(rng, a, b);
-    check_scenes(draw, |scene| laws::finds_common_point::<Gjk>(scene, 1e-6));
+    check_scenes(draw, |scene| laws::check_common_point::<Gjk>(scene, 1e-6));
     check_scenes(draw, |scene| {
-        laws::finds_common_point::<Direct>(scene, 1e-6);
+        laws::check_common_point::<Direct>(scene, 1e-6);
     });
 }
 
@@ -135,7 +135,7 @@ fn balls_of_many_points_are_certified_apart(
 ) {
     for seed in 0..100 {
         let scene = scene::balls(&mut Pcg64::seed_from_u64(seed), count, gap);
-        laws::certifies_separation::<Gjk>(&scene);
+        laws::check_separation::<Gjk>(&scene);
         laws::check_symmetry::<Gjk>(&scene);
     }
     check_history_independence::<Gjk>(count);
@@ -146,13 +146,13 @@ fn balls_of_many_points_are_certified_apart(
 fn check_random_hulls<O: DistanceOracle + Default>(a: usize, b: usize) {
     let apart = std::cell::Cell::new(0);
     let law = |scene: &Scene| {
-        laws::accepts_finite_input::<O>(scene);
+        laws::check_finite_distance_and_gap::<O>(scene);
         laws::check_symmetry::<O>(scene);
-        let checked = laws::check(scene, &laws::claim_with_empty_cache::<O>(scene));
+        let checked = laws::measure_claim(scene, &laws::claim_with_empty_cache::<O>(scene));
         if checked.distance > 1e-12 * scene.size {
             apart.set(apart.get() + 1);
-            laws::certifies_separation::<O>(scene);
-            laws::agrees_with_brute_force::<O>(scene);
+            laws::check_separation::<O>(scene);
+            laws::check_against_brute_force::<O>(scene);
         }
     };
     check_scenes(|rng| scene::random_hulls(rng, a, b), law);
@@ -170,14 +170,14 @@ fn check_near_contact<O: DistanceOracle + Default>(meeting: NearestFeatures, gap
     };
     let law = |scene: &Scene| {
         check_certified_distance::<O>(scene, gap, slack);
-        laws::agrees_with_brute_force::<O>(scene);
+        laws::check_against_brute_force::<O>(scene);
     };
     check_scenes(|rng| scene::near_contact(rng, meeting, gap), law);
 }
 
 /// Checks that pieces are certified apart at the distance `gap`, or up to `slack` more.
 fn check_certified_distance<O: DistanceOracle + Default>(scene: &Scene, gap: f64, slack: f64) {
-    let checked = laws::certifies_separation::<O>(scene);
+    let checked = laws::check_separation::<O>(scene);
     let range = gap - 1e-13..=gap + slack + 1e-13;
     assert!(
         range.contains(&checked.distance),
@@ -188,10 +188,10 @@ fn check_certified_distance<O: DistanceOracle + Default>(scene: &Scene, gap: f64
 fn check_degenerate_hulls<O: DistanceOracle + Default>() {
     let law = |scene: &Scene| {
         laws::check_symmetry::<O>(scene);
-        laws::accepts_finite_input::<O>(scene);
-        if laws::check(scene, &laws::claim_with_empty_cache::<O>(scene)).distance > 1e-6 {
-            laws::certifies_separation::<O>(scene);
-            laws::agrees_with_brute_force::<O>(scene);
+        laws::check_finite_distance_and_gap::<O>(scene);
+        if laws::measure_claim(scene, &laws::claim_with_empty_cache::<O>(scene)).distance > 1e-6 {
+            laws::check_separation::<O>(scene);
+            laws::check_against_brute_force::<O>(scene);
         }
     };
     check_scenes(scene::degenerate_pieces, law);
@@ -199,12 +199,12 @@ fn check_degenerate_hulls<O: DistanceOracle + Default>() {
 
 /// Checks that pieces 1e6 from the origin get their distance of 1e-6 to within 2e-9, and an axis that certifies half of
 /// it.
-fn far_from_the_origin<O: DistanceOracle + Default>() {
+fn check_far_from_origin<O: DistanceOracle + Default>() {
     let draw = |rng: &mut Pcg64| {
         scene::near_contact(rng, NearestFeatures::CornerFace, 1e-6).in_random_frames(rng, 1e6)
     };
     let law = |scene: &Scene| {
-        let checked = laws::check(scene, &laws::claim_with_empty_cache::<O>(scene));
+        let checked = laws::measure_claim(scene, &laws::claim_with_empty_cache::<O>(scene));
         assert!(
             (checked.distance - 1e-6).abs() <= 2e-9,
             "{checked:?} of {scene:?}"
@@ -229,7 +229,7 @@ fn check_hulls_of_any_scale<O: DistanceOracle + Default>() {
         scene
     };
     let law = |scene: &Scene| {
-        laws::accepts_finite_input::<O>(scene);
+        laws::check_finite_distance_and_gap::<O>(scene);
         laws::check_symmetry::<O>(scene);
     };
     check_scenes(draw, law);
@@ -237,7 +237,7 @@ fn check_hulls_of_any_scale<O: DistanceOracle + Default>() {
         let scale = scene::magnitude(rng, -45.0, 15.0);
         scene::intersecting_hulls(rng, 3, 3).scaled(scale)
     };
-    check_scenes(draw, |scene| laws::finds_common_point::<O>(scene, 1e-12));
+    check_scenes(draw, |scene| laws::check_common_point::<O>(scene, 1e-12));
 }
 
 fn check_history_independence<O: DistanceOracle + Default>(count: usize) {
@@ -252,7 +252,7 @@ fn check_history_independence<O: DistanceOracle + Default>(count: usize) {
         })
         .filter(|scene| count > 3 || scene.a.len().max(scene.b.len()) <= 3)
         .collect();
-    laws::ignores_history::<O>(&scenes);
+    laws::check_independence_of_history::<O>(&scenes);
 }
 
 /// Checks that claims name only existing points of the pieces, in three successive calls.

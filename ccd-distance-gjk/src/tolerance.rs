@@ -12,7 +12,7 @@ pub(crate) const MIN_CERTIFIED_SHARE: f64 = 63.0 / 64.0;
 
 /// Pieces are tested for intersection if the gap along the best axis is less than this fraction of the nearest points'
 /// distance. The nearest features' own axes keep [`MIN_CERTIFIED_SHARE`]; a half is far from it and from 0.
-pub(crate) const INTERSECTION_SHARE: f64 = 0.5;
+pub(crate) const INTERSECTION_TEST_SHARE: f64 = 0.5;
 
 /// The largest number of steps of a GJK search.
 ///
@@ -47,8 +47,8 @@ pub(crate) const MAX_AXIS_VERTICES: usize = 12;
 /// The number of times that the weights of a point inside a tetrahedron are corrected by their
 /// error. A tetrahedron that is flat by a factor f loses f·u; two rounds recover the loss for f =
 /// 1e10.
-pub(crate) const WEIGHT_CORRECTIONS: u32 = 2;
+pub(crate) const WEIGHT_CORRECTION_ROUNDS: u32 = 2;
 
-/// The largest number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal`] is used,
+/// The largest number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal_point`] is used,
 /// which need not scan all.
 pub(crate) const MAX_SCANNED_POINTS: usize = ccd_core::tuning::MAX_SCANNED_POINTS;

@@ -3,7 +3,7 @@
 use crate::feature::{Feature, Pair};
 use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::polytope::{Polytope, unit};
-use crate::tolerance::{CERTIFIED_EXCESS, MAX_AXIS_EDGES, RELATIVE_CERTIFIED_EXCESS};
+use crate::tolerance::{MAX_AXIS_EDGES, MAX_CERTIFIED_EXCESS, MAX_RELATIVE_CERTIFIED_EXCESS};
 use crate::witness::{Witness, perpendicular_part};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -34,7 +34,8 @@ impl Axis {
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
-        let slack = CERTIFIED_EXCESS * placed.scale.size + RELATIVE_CERTIFIED_EXCESS * distance;
+        let slack =
+            MAX_CERTIFIED_EXCESS * placed.scale.size + MAX_RELATIVE_CERTIFIED_EXCESS * distance;
         self.direction != DVec3::ZERO && distance - self.gap <= slack
     }
 }
@@ -51,10 +52,10 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
 /// Returns an upper bound of the gap along a direction, from two corners that are extremal up to rounding.
 fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
-    let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
+    let highest = placed.a.0.vertex(placed.a.0.extremal_vertex(n)).point;
     let shape = placed.b.shape();
     let own = -placed.b.local_direction(n);
-    let lowest = placed.b.vertex(shape.extremal(own));
+    let lowest = placed.b.vertex(shape.extremal_vertex(own));
     // The axis of a zero direction separates nothing.
     let known = n != DVec3::ZERO;
     if known {
@@ -123,7 +124,7 @@ impl FeatureDirections {
         edges.truncate(MAX_AXIS_EDGES);
         let faces = shape.faces_at(feature, &edges);
         let normals = faces.iter().map(|&f| shape.face(f).normal);
-        let within = edges.iter().flat_map(|&e| shape.edge(e).inward);
+        let within = edges.iter().flat_map(|&e| shape.edge(e).inward_directions);
         let along = edges.iter().map(|&e| shape.edge(e).along);
         let turned = |local| polytope.vector(local);
         FeatureDirections {

@@ -7,9 +7,9 @@ use crate::march::{march, step};
 use crate::neighbourhood;
 use crate::penetration;
 use crate::placed::PlacedPair;
-use crate::start::extremal;
+use crate::start::extremal_pair;
 use crate::termination::MarchEnd;
-use crate::tolerance::{CERTAIN_DISTANCE, MAX_CYCLE_PAIRS, MAX_RESTARTS, MAX_TIE_MOVES};
+use crate::tolerance::{MAX_CYCLE_PAIRS, MAX_RESTARTS, MAX_TIE_MOVES, MIN_CERTAIN_DISTANCE};
 use crate::touching;
 use crate::witness::Witness;
 use ccd_core::glam::DVec3;
@@ -41,24 +41,24 @@ pub(crate) fn certify_march_end(
             MarchEnd::StepLimit(_) => GiveUpReason::StepCap,
             MarchEnd::Nearest(..) | MarchEnd::CommonPoint(..) | MarchEnd::Unclear(_) => why,
         };
-        let from = match check(placed, end, counters) {
-            CheckResult::Certified(answer) => return Ok(answer),
-            CheckResult::NearerPair(pair) => pair,
-            CheckResult::Uncertified(_) if restarts == MAX_RESTARTS => break,
-            CheckResult::Uncertified(axis) => {
+        let from = match certify_end(placed, end, counters) {
+            CertificationResult::Certified(answer) => return Ok(answer),
+            CertificationResult::NearerPair(pair) => pair,
+            CertificationResult::Uncertified(_) if restarts == MAX_RESTARTS => break,
+            CertificationResult::Uncertified(axis) => {
                 counters.restarts += 1;
                 restarts += 1;
-                extremal(placed, axis)
+                extremal_pair(placed, axis)
             }
         };
         end = march(placed, from, counters);
     }
-    let found = search_common_point(placed, extremal(placed, placed.b.origin()), counters);
+    let found = search_common_point(placed, extremal_pair(placed, placed.b.origin()), counters);
     found.ok_or(why)
 }
 
 /// The result of checking the end of a march: certified, or how to continue.
-enum CheckResult {
+enum CertificationResult {
     Certified(Certified),
     /// The end is not certified: a neighbouring pair of features is nearer.
     NearerPair(Pair),
@@ -66,32 +66,38 @@ enum CheckResult {
     Uncertified(DVec3),
 }
 
-fn check(placed: &PlacedPair<'_>, end: MarchEnd, counters: &mut Counters) -> CheckResult {
+fn certify_end(
+    placed: &PlacedPair<'_>,
+    end: MarchEnd,
+    counters: &mut Counters,
+) -> CertificationResult {
     match end {
-        MarchEnd::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
+        MarchEnd::Nearest(pair, certainty) => certify_stop(placed, pair, certainty),
         MarchEnd::CommonPoint(pair, which, crossing) => {
             counters.penetrations += 1;
-            CheckResult::Certified((pair, touching::common(placed, which, &crossing)))
+            CertificationResult::Certified((pair, touching::common(placed, which, &crossing)))
         }
         MarchEnd::Unclear(pair) => match search_common_point(placed, pair, counters) {
-            Some(answer) => CheckResult::Certified(answer),
-            None => check_cycle(placed, pair),
+            Some(answer) => CertificationResult::Certified(answer),
+            None => certify_cycle(placed, pair),
         },
-        MarchEnd::Cycle(pair) | MarchEnd::StepLimit(pair) => check_cycle(placed, pair),
+        MarchEnd::Cycle(pair) | MarchEnd::StepLimit(pair) => certify_cycle(placed, pair),
     }
 }
 
 /// Certifies the pair of features at which a march stopped, unless the pair is certain already.
-fn check_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> CheckResult {
+fn certify_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> CertificationResult {
     let witness = Witness::new(placed, pair);
-    if certainty == Certainty::Sure || witness.distance() >= CERTAIN_DISTANCE * placed.scale.size {
-        return CheckResult::Certified((pair, witness.claim));
+    if certainty == Certainty::Sure
+        || witness.distance() >= MIN_CERTAIN_DISTANCE * placed.scale.size
+    {
+        return CertificationResult::Certified((pair, witness.claim));
     }
     certify_tie(placed, pair)
 }
 
 /// Certifies the pair of features with the least distance among the pairs of a cycle.
-fn check_cycle(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
+fn certify_cycle(placed: &PlacedPair<'_>, start: Pair) -> CertificationResult {
     let (mut pair, mut nearest) = (start, start);
     let mut least = Witness::new(placed, start).distance();
     for _ in 0..MAX_CYCLE_PAIRS {
@@ -112,7 +118,7 @@ fn check_cycle(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
 
 /// Certifies a pair of features by the best axis of the features around it. If that fails, it tries nearer neighbouring
 /// pairs. A new march might end at the same tie.
-fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
+fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CertificationResult {
     let mut pair = start;
     for _ in 0..MAX_TIE_MOVES {
         let witness = Witness::new(placed, pair);
@@ -127,19 +133,19 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
             None if axis.gap >= 0.5 * distance => {
                 return certified_along_axis(pair, &witness, axis.direction);
             }
-            None => return CheckResult::Uncertified(axis.direction),
+            None => return CertificationResult::Uncertified(axis.direction),
         }
     }
-    CheckResult::NearerPair(pair)
+    CertificationResult::NearerPair(pair)
 }
 
 /// Returns the certified claim with the points of a witness and the given axis.
-fn certified_along_axis(pair: Pair, witness: &Witness, axis: DVec3) -> CheckResult {
+fn certified_along_axis(pair: Pair, witness: &Witness, axis: DVec3) -> CertificationResult {
     let claim = Claim {
         axis,
         ..witness.claim
     };
-    CheckResult::Certified((pair, claim))
+    CertificationResult::Certified((pair, claim))
 }
 
 /// Searches all edges and faces for a point where the polytopes cross; `None` if there is no such point.

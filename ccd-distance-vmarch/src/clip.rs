@@ -26,7 +26,7 @@ pub(crate) fn clip_to_prism<Y: PlacedPolytope>(
     };
     let (mut from, mut to) = (uncut(0.0), uncut(line.length));
     for side in y.shape().sides_of(face) {
-        let (start, inward) = (y.point(side.start), y.vector(side.inward));
+        let (start, inward) = (y.point(side.start), y.vector(side.inward_direction));
         let at_start = (line.start - start).dot(inward);
         let at_end = (end - start).dot(inward);
         if at_start < 0.0 && at_end < 0.0 {
@@ -53,7 +53,7 @@ pub(crate) fn clip_to_prism<Y: PlacedPolytope>(
 /// Returns the middle of the overlap of two parallel segments, or the end of `one` that is nearest to `other`, as a
 /// parameter of `one`.
 #[inline]
-pub(crate) fn middle_of_overlap(one: &Line, other: &Line) -> f64 {
+pub(crate) fn parameter_of_overlap_middle(one: &Line, other: &Line) -> f64 {
     let start = one.nearest(other.start);
     let end = one.nearest(other.at(other.length));
     0.5 * (start + end)

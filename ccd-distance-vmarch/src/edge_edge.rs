@@ -3,7 +3,7 @@
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
-use crate::placed::{Line, PlacedPolytope, Scale, clamp};
+use crate::placed::{Line, PlacedPolytope, RoundingScale, clamp};
 use crate::polytope::Edge;
 use crate::tolerance::{MAX_PARALLEL_SINE, PRODUCT_ERROR};
 use crate::vertex_edge::face_towards_point;
@@ -20,7 +20,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     e: u32,
     y: &Y,
     f: u32,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> MarchStep {
     let (one, other) = (x.line(e), y.line(f));
     let (edge_x, edge_y) = (x.shape().edge(e), y.shape().edge(f));
@@ -69,7 +69,7 @@ impl NearestPoints {
     /// otherwise. The cross product is tilted by its own rounding over the sine, `offset` by the rounding of the
     /// positions over the distance.
     #[inline(always)]
-    pub(crate) fn axis(&self, offset: DVec3, scale: Scale) -> Option<DVec3> {
+    pub(crate) fn axis(&self, offset: DVec3, scale: RoundingScale) -> Option<DVec3> {
         // Written so that NaN does not turn it.
         let turned = if self.cross_product.dot(offset) < 0.0 {
             -1.0
@@ -93,7 +93,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> NearestPoints {
     let s = if square > MAX_PARALLEL_SINE * MAX_PARALLEL_SINE {
         clamp(between.cross(other.along).dot(across) / square, one.length)
     } else {
-        clip::middle_of_overlap(one, other)
+        clip::parameter_of_overlap_middle(one, other)
     };
     let free = (one.at(s) - other.start).dot(other.along);
     let t = clamp(free, other.length);
@@ -134,7 +134,7 @@ struct NearestVector {
 
 impl NearestVector {
     #[inline(always)]
-    fn new(near: &NearestPoints, offset: DVec3, scale: Scale) -> Self {
+    fn new(near: &NearestPoints, offset: DVec3, scale: RoundingScale) -> Self {
         let across = near.axis(offset, scale);
         NearestVector {
             offset,
@@ -155,34 +155,39 @@ impl NearestVector {
     /// Returns the face of an edge towards which the other edge's nearest point lies; `None` if that point is in the
     /// edge's Voronoi region. Of two such faces, it is the face that the point is higher above.
     #[inline(always)]
-    fn face_side<P: PlacedPolytope>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
+    fn face_side<P: PlacedPolytope>(
+        self,
+        p: &P,
+        edge: &Edge,
+        slopes: [f64; 2],
+    ) -> Option<OuterSide> {
         let inward = slopes.map(|slope| slope - self.slack);
         let face = face_towards_point(p, edge.faces, inward, self.offset)?;
         let is_above = || p.vector(p.shape().face(face).normal).dot(self.offset) > 0.0;
         let beyond_both = inward.iter().all(|&into| into > 0.0);
         Some(if beyond_both && !is_above() {
-            Side::Behind(face)
+            OuterSide::Behind(face)
         } else {
-            Side::InFront(face)
+            OuterSide::InFront(face)
         })
     }
 }
 
 /// The side of an edge on which a point outside the edge's Voronoi region lies.
-enum Side {
+enum OuterSide {
     /// The point is on the side of this face.
     InFront(u32),
     /// The point is behind both faces of the edge, and less far behind this face.
     Behind(u32),
 }
 
-impl Side {
+impl OuterSide {
     /// Returns the march's next step: the pair of the face of X and the feature of Y, or a local minimum for a point
     /// behind both faces.
     fn next_pair(&self, feature: Feature, point: DVec3) -> MarchStep {
         match *self {
-            Side::InFront(face) => MarchStep::Continue(Feature::Face(face), feature),
-            Side::Behind(face) => MarchStep::LocalMinimum(
+            OuterSide::InFront(face) => MarchStep::Continue(Feature::Face(face), feature),
+            OuterSide::Behind(face) => MarchStep::LocalMinimum(
                 WhichPolytope::Y,
                 LocalMinimum {
                     feature,

@@ -4,7 +4,7 @@ use crate::clip;
 use crate::edge_edge;
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::penetration;
-use crate::placed::{Line, PlacedPolytope, Scale};
+use crate::placed::{Line, PlacedPolytope, RoundingScale};
 
 /// Computes the march's next step from an edge and a face, at the edge's lowest point within the face's prism. The step
 /// leads to the edge's end, or to the side of the face that clips the edge there. An edge outside the prism leads to
@@ -18,7 +18,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     e: u32,
     y: &Y,
     f: u32,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> MarchStep {
     let line = x.line(e);
     let ends = x.shape().edge(e).ends;

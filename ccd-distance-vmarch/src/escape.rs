@@ -2,7 +2,7 @@
 
 use crate::feature::{Crossing, Feature, LocalMinimum};
 use crate::penetration;
-use crate::placed::{PlacedPolytope, Scale};
+use crate::placed::{PlacedPolytope, RoundingScale};
 use ccd_core::glam::DVec3;
 
 /// How the march continues from a local minimum.
@@ -21,7 +21,7 @@ pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     minimum: LocalMinimum,
     y: &Y,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> Escape {
     if let Some((face, height)) = farthest(minimum.point, y)
         && height > scale.rounding()

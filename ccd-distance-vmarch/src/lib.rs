@@ -143,4 +143,4 @@ pub use start::Cache;
 /// Compiles the code in the README as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+struct ReadmeDoctests;

@@ -35,7 +35,7 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
                 }
             }
         };
-        if brent.is_repeated(pair) {
+        if brent.record_and_detect(pair) {
             counters.cycles += 1;
             return MarchEnd::Cycle(pair);
         }

@@ -33,7 +33,7 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
                 vertex_or_edge_at(&placed.a, e, s),
                 vertex_or_edge_at(&placed.b, f, t),
             );
-            best.update(one.at(s).distance(other.at(t)), ends.0, ends.1);
+            best.keep_if_nearer(one.at(s).distance(other.at(t)), ends.0, ends.1);
         }
     }
     for &v in &a.vertices {
@@ -42,11 +42,11 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
             let line = placed.b.line(f);
             let t = line.nearest(point);
             let end = vertex_or_edge_at(&placed.b, f, t);
-            best.update(line.at(t).distance(point), Feature::Vertex(v), end);
+            best.keep_if_nearer(line.at(t).distance(point), Feature::Vertex(v), end);
         }
         for &f in &b.faces {
             let height = height_above_face(point, &placed.b, f);
-            best.update(height, Feature::Vertex(v), Feature::Face(f));
+            best.keep_if_nearer(height, Feature::Vertex(v), Feature::Face(f));
         }
     }
     for &w in &b.vertices {
@@ -55,11 +55,11 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
             let line = placed.a.line(e);
             let s = line.nearest(point);
             let end = vertex_or_edge_at(&placed.a, e, s);
-            best.update(line.at(s).distance(point), end, Feature::Vertex(w));
+            best.keep_if_nearer(line.at(s).distance(point), end, Feature::Vertex(w));
         }
         for &f in &a.faces {
             let height = height_above_face(point, &placed.a, f);
-            best.update(height, Feature::Face(f), Feature::Vertex(w));
+            best.keep_if_nearer(height, Feature::Face(f), Feature::Vertex(w));
         }
     }
     best.pair
@@ -73,7 +73,7 @@ struct NearestPair {
 }
 
 impl NearestPair {
-    fn update(&mut self, distance: f64, a: Feature, b: Feature) {
+    fn keep_if_nearer(&mut self, distance: f64, a: Feature, b: Feature) {
         if distance < self.distance {
             self.distance = distance;
             self.pair = Some(Pair { a, b });
@@ -123,7 +123,7 @@ fn height_above_face<P: PlacedPolytope>(point: DVec3, polytope: &P, f: u32) -> f
     let normal = polytope.vector(polytope.shape().face(f).normal);
     for side in polytope.shape().sides_of(f) {
         let from = point - polytope.point(side.start);
-        if !(polytope.vector(side.inward).dot(from) >= 0.0) {
+        if !(polytope.vector(side.inward_direction).dot(from) >= 0.0) {
             return f64::INFINITY;
         }
         height = normal.dot(from);

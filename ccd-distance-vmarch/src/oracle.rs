@@ -133,9 +133,9 @@ impl DistanceOracle for Vmarch {
 }
 
 /// A prepared piece, or the reason why its preparation failed.
-type Prepared = Box<Result<Polytope, GiveUpReason>>;
+type PreparationResult = Box<Result<Polytope, GiveUpReason>>;
 
-fn prepare(piece: &Piece<'_>) -> Prepared {
+fn prepare(piece: &Piece<'_>) -> PreparationResult {
     Box::new(Polytope::new(piece))
 }
 
@@ -144,7 +144,7 @@ fn prepare(piece: &Piece<'_>) -> Prepared {
 #[inline]
 fn prepared_polytope<'p>(
     piece: &Piece<'p>,
-    own: &'p mut Option<Prepared>,
+    own: &'p mut Option<PreparationResult>,
 ) -> Result<&'p Polytope, GiveUpReason> {
     let prepared = match piece.cached_value(prepare) {
         Some(kept) => kept,

@@ -3,7 +3,7 @@
 use crate::double_double::volume;
 use crate::feature::{Crossing, WeightedCorners};
 use crate::placed::PlacedPolytope;
-use crate::tolerance::MAX_TESTED_PAIRS;
+use crate::tolerance::MAX_EDGE_FACE_PAIRS;
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 
@@ -90,7 +90,7 @@ pub(crate) fn search_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     y: &Y,
 ) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
-    if edges as usize * faces as usize > MAX_TESTED_PAIRS {
+    if edges as usize * faces as usize > MAX_EDGE_FACE_PAIRS {
         return None;
     }
     let through = (0..faces).find_map(|f| (0..edges).find_map(|e| edge_face_crossing(x, e, y, f)));

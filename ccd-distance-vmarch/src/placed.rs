@@ -36,7 +36,8 @@ pub(crate) trait PlacedPolytope {
     /// Returns the components of a vector along the two directions that point from an edge into its faces.
     #[inline(always)]
     fn inward_components(&self, edge: &Edge, offset: DVec3) -> [f64; 2] {
-        edge.inward.map(|inward| self.vector(inward).dot(offset))
+        edge.inward_directions
+            .map(|inward| self.vector(inward).dot(offset))
     }
 }
 
@@ -57,12 +58,12 @@ pub(crate) struct PlacedB<'a> {
 pub(crate) struct PlacedPair<'a> {
     pub(crate) a: PlacedA<'a>,
     pub(crate) b: PlacedB<'a>,
-    pub(crate) scale: Scale,
+    pub(crate) scale: RoundingScale,
 }
 
 /// The size of a pair of polytopes, to which rounding errors are proportional.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scale {
+pub(crate) struct RoundingScale {
     /// The sum of both polytopes' reaches and of the distance of their origins.
     pub(crate) size: f64,
 }
@@ -85,7 +86,7 @@ impl<'a> PlacedPair<'a> {
                 rotation: b_to_a.rotation,
                 translation,
             },
-            scale: Scale {
+            scale: RoundingScale {
                 size: a.reach + b.reach + translation.length(),
             },
         }
@@ -108,7 +109,7 @@ impl PlacedB<'_> {
     }
 }
 
-impl Scale {
+impl RoundingScale {
     /// Returns the largest rounding error of a difference of two transformed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {

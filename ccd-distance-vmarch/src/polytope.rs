@@ -72,7 +72,7 @@ pub(crate) struct Edge {
     pub(crate) length: f64,
     /// The unit vectors from the edge into the two faces that meet here, which are the normals of the face-edge planes.
     /// Zero for a missing face.
-    pub(crate) inward: [DVec3; 2],
+    pub(crate) inward_directions: [DVec3; 2],
     pub(crate) ends: [u32; 2],
     /// The indices of the two faces that meet here; [`NO_FACE`] for a missing one.
     pub(crate) faces: [u32; 2],
@@ -93,8 +93,8 @@ pub(crate) struct Face {
 /// A side of a face; the sides of a face are ordered counterclockwise as seen from outside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
-    /// The unit vector into the face, the same as in [`Edge::inward`].
-    pub(crate) inward: DVec3,
+    /// The unit vector into the face, the same as in [`Edge::inward_directions`].
+    pub(crate) inward_direction: DVec3,
     /// The start of the edge, the same as [`Edge::start`], so that tests against the edge and against the face give the
     /// same bits.
     pub(crate) start: DVec3,
@@ -170,7 +170,7 @@ impl Polytope {
 
     /// Returns whether the polytope has a feature with this number.
     #[inline]
-    pub(crate) fn has(&self, feature: Feature) -> bool {
+    pub(crate) fn has_feature(&self, feature: Feature) -> bool {
         let (number, count) = match feature {
             Feature::Vertex(v) => (v, self.vertices.len()),
             Feature::Edge(e) => (e, self.edges.len()),

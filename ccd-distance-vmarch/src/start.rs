@@ -37,7 +37,7 @@ impl Cache {
     #[inline]
     pub(crate) fn start(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {
-            return extremal(placed, placed.b.origin());
+            return extremal_pair(placed, placed.b.origin());
         };
         // The last feature of an unchanged polytope is nearer than an extremal vertex.
         let fingerprints = fingerprints(placed);
@@ -56,7 +56,7 @@ impl Cache {
         if is_valid_start(placed, start) {
             start
         } else {
-            extremal(placed, last.axis)
+            extremal_pair(placed, last.axis)
         }
     }
 }
@@ -78,11 +78,11 @@ fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
 #[inline]
 fn is_valid_start(placed: &PlacedPair<'_>, pair: Pair) -> bool {
     let two_faces = matches!((pair.a, pair.b), (Feature::Face(_), Feature::Face(_)));
-    !two_faces && placed.a.shape().has(pair.a) && placed.b.shape().has(pair.b)
+    !two_faces && placed.a.shape().has_feature(pair.a) && placed.b.shape().has_feature(pair.b)
 }
 
 /// Returns the vertices that are extremal along an axis from A to B.
-pub(crate) fn extremal(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
+pub(crate) fn extremal_pair(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
     Pair {
         a: extremal_vertex_of_a(placed, axis),
         b: extremal_vertex_of_b(placed, axis),
@@ -90,11 +90,16 @@ pub(crate) fn extremal(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
 }
 
 fn extremal_vertex_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
-    Feature::Vertex(placed.a.shape().extremal(axis))
+    Feature::Vertex(placed.a.shape().extremal_vertex(axis))
 }
 
 fn extremal_vertex_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
-    Feature::Vertex(placed.b.shape().extremal(-placed.b.local_direction(axis)))
+    Feature::Vertex(
+        placed
+            .b
+            .shape()
+            .extremal_vertex(-placed.b.local_direction(axis)),
+    )
 }
 
 #[cfg(test)]

@@ -21,31 +21,31 @@ pub(crate) enum MarchEnd {
 /// 1, 2, 4, … steps. A cycle is detected within three times the sum of its length and of the steps before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BrentCycleDetector {
-    left: Pair,
-    steps: u32,
-    until: u32,
+    remembered_pair: Pair,
+    steps_since_replacement: u32,
+    steps_to_replacement: u32,
 }
 
 impl BrentCycleDetector {
     pub(crate) fn new(start: Pair) -> Self {
         BrentCycleDetector {
-            left: start,
-            steps: 0,
-            until: 1,
+            remembered_pair: start,
+            steps_since_replacement: 0,
+            steps_to_replacement: 1,
         }
     }
 
     /// Records the next pair of a march, and returns whether it equals the remembered pair.
     #[inline]
-    pub(crate) fn is_repeated(&mut self, pair: Pair) -> bool {
-        if pair == self.left {
+    pub(crate) fn record_and_detect(&mut self, pair: Pair) -> bool {
+        if pair == self.remembered_pair {
             return true;
         }
-        self.steps += 1;
-        if self.steps == self.until {
-            self.left = pair;
-            self.until = self.until.saturating_mul(2);
-            self.steps = 0;
+        self.steps_since_replacement += 1;
+        if self.steps_since_replacement == self.steps_to_replacement {
+            self.remembered_pair = pair;
+            self.steps_to_replacement = self.steps_to_replacement.saturating_mul(2);
+            self.steps_since_replacement = 0;
         }
         false
     }

@@ -16,7 +16,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, Claim, DistanceOracle, Frame, GiveUpReason, PiecePair};
 use rstest::rstest;
-use scene::{Kind, Scene};
+use scene::{PairKind, Scene};
 use shape::{Pcg64, SeedableRng, direction, magnitude};
 use twin::ReferencePolytope;
 
@@ -38,13 +38,13 @@ struct Tally {
     intersecting_pairs: u64,
     give_ups: u64,
     /// The largest relative error of a distance, among distances above a thousandth of the scene's reach.
-    relative: f64,
+    max_relative_error: f64,
     /// The largest error of a distance, in units of the unit roundoff times the scene's reach.
-    rounding: f64,
-    /// The largest excess of the distance over the support gap along the claimed axis, in the unit of `rounding`.
-    gap_deficit: f64,
-    /// The largest distance between the claimed witnesses of intersecting pieces, in the unit of `rounding`.
-    intersecting_distance: f64,
+    max_rounding_error: f64,
+    /// The largest excess of the distance over the support gap along the claimed axis, in the unit of `max_rounding_error`.
+    max_gap_deficit: f64,
+    /// The largest distance between the claimed witnesses of intersecting pieces, in the unit of `max_rounding_error`.
+    max_intersecting_witness_distance: f64,
 }
 
 /// The largest relative rounding error of one operation in f64.
@@ -74,7 +74,8 @@ impl Tally {
         let unit = UNIT_ROUNDOFF * scene.reach();
         if scene.gap == 0.0 {
             self.intersecting_pairs += 1;
-            self.intersecting_distance = greater(self.intersecting_distance, distance / unit);
+            self.max_intersecting_witness_distance =
+                greater(self.max_intersecting_witness_distance, distance / unit);
             assert!(
                 distance <= 200.0 * unit,
                 "{distance:e}: {}",
@@ -88,10 +89,10 @@ impl Tally {
         let error = (distance - truth).abs();
         let gap = twin::gap(&a, &b, claim.axis.normalize_or_zero());
         let slack = 1e-12 * truth + 100.0 * unit;
-        self.rounding = greater(self.rounding, error / unit);
-        self.gap_deficit = greater(self.gap_deficit, (truth - gap) / unit);
+        self.max_rounding_error = greater(self.max_rounding_error, error / unit);
+        self.max_gap_deficit = greater(self.max_gap_deficit, (truth - gap) / unit);
         if truth > 1e-3 * scene.reach() {
-            self.relative = greater(self.relative, error / truth);
+            self.max_relative_error = greater(self.max_relative_error, error / truth);
         }
         assert!(
             error <= slack,
@@ -129,25 +130,25 @@ fn moved(scene: &mut Scene<'_>, rng: &mut Pcg64) {
 )]
 fn agrees_with_brute_force(
     #[values(
-        Kind::Random,
-        Kind::NearParallel,
-        Kind::Coplanar,
-        Kind::Sliver,
-        Kind::Grid,
-        Kind::Plates,
-        Kind::Prisms,
-        Kind::Balls,
-        Kind::FewPoints,
-        Kind::Flat
+        PairKind::Random,
+        PairKind::NearParallel,
+        PairKind::Coplanar,
+        PairKind::Sliver,
+        PairKind::Grid,
+        PairKind::Plates,
+        PairKind::Prisms,
+        PairKind::Balls,
+        PairKind::FewPoints,
+        PairKind::Flat
     )]
-    kind: Kind,
+    kind: PairKind,
 ) {
     let mut rng = Pcg64::seed_from_u64(kind as u64);
     let pool = scene::body_pool(kind, &mut rng);
     let (mut oracle, mut tally, mut foreign) =
         (Vmarch::default(), Tally::default(), Cache::default());
     // Those of a thousand corners take brute force a while.
-    let cases = if kind == Kind::Balls {
+    let cases = if kind == PairKind::Balls {
         cases() / 10
     } else {
         cases()
@@ -170,7 +171,7 @@ fn agrees_with_brute_force(
     clippy::print_stdout,
     reason = "the figures of a long run are to be read"
 )]
-fn report(kind: Kind, tally: &Tally, oracle: Vmarch) {
+fn report(kind: PairKind, tally: &Tally, oracle: Vmarch) {
     let counters = oracle.counters();
     let steps = counters.steps as f64 / counters.calls as f64;
     println!("{kind:?}: {tally:?}, {steps:.2} steps, {counters:?}");

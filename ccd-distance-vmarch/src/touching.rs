@@ -2,7 +2,7 @@
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
-use crate::placed::{PlacedPair, PlacedPolytope, Scale};
+use crate::placed::{PlacedPair, PlacedPolytope, RoundingScale};
 use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
 use ccd_core::Claim;
@@ -47,7 +47,7 @@ fn features<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     y: &Y,
     crossing: &Crossing,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> Option<(Feature, Feature)> {
     let Crossing {
         on_edge,

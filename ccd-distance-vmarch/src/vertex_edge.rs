@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
-use crate::placed::{Line, PlacedPolytope, Scale};
+use crate::placed::{Line, PlacedPolytope, RoundingScale};
 use crate::tolerance::PRODUCT_ERROR;
 use ccd_core::glam::DVec3;
 
@@ -20,7 +20,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     v: u32,
     y: &Y,
     e: u32,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> MarchStep {
     let corner = x.vertex(v);
     let edge = y.shape().edge(e);
@@ -43,7 +43,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
         return MarchStep::Continue(Feature::Vertex(v), Feature::Face(face));
     }
     let approach = steepest_edge_towards(x, v, &line, offset, scale);
-    if approach.decrease > 0.0 {
+    if approach.scaled_decrease_rate > 0.0 {
         return MarchStep::Continue(Feature::Edge(approach.edge), Feature::Edge(e));
     }
     let clear = edge.is_outside_face_planes(inward, rounding) && !approach.is_tied;
@@ -74,7 +74,7 @@ pub(crate) fn face_towards_point<Y: PlacedPolytope>(
 struct ApproachingEdge {
     edge: u32,
     /// The distance times its rate of decrease along the edge, less an allowance for rounding.
-    decrease: f64,
+    scaled_decrease_rate: f64,
     /// Whether rounding hides, for some edge at the corner, if the distance decreases along it.
     is_tied: bool,
 }
@@ -91,11 +91,11 @@ fn steepest_edge_towards<X: PlacedPolytope>(
     v: u32,
     line: &Line,
     offset: DVec3,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> ApproachingEdge {
     let mut out = ApproachingEdge {
         edge: 0,
-        decrease: 0.0,
+        scaled_decrease_rate: 0.0,
         is_tied: false,
     };
     let rounding = scale.rounding();
@@ -109,9 +109,9 @@ fn steepest_edge_towards<X: PlacedPolytope>(
         let across = slope - along.dot(line.along) * offset.dot(line.along);
         let sine = along.cross(line.along).length();
         let slack = rounding * sine + PRODUCT_ERROR * offset.length();
-        if across - slack > out.decrease {
+        if across - slack > out.scaled_decrease_rate {
             out.edge = spoke.edge;
-            out.decrease = across - slack;
+            out.scaled_decrease_rate = across - slack;
         }
         out.is_tied |= !(across < -slack);
     }

@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
-use crate::placed::{PlacedPolytope, Scale};
+use crate::placed::{PlacedPolytope, RoundingScale};
 use crate::tolerance::PRODUCT_ERROR;
 use crate::vertex_vertex::steepest_edge;
 
@@ -16,7 +16,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     v: u32,
     y: &Y,
     f: u32,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> MarchStep {
     let corner = x.vertex(v);
     let (mut least, mut outside) = (0.0, None);
@@ -24,7 +24,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     let normal = y.vector(y.shape().face(f).normal);
     for side in y.shape().sides_of(f) {
         let from = corner - y.point(side.start);
-        let inside = y.vector(side.inward).dot(from);
+        let inside = y.vector(side.inward_direction).dot(from);
         if inside < least {
             (least, outside) = (inside, Some(side.edge));
         }

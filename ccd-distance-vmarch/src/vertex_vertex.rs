@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
-use crate::placed::{PlacedPolytope, Scale};
+use crate::placed::{PlacedPolytope, RoundingScale};
 use ccd_core::glam::DVec3;
 
 /// Tests each corner against the other's vertex-edge planes, and continues with the edge behind the most violated
@@ -16,7 +16,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     v: u32,
     y: &Y,
     w: u32,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> MarchStep {
     let offset = y.vertex(w) - x.vertex(v);
     let rounding = scale.rounding();

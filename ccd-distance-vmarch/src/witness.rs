@@ -2,7 +2,7 @@
 
 use crate::edge_edge;
 use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
-use crate::placed::{Line, PlacedPair, PlacedPolytope, Scale, clamp};
+use crate::placed::{Line, PlacedPair, PlacedPolytope, RoundingScale, clamp};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, ConvexCombination};
@@ -115,7 +115,7 @@ fn vertex_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
         claim: Claim {
             axis: perpendicular_part(offset, line.along),
             a: corner(x, v),
-            b: on_edge(y, e, parameter),
+            b: combination_on_edge(y, e, parameter),
         },
     }
 }
@@ -126,7 +126,7 @@ fn edge_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
     e: u32,
     y: &Y,
     f: u32,
-    scale: Scale,
+    scale: RoundingScale,
 ) -> Witness {
     let (one, other) = (x.line(e), y.line(f));
     let near = edge_edge::nearest(&one, &other);
@@ -139,8 +139,8 @@ fn edge_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
         claim: Claim {
             // The part along the edges, which would cost their length, is removed.
             axis: perpendicular_part(perpendicular_part(axis, one.along), other.along),
-            a: on_edge(x, e, s),
-            b: on_edge(y, f, t),
+            a: combination_on_edge(x, e, s),
+            b: combination_on_edge(y, f, t),
         },
     }
 }
@@ -200,7 +200,11 @@ fn corner<P: PlacedPolytope>(polytope: &P, v: u32) -> ConvexCombination {
 }
 
 #[inline]
-fn on_edge<P: PlacedPolytope>(polytope: &P, e: u32, parameter: f64) -> ConvexCombination {
+fn combination_on_edge<P: PlacedPolytope>(
+    polytope: &P,
+    e: u32,
+    parameter: f64,
+) -> ConvexCombination {
     let shape = polytope.shape();
     let edge = shape.edge(e);
     let numbers = edge.ends.map(|v| shape.vertex(v).number);

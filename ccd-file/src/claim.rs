@@ -20,7 +20,7 @@ pub struct Claim {
     /// The open file, which is locked as long as it is open.
     temp_file: TempFile,
     /// The length in bytes of what an earlier process left in the file.
-    left: u64,
+    left_length: u64,
 }
 
 /// The maximum number of attempts to lock the file; one fails if another process renames the file before it is locked.
@@ -65,7 +65,7 @@ impl Claim {
                 };
                 return Ok(Claim {
                     temp_file: temporary,
-                    left,
+                    left_length: left,
                 });
             }
         }
@@ -74,7 +74,7 @@ impl Claim {
 
     /// Returns the length in bytes of what an earlier process left in the file.
     pub fn left(&self) -> u64 {
-        self.left
+        self.left_length
     }
 
     /// Returns the temporary path under which the file is written.

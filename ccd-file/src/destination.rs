@@ -27,7 +27,7 @@ impl Destination {
                 let problem = "it is a folder; give a file name";
                 Err(io::Error::new(io::ErrorKind::IsADirectory, problem))
             }
-            Ok(there) if !there.is_file() || is_open_file(path) => Ok(Destination::Stream),
+            Ok(there) if !there.is_file() || is_descriptor_path(path) => Ok(Destination::Stream),
             Ok(_) => {
                 // A file that must not be written must not be replaced either.
                 File::options().write(true).open(path)?;
@@ -35,7 +35,7 @@ impl Destination {
             }
             Err(_) => {
                 let target = resolve_links(path)?;
-                check_folder(&target)?;
+                check_parent_folder(&target)?;
                 if target.file_name().is_none() {
                     let problem = "it is not a file name";
                     return Err(io::Error::new(io::ErrorKind::InvalidFilename, problem));
@@ -50,7 +50,7 @@ impl Destination {
 ///
 /// # Errors
 /// The folder does not exist, or is not a folder.
-pub fn check_folder(path: &Path) -> io::Result<()> {
+pub fn check_parent_folder(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| *folder != "");
     let Some(folder) = folder else {
         return Ok(());
@@ -76,7 +76,7 @@ pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
 }
 
 /// Returns whether a path names an open file of a process, such as `/dev/stdout`, which cannot be replaced by a rename.
-fn is_open_file(path: &Path) -> bool {
+fn is_descriptor_path(path: &Path) -> bool {
     let named = ["/dev/stdout", "/dev/stderr"];
     let in_proc = || path.starts_with("/proc") && path.parent().is_some_and(|p| p.ends_with("fd"));
     named.iter().any(|name| path == Path::new(name)) || path.starts_with("/dev/fd") || in_proc()

@@ -16,7 +16,7 @@ mod destination;
 mod temp_file;
 
 pub use claim::{Claim, PARTIAL_EXTENSION};
-pub use destination::{Destination, check_folder, resolve_links};
+pub use destination::{Destination, check_parent_folder, resolve_links};
 
 use std::io::{self, Write};
 use std::path::Path;

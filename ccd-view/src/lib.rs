@@ -3,7 +3,7 @@
 //! | to … | use |
 //! |---|---|
 //! | write a page of its own | [`Page::write`] |
-//! | put the views on another page | [`VIEW_HTML`], [`VIEW_CSS`], [`scripts`] and [`views_json`] |
+//! | put the views on another page | [`VIEW_HTML`], [`VIEW_CSS`], [`view_scripts`] and [`views_json`] |
 //! | say what is shown | [`Group`] of [`View`]s: [`ShownBody`], [`ShownContact`], [`Gap`] |
 //!
 //! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL.
@@ -35,8 +35,8 @@ mod view;
 
 pub use mesh::{DrawnMesh, Meshes};
 pub use page::{
-    Page, PageError, VIEW_CSS, VIEW_HTML, drawing_scripts, escape, fill_template, json, scripts,
-    views_json,
+    Page, PageError, VIEW_CSS, VIEW_HTML, drawing_scripts, escape, fill_template, json,
+    view_scripts, views_json,
 };
 pub use shown_motion::{Keyframe, ShownMotion};
-pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};
+pub use view::{Gap, GapSample, Group, ShownBody, ShownContact, View};

@@ -16,11 +16,11 @@ pub struct DrawnMesh {
 
 /// The meshes of a page; equal meshes are stored only once.
 #[derive(Clone, Debug, Default)]
-pub struct Meshes(Vec<Stored>);
+pub struct Meshes(Vec<StoredMesh>);
 
 /// A mesh as it is stored in the page: little-endian numbers in base64.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct Stored {
+struct StoredMesh {
     /// The centre of the mesh's bounding box, in the body's frame.
     middle: [f64; 3],
     /// Three `f32` coordinates per vertex, relative to `middle`.
@@ -32,7 +32,7 @@ struct Stored {
 impl Meshes {
     /// Adds a mesh, or finds an equal one, and returns its number.
     pub fn add(&mut self, mesh: &DrawnMesh) -> usize {
-        let stored = Stored::new(mesh);
+        let stored = StoredMesh::new(mesh);
         let known = self.0.iter().position(|known| *known == stored);
         known.unwrap_or_else(|| {
             self.0.push(stored);
@@ -47,12 +47,12 @@ impl Meshes {
             .map_or(DVec3::ZERO, |mesh| mesh.middle.into())
     }
 
-    pub(crate) fn serializable(&self) -> impl Serialize {
+    pub(crate) fn as_serializable(&self) -> impl Serialize {
         &self.0
     }
 }
 
-impl Stored {
+impl StoredMesh {
     fn new(mesh: &DrawnMesh) -> Self {
         let mut vertices = mesh.vertices.iter();
         let first = vertices.next().copied().unwrap_or(DVec3::ZERO);
@@ -64,7 +64,7 @@ impl Stored {
         let places: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
         let corners = mesh.faces.iter().flatten();
         let corners: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
-        Stored {
+        StoredMesh {
             middle: middle.to_array(),
             vertices: BASE64_STANDARD.encode(places),
             faces: BASE64_STANDARD.encode(corners),

@@ -29,7 +29,7 @@ pub struct Page<'a> {
 pub enum PageError {
     /// The views cannot be serialised as JSON.
     #[error("the page's data: {0}")]
-    Data(#[from] serde_json::Error),
+    Json(#[from] serde_json::Error),
     /// The file of the page cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -58,7 +58,7 @@ impl Page<'_> {
     /// Returns the page as HTML text.
     ///
     /// # Errors
-    /// [`PageError::Data`].
+    /// [`PageError::Json`].
     pub fn html(&self) -> Result<String, PageError> {
         let parts = [
             ("title", escape(self.title)),
@@ -68,7 +68,7 @@ impl Page<'_> {
             ),
             ("view", VIEW_HTML.to_owned()),
             ("views", views_json(&self.meshes, &self.groups)?),
-            ("scripts", scripts()),
+            ("scripts", view_scripts()),
         ];
         Ok(fill_template(include_str!("page/page.html"), &parts))
     }
@@ -76,7 +76,7 @@ impl Page<'_> {
 
 /// Returns the scripts that fill [`VIEW_HTML`] with the views of [`views_json`], which an earlier element with the id `views`
 /// holds.
-pub fn scripts() -> String {
+pub fn view_scripts() -> String {
     let views = [
         include_str!("page/coarse.js"),
         include_str!("page/gap.js"),
@@ -109,12 +109,12 @@ fn elements(scripts: &[&str]) -> String {
 /// The value cannot be serialised.
 pub fn views_json(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Error> {
     #[derive(Serialize)]
-    struct Data<'a, M> {
+    struct ViewsData<'a, M> {
         meshes: M,
         groups: &'a [Group],
     }
-    let meshes = meshes.serializable();
-    json(&Data { meshes, groups })
+    let meshes = meshes.as_serializable();
+    json(&ViewsData { meshes, groups })
 }
 
 /// Returns a value as JSON that cannot end the element `script` that it stands in, without control characters except

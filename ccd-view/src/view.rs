@@ -55,14 +55,14 @@ pub struct ShownBody {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Gap {
     /// The measured distances, in order of time.
-    pub points: Vec<GapPoint>,
+    pub points: Vec<GapSample>,
     /// A proven lower bound of the distance, as pairs of time and bound, in order of time.
     pub proven: Vec<[f64; 2]>,
 }
 
 /// The distance between two bodies, measured at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct GapPoint {
+pub struct GapSample {
     /// The time of the measurement.
     pub time: f64,
     /// The lower bound of the distance at the time of the measurement.

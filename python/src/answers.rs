@@ -10,19 +10,21 @@ use rigid_ccd::{Hit, Outcome};
 
 /// Makes a Python `Contact` from a hit.
 pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, PyAny>> {
-    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    static CONTACT_CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let contact = hit.contact();
     let separation = contact.map(|contact| contact.separation);
-    CLASS.import(py, "rigid_ccd._answers", "Contact")?.call1((
-        hit.time,
-        Status::from(&hit.kind).name(),
-        to_tuple(hit.witness_a()),
-        to_tuple(hit.witness_b()),
-        separation.map(|separation| to_tuple(separation.normal)),
-        separation.map(|separation| (separation.lower, separation.upper)),
-        contact.map(|contact| contact.feature_a.to_string()),
-        contact.map(|contact| contact.feature_b.to_string()),
-    ))
+    CONTACT_CLASS
+        .import(py, "rigid_ccd._answers", "Contact")?
+        .call1((
+            hit.time,
+            Status::from(&hit.kind).name(),
+            to_tuple(hit.witness_a()),
+            to_tuple(hit.witness_b()),
+            separation.map(|separation| to_tuple(separation.normal)),
+            separation.map(|separation| (separation.lower, separation.upper)),
+            contact.map(|contact| contact.feature_a.to_string()),
+            contact.map(|contact| contact.feature_b.to_string()),
+        ))
 }
 
 /// Makes a Python `Distance`, including its comparison with a clearance.
@@ -33,16 +35,18 @@ pub(crate) fn distance<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let nearest = found.nearest().map(|(_, contact)| contact.separation);
     let compared = clearance.map(|_| Status::of(Question::Distance, found, clearance).name());
-    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-    CLASS.import(py, "rigid_ccd._answers", "Distance")?.call1((
-        found.lower(),
-        found.upper(),
-        found.time(),
-        matches!(found, Outcome::Overlapping { .. }),
-        nearest.map(|nearest| to_tuple(nearest.witness_a)),
-        nearest.map(|nearest| to_tuple(nearest.witness_b)),
-        compared,
-    ))
+    static DISTANCE_CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    DISTANCE_CLASS
+        .import(py, "rigid_ccd._answers", "Distance")?
+        .call1((
+            found.lower(),
+            found.upper(),
+            found.time(),
+            matches!(found, Outcome::Overlapping { .. }),
+            nearest.map(|nearest| to_tuple(nearest.witness_a)),
+            nearest.map(|nearest| to_tuple(nearest.witness_b)),
+            compared,
+        ))
 }
 
 fn to_tuple(v: DVec3) -> (f64, f64, f64) {

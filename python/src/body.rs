@@ -1,7 +1,7 @@
 //! The Python class `Body`.
 
 use crate::arrays::{rows, triangles};
-use crate::errors::{InputError, file_error, input_error, warn, wrong_type};
+use crate::errors::{InputError, file_error, input_error, warn, wrong_type_error};
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
@@ -50,11 +50,11 @@ enum PickleData {
 }
 
 /// Extracts a `Body` from a Python argument; `what` names it in errors.
-pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
+pub(crate) fn extract_body<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
     let needed = "a Body, as Body.from_file or Body.from_trimesh makes it,";
     match given.cast::<PyBody>() {
         Ok(body) => Ok(&body.get().body),
-        Err(_) => Err(wrong_type(what, needed, given)),
+        Err(_) => Err(wrong_type_error(what, needed, given)),
     }
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn warn_of_tolerance(
 ) -> PyResult<()> {
     let size =
         |given: &Bound<'_, PyAny>| given.cast::<PyBody>().map_or(0.0, |body| body.get().size);
-    let remark = Remark::check_tolerance(tolerance, bodies.map(size));
+    let remark = Remark::remark_on_tolerance(tolerance, bodies.map(size));
     warn(bodies[0].py(), remark, calls_up)
 }
 
@@ -137,7 +137,7 @@ impl PyBody {
         }
         let as_prepared = adjustments == Adjustments::NONE && !surface;
         if let Some(unit) = parse_unit("unit", unit)? {
-            adjustments = adjustments.converted_to(unit);
+            adjustments = adjustments.with_target_unit(unit);
         }
         class.py().detach(|| {
             // An unreadable file is an OSError. A pipe would block, and is refused.
@@ -175,10 +175,12 @@ impl PyBody {
     ) -> PyResult<Self> {
         let part = |name: &str| match mesh.getattr_opt(name)? {
             Some(values) => Ok(values),
-            None if mesh.hasattr("to_mesh")? => {
-                Err(wrong_type("mesh", "a mesh, such as scene.to_mesh(),", mesh))
-            }
-            None => Err(wrong_type(
+            None if mesh.hasattr("to_mesh")? => Err(wrong_type_error(
+                "mesh",
+                "a mesh, such as scene.to_mesh(),",
+                mesh,
+            )),
+            None => Err(wrong_type_error(
                 "mesh",
                 "an object with vertices and faces",
                 mesh,

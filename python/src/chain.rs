@@ -13,13 +13,13 @@ use rigid_ccd::{InputError, Remark};
 #[pyclass(name = "Joint", module = "rigid_ccd", frozen)]
 pub(crate) struct PyJoint {
     joint: Joint,
-    kind: Kind,
+    kind: JointKind,
     made: ConstructorCall,
 }
 
 /// The degree of freedom of a joint, with its axis.
 #[derive(Clone, Copy)]
-enum Kind {
+enum JointKind {
     Revolute([f64; 3]),
     Prismatic([f64; 3]),
     Fixed,
@@ -42,7 +42,7 @@ impl PyJoint {
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         PyJoint::new(
-            Kind::Revolute(finite_numbers(axis, "axis")?),
+            JointKind::Revolute(finite_numbers(axis, "axis")?),
             origin,
             limits,
         )
@@ -58,7 +58,7 @@ impl PyJoint {
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         PyJoint::new(
-            Kind::Prismatic(finite_numbers(axis, "axis")?),
+            JointKind::Prismatic(finite_numbers(axis, "axis")?),
             origin,
             limits,
         )
@@ -67,7 +67,7 @@ impl PyJoint {
     /// Makes a joint without a degree of freedom. It has a position all the same, which does not matter.
     #[classmethod]
     fn fixed(_class: &Bound<'_, PyType>, origin: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyJoint::new(Kind::Fixed, origin, None)
+        PyJoint::new(JointKind::Fixed, origin, None)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
@@ -85,36 +85,36 @@ impl PyJoint {
         let (low, high) = self.limits();
         let name = self.kind.name();
         match self.kind {
-            Kind::Revolute([x, y, z]) | Kind::Prismatic([x, y, z]) => {
+            JointKind::Revolute([x, y, z]) | JointKind::Prismatic([x, y, z]) => {
                 format!("Joint.{name}(axis=({x}, {y}, {z}), limits=({low}, {high}))")
             }
-            Kind::Fixed => format!("Joint.{name}()"),
+            JointKind::Fixed => format!("Joint.{name}()"),
         }
     }
 }
 
-impl Kind {
+impl JointKind {
     fn name(self) -> &'static str {
         match self {
-            Kind::Revolute(_) => "revolute",
-            Kind::Prismatic(_) => "prismatic",
-            Kind::Fixed => "fixed",
+            JointKind::Revolute(_) => "revolute",
+            JointKind::Prismatic(_) => "prismatic",
+            JointKind::Fixed => "fixed",
         }
     }
 }
 
 impl PyJoint {
     fn new(
-        kind: Kind,
+        kind: JointKind,
         given: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let origin = read_given_pose(given, "origin")?;
         let pose = origin.pose("origin")?;
         let joint = match kind {
-            Kind::Revolute(axis) => Joint::revolute(pose, axis),
-            Kind::Prismatic(axis) => Joint::prismatic(pose, axis),
-            Kind::Fixed => Ok(Joint::fixed(pose)),
+            JointKind::Revolute(axis) => Joint::revolute(pose, axis),
+            JointKind::Prismatic(axis) => Joint::prismatic(pose, axis),
+            JointKind::Fixed => Ok(Joint::fixed(pose)),
         };
         let limits = limits.map(|limits| numbers(limits, "limits")).transpose()?;
         let joint = match limits {
@@ -127,10 +127,10 @@ impl PyJoint {
         };
         let (py, name) = (given.py(), Some(kind.name()));
         let made = match kind {
-            Kind::Revolute(axis) | Kind::Prismatic(axis) => {
+            JointKind::Revolute(axis) | JointKind::Prismatic(axis) => {
                 ConstructorCall::new(py, name, (origin, axis, limits))
             }
-            Kind::Fixed => ConstructorCall::new(py, name, (origin,)),
+            JointKind::Fixed => ConstructorCall::new(py, name, (origin,)),
         };
         Ok(PyJoint {
             joint,
@@ -242,12 +242,12 @@ impl PyChain {
     ) -> PyResult<PyLink> {
         let (start, end) = (flat_numbers(start, "start")?, flat_numbers(end, "end")?);
         let joints = slf.get().joints.iter();
-        let turning = joints.map(|joint| matches!(joint.get().kind, Kind::Revolute(_)));
+        let turning = joints.map(|joint| matches!(joint.get().kind, JointKind::Revolute(_)));
         let ends = turning.zip(start.iter().zip(&end));
         let mut remarks = ends
             .filter(|(turns, _)| *turns)
             .flat_map(|(_, (start, end))| [*start, *end])
-            .filter_map(Remark::check_joint);
+            .filter_map(Remark::remark_on_joint);
         warn(slf.py(), remarks.next(), 1)?;
         let moves = LinkMotion {
             link: index(link, "link")?,
@@ -346,7 +346,7 @@ impl PyLink {
         for (what, positions) in [("start", &moves.start), ("end", &moves.end)] {
             if positions.len() != joints {
                 let positions = positions.len();
-                let error = InputError::JointCount { positions, joints };
+                let error = InputError::JointCountMismatch { positions, joints };
                 return Err(input_error(format!("{what}: {error}")));
             }
         }

@@ -54,7 +54,10 @@ pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// Runs code of libraries that panic on some tables or arrays, and converts a panic to an `InputError`.
 ///
 /// A panic would be an exception that `except Exception` does not catch.
-pub(crate) fn catching_panics<T>(what: &str, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+pub(crate) fn run_catching_panics<T>(
+    what: &str,
+    work: impl FnOnce() -> PyResult<T>,
+) -> PyResult<T> {
     let done = catch_unwind(AssertUnwindSafe(work));
     done.unwrap_or_else(|panic| {
         Err(input_error(format!(
@@ -87,7 +90,7 @@ pub(crate) fn input_error(error: impl Display) -> PyErr {
 /// Converts an error of a table to an `InputError`, or to a `KeyboardInterrupt` if Ctrl-C caused it.
 ///
 /// A stream hands over the text of an exception, not the exception: that of Ctrl-C stays what it is.
-pub(crate) fn error_of_table(error: impl Display) -> PyErr {
+pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
     let text = error.to_string();
     let last = text.trim_end().lines().next_back().unwrap_or_default();
     let raised = last.rsplit("Python exception: ").next().unwrap_or_default();
@@ -173,7 +176,7 @@ pub(crate) fn warn(
 }
 
 /// Makes a `TypeError` that says which type is needed and which was given.
-pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
+pub(crate) fn wrong_type_error(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type();
     let name = kind
         .fully_qualified_name()

@@ -179,7 +179,7 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
         [4] => {
             let [w, x, y, z] = finite_numbers(value, "rotation")?;
             let is_zero = [w, x, y, z] == [0.0; 4];
-            let remark = Remark::check_quaternion([w, x, y, z]).filter(|_| !is_zero);
+            let remark = Remark::remark_on_quaternion([w, x, y, z]).filter(|_| !is_zero);
             warn(value.py(), remark, 1)?;
             Ok(DQuat::from_xyzw(x, y, z, w))
         }

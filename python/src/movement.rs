@@ -1,7 +1,7 @@
 //! The movement of a body in a query: a motion, a link of an arm, or a path.
 
 use crate::chain::PyLink;
-use crate::errors::{input_error, wrong_type};
+use crate::errors::{input_error, wrong_type_error};
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
@@ -33,7 +33,7 @@ impl<'c> GivenMovement<'c> {
         if let Ok(path) = given.cast::<PyPath>() {
             return Ok(GivenMovement::Path(&path.get().poses));
         }
-        Err(wrong_type(
+        Err(wrong_type_error(
             what,
             "a Motion, a Path or a link of a Chain",
             given,
@@ -100,7 +100,7 @@ impl Pair<'_> {
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {
-            GivenMovement::Motion(motion) => Remark::check_spin(motion.spin(), duration),
+            GivenMovement::Motion(motion) => Remark::remark_on_spin(motion.spin(), duration),
             GivenMovement::Link(..) | GivenMovement::Path(_) => None,
         })
     }

@@ -1,7 +1,7 @@
 //! The Python functions that answer single queries.
 
 use crate::answers;
-use crate::body::{body_of, warn_of_tolerance};
+use crate::body::{extract_body, warn_of_tolerance};
 use crate::errors::{input_error, panic_error, unresolved_distance_error, unresolved_error, warn};
 use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 
 /// The work limit of a first attempt, about a tenth of a second. A query with more to do is asked again on a thread of
 /// its own, while this one looks for Ctrl-C.
-const FIRST_BUDGET: u64 = 100_000;
+const FIRST_ATTEMPT_BUDGET: u64 = 100_000;
 
 /// The time limit of a first attempt, needed because a path has a work limit for each of its segments.
 const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(200);
@@ -45,7 +45,7 @@ impl PairQuestion<'_> {
     }
 
     /// Returns the lower bound of the time or the distance that an unresolved answer proves.
-    fn proven(&self, known: &Unresolved) -> f64 {
+    fn proven_bound(&self, known: &Unresolved) -> f64 {
         match self.question {
             question if question.is_for_a_distance() => known.lower,
             _ => known.safe_until,
@@ -57,7 +57,7 @@ impl PairQuestion<'_> {
         let begin = Instant::now();
         let deadline = settings.deadline;
         let short = Settings {
-            budget: settings.budget.min(FIRST_BUDGET),
+            budget: settings.budget.min(FIRST_ATTEMPT_BUDGET),
             deadline: Some(deadline.map_or(FIRST_ATTEMPT_TIME_LIMIT, |deadline| {
                 deadline.min(FIRST_ATTEMPT_TIME_LIMIT)
             })),
@@ -76,11 +76,11 @@ impl PairQuestion<'_> {
             .map_err(input_error)?;
         let until = match &first.outcome {
             Outcome::Unresolved(known)
-                if known.limit == Limit::Budget && settings.budget > FIRST_BUDGET
+                if known.limit == Limit::Budget && settings.budget > FIRST_ATTEMPT_BUDGET
                     || known.limit == Limit::Deadline
                         && deadline.is_none_or(|deadline| deadline > FIRST_ATTEMPT_TIME_LIMIT) =>
             {
-                self.proven(known)
+                self.proven_bound(known)
             }
             _ => return Ok(first),
         };
@@ -98,7 +98,7 @@ impl PairQuestion<'_> {
         let found = found.map_err(input_error)?;
         // If little time is left, the first answer may be better.
         Ok(match &found.outcome {
-            Outcome::Unresolved(known) if until > self.proven(known) => first,
+            Outcome::Unresolved(known) if until > self.proven_bound(known) => first,
             _ => found,
         })
     }
@@ -117,11 +117,11 @@ fn ask(
 ) -> PyResult<Answer> {
     let pair = Pair {
         a: (
-            body_of(a, "a")?,
+            extract_body(a, "a")?,
             GivenMovement::extract(motion_a, "motion_a")?,
         ),
         b: (
-            body_of(b, "b")?,
+            extract_body(b, "b")?,
             GivenMovement::extract(motion_b, "motion_b")?,
         ),
     };
@@ -271,7 +271,7 @@ pub(crate) fn distance<'py>(
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
     let settings = read(settings, DISTANCE_SETTINGS)?;
     warn_of_tolerance([a, b], settings.tolerance, 1)?;
-    let (a, b) = (body_of(a, "a")?, body_of(b, "b")?);
+    let (a, b) = (extract_body(a, "a")?, extract_body(b, "b")?);
     let asked = PairQuestion {
         question: Question::Distance,
         bodies: [(a, pose_a).into(), (b, pose_b).into()],

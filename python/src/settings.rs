@@ -31,7 +31,9 @@ pub(crate) fn read(
     for (name, value) in given.into_iter().flatten() {
         let name: String = name.extract()?;
         match name.as_str() {
-            _ if !known.contains(&name.as_str()) => return Err(unknown_setting(&name, known)),
+            _ if !known.contains(&name.as_str()) => {
+                return Err(unknown_setting_error(&name, known));
+            }
             "tolerance" => settings.tolerance = extract_setting(&name, &value)?,
             "margin" => settings.margin = extract_setting(&name, &value)?,
             "clearance" => settings.clearance = extract_setting(&name, &value)?,
@@ -40,7 +42,7 @@ pub(crate) fn read(
                     extract_setting::<Option<u64>>(&name, &value)?.unwrap_or(settings.budget);
             }
             "deadline" => settings.deadline = deadline(extract_setting(&name, &value)?)?,
-            _ => return Err(unknown_setting(&name, known)),
+            _ => return Err(unknown_setting_error(&name, known)),
         }
     }
     Ok(settings)
@@ -83,7 +85,7 @@ fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     })
 }
 
-fn unknown_setting(name: &str, known: &[&str]) -> PyErr {
+fn unknown_setting_error(name: &str, known: &[&str]) -> PyErr {
     PyTypeError::new_err(format!(
         "unexpected keyword argument '{name}'; settings are {}",
         known.join(", ")

@@ -10,7 +10,7 @@ mod results;
 mod stored;
 
 use crate::arrays::row_indices;
-use crate::errors::{catching_panics, error_of_table, input_error as refuse};
+use crate::errors::{input_error as refuse, input_error_or_interrupt, run_catching_panics};
 use crate::interruptible::run_interruptibly;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
@@ -45,7 +45,7 @@ impl PyTable {
         }
         let (found, seen) = run_interruptibly(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
         seen?;
-        let batch = found.map_err(|error| error_of_table(format!("table: {error}")))?;
+        let batch = found.map_err(|error| input_error_or_interrupt(format!("table: {error}")))?;
         Ok(PyTable { batch })
     }
 
@@ -69,7 +69,7 @@ impl PyTable {
             return Err(refuse(format!("row {wrong}: the table has {all} rows")));
         }
         let rows = arrow_array::Int64Array::from(rows);
-        let batch = catching_panics("rows", || {
+        let batch = run_catching_panics("rows", || {
             arrow_select::take::take_record_batch(&self.batch, &rows).map_err(refuse)
         })?;
         Ok(PyTable { batch })
@@ -83,13 +83,13 @@ impl PyTable {
         checksum: u32,
     ) -> PyResult<Self> {
         let (py, stored) = (class.py(), stored.as_bytes());
-        let batch = catching_panics("table", || py.detach(|| stored::read(stored, checksum)))?;
+        let batch = run_catching_panics("table", || py.detach(|| stored::read(stored, checksum)))?;
         Ok(PyTable { batch })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
         let (py, batch) = (slf.py(), &slf.get().batch);
-        let stored = catching_panics("table", || py.detach(|| stored::write(batch)))?;
+        let stored = run_catching_panics("table", || py.detach(|| stored::write(batch)))?;
         let make = slf.get_type().getattr("_from_bytes")?;
         Ok((make, (PyBytes::new(py, &stored), stored::checksum(&stored))))
     }
@@ -108,7 +108,7 @@ impl PyTable {
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         match self.batch.column_by_name(name) {
-            Some(column) => catching_panics(&format!("column {name}"), || {
+            Some(column) => run_catching_panics(&format!("column {name}"), || {
                 numpy_column::to_numpy(py, column)
             }),
             None => {
@@ -134,7 +134,10 @@ impl PyTable {
 
     fn __repr__(&self) -> String {
         let (rows, columns) = (self.batch.num_rows(), self.batch.num_columns());
-        format!("Table({rows} rows, {columns} columns{})", self.counts())
+        format!(
+            "Table({rows} rows, {columns} columns{})",
+            self.describe_counts()
+        )
     }
 
     /// Returns the names and types of the columns, as an Arrow schema.
@@ -177,7 +180,7 @@ impl PyTable {
     }
 
     /// Returns a text that says how many rows have each status; empty for a table without statuses.
-    fn counts(&self) -> String {
+    fn describe_counts(&self) -> String {
         let column = self.batch.column_by_name("status");
         let Some(column) = column.and_then(|column| column.as_string_opt::<i32>()) else {
             return String::new();

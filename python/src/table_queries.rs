@@ -1,12 +1,13 @@
 //! The Python functions that answer a question about each row of a table.
 
-use crate::body::{body_of, warn_of_tolerance};
+use crate::body::{extract_body, warn_of_tolerance};
 use crate::errors::{
-    error_of_table, input_error as refuse, interruption_error, warn, with_attribute, wrong_type,
+    input_error as refuse, input_error_or_interrupt, interruption_error, warn, with_attribute,
+    wrong_type_error,
 };
 use crate::interruptible::run_interruptibly;
 use crate::settings::{self, APPROACH_SETTINGS, CONTACT_SETTINGS, TABLE_SETTINGS};
-use crate::table::answering::{Answered, TableQuestion, answer};
+use crate::table::answering::{TableAnswers, TableQuestion, answer};
 use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -39,18 +40,18 @@ pub(crate) fn answer_table(
     };
     let asked = TableQuestion {
         bodies: Bodies {
-            a: body_of(a, "a")?,
-            b: body_of(b, "b")?,
+            a: extract_body(a, "a")?,
+            b: extract_body(b, "b")?,
         },
         settings: &settings,
         question,
-        threads: settings::read_thread_count(threads)?,
+        thread_count: settings::read_thread_count(threads)?,
         has_micros: micros,
     };
     // One query checks the settings, whose error each row would only repeat.
-    check(asked)?;
+    check_table_settings(asked)?;
     if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
-        return Err(wrong_type("progress", "a function", progress));
+        return Err(wrong_type_error("progress", "a function", progress));
     }
     let progress = progress.map(Bound::unbind);
     let reader = input::open(motions)?;
@@ -68,7 +69,7 @@ pub(crate) fn answer_table(
     let work = |stop: &_| answer(asked, reader, stop, &done);
     let (found, interruption) = run_interruptibly(py, work, &mut report)?;
     let found = found.map_err(|error| table_error(&error))?;
-    let Answered {
+    let TableAnswers {
         results,
         fault,
         remarks,
@@ -83,15 +84,15 @@ pub(crate) fn answer_table(
             error => with_attribute(py, error, "results", table),
         }),
         (Ok(()), None) => {
-            warn(py, remarks, FRAMES_TO_CALLER)?;
-            warn_of_tolerance([a, b], settings.tolerance, FRAMES_TO_CALLER)?;
+            warn(py, remarks, STACK_FRAMES_TO_CALLER)?;
+            warn_of_tolerance([a, b], settings.tolerance, STACK_FRAMES_TO_CALLER)?;
             Ok(table)
         }
     }
 }
 
 /// The number of stack frames from `answer_table` to the caller of `rigid_ccd.first_contacts`.
-const FRAMES_TO_CALLER: i32 = 3;
+const STACK_FRAMES_TO_CALLER: i32 = 3;
 
 fn question_named(name: &str) -> PyResult<Question> {
     let found = Question::ALL
@@ -113,7 +114,7 @@ fn known_settings(question: Question) -> Vec<&'static str> {
 }
 
 /// Returns an error for settings that would be invalid for every row of the table.
-fn check(asked: TableQuestion<'_>) -> PyResult<()> {
+fn check_table_settings(asked: TableQuestion<'_>) -> PyResult<()> {
     match asked.settings.clearance {
         Some(_) if !asked.question.is_for_a_distance() => {
             return Err(refuse(
@@ -133,7 +134,7 @@ fn check(asked: TableQuestion<'_>) -> PyResult<()> {
 }
 
 fn table_error(error: &TableError) -> PyErr {
-    error_of_table(match error {
+    input_error_or_interrupt(match error {
         TableError::Empty => "motions: there is no column".to_owned(),
         TableError::Unreadable(why) => format!("motions: {why}"),
         other => format!("motions: {other}"),

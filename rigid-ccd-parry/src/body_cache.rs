@@ -2,7 +2,7 @@
 
 use crate::form::ShapeGeometry;
 use crate::limits::{MAX_CACHED_BODIES, MAX_CACHED_BYTES};
-use crate::{Prepared, ShapeError};
+use crate::{BodyOfShape, ShapeError};
 use std::sync::Arc;
 
 /// A cache of the most recently used bodies, for shapes that no `Caster` holds.
@@ -11,7 +11,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct BodyCache {
     /// The cached bodies, the most recently used one last.
-    bodies: Vec<Entry>,
+    bodies: Vec<CachedBody>,
     /// The maximum memory of all cached bodies, in bytes.
     max_bytes: usize,
 }
@@ -26,25 +26,25 @@ impl Default for BodyCache {
 }
 
 #[derive(Debug)]
-struct Entry {
+struct CachedBody {
     geometry: ShapeGeometry,
-    body: Arc<Prepared>,
+    body: Arc<BodyOfShape>,
     bytes: usize,
 }
 
 impl BodyCache {
     /// Returns the body of a geometry from the cache, or makes the body and caches it.
-    pub(crate) fn body(&mut self, form: ShapeGeometry) -> Result<Arc<Prepared>, ShapeError> {
+    pub(crate) fn body(&mut self, form: ShapeGeometry) -> Result<Arc<BodyOfShape>, ShapeError> {
         if let Some(at) = self.bodies.iter().rposition(|kept| kept.geometry == form) {
             self.bodies[at..].rotate_left(1);
             let last = self.bodies.last().map(|kept| Arc::clone(&kept.body));
-            return last.map_or_else(|| Prepared::new(&form).map(Arc::new), Ok);
+            return last.map_or_else(|| BodyOfShape::new(&form).map(Arc::new), Ok);
         }
-        let body = Arc::new(Prepared::new(&form)?);
+        let body = Arc::new(BodyOfShape::new(&form)?);
         let bytes = body.bytes() + form.bytes();
         self.evict_until_fits(bytes);
         if bytes <= self.max_bytes {
-            self.bodies.push(Entry {
+            self.bodies.push(CachedBody {
                 geometry: form,
                 body: Arc::clone(&body),
                 bytes,

@@ -1,15 +1,13 @@
 //! Converts a cast in double precision to a query of the engine.
 
 use crate::half_space::HalfSpace;
-use crate::horizon::{MotionWithExtent, QueryDuration, relative_displacement};
+use crate::horizon::{MotionWithExtent, QueryDuration, max_relative_displacement};
 use crate::interval::Interval;
 use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
-use crate::tolerance::{
-    INTERVAL_END_ROUNDING_FACTOR, MAX_TOLERANCE_SHARE, VELOCITY_DIFFERENCE_ROUNDING,
-};
-use crate::{CastError, Options, Prepared};
+use crate::tolerance::{ENLARGEMENT_FACTOR, MAX_TOLERANCE_SHARE, VELOCITY_DIFFERENCE_ROUNDING};
+use crate::{BodyOfShape, CastError, Options};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
 use ccd_core::{DeviationBound, InputError, Motion, Settings, StartPolicy, Stretch, Trajectory};
@@ -23,25 +21,25 @@ pub(crate) struct Cast {
     pub(crate) interval: Interval,
     /// The distance at which the two shapes are in contact, in the scene's unit of length.
     pub(crate) target: f64,
-    pub(crate) start: StartPolicy,
+    pub(crate) start_policy: StartPolicy,
     pub(crate) options: Options,
     /// The default tolerance, in the scene's unit of length.
-    pub(crate) contact: f64,
+    pub(crate) default_tolerance: f64,
 }
 
 /// A shape prepared for casts, as a body or as a half-space.
 #[derive(Clone, Debug)]
 pub(crate) enum PreparedShape {
-    Body(Arc<Prepared>),
+    Body(Arc<BodyOfShape>),
     HalfSpace(HalfSpace),
 }
 
 /// A motion whose time 0 is the start of the cast's interval.
 #[derive(Clone, Copy, Debug)]
-struct ShiftedMotion {
+struct MotionFromStart {
     motion: Motion,
     /// A bound on the motion's deviation due to rounding.
-    stray: DeviationBound,
+    deviation: DeviationBound,
 }
 
 impl Cast {
@@ -79,14 +77,15 @@ impl Cast {
 
     fn scene_of_bodies<'b>(
         &self,
-        bodies: [&'b Prepared; 2],
-        shifted: [ShiftedMotion; 2],
+        bodies: [&'b BodyOfShape; 2],
+        shifted: [MotionFromStart; 2],
     ) -> Result<Scene<'b>, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
         let shifted = [0, 1].map(|k| shifted[k].without_ball_rotation(bodies[k]));
         let sides = [0, 1].map(|k| shifted[k].motion_with_extent(bodies[k]));
-        let slack = |k: usize| bodies[k].slack() + point_deviation(shifted[k].stray, &sides[k]);
-        let rounded = self.velocity_rounding(relative_displacement(
+        let slack =
+            |k: usize| bodies[k].slack() + max_point_deviation(shifted[k].deviation, &sides[k]);
+        let rounded = self.velocity_rounding(max_relative_displacement(
             &sides,
             self.target + self.tolerance(&bodies),
         ));
@@ -109,13 +108,13 @@ impl Cast {
         &self,
         plane: &HalfSpace,
         index: usize,
-        body: &Prepared,
-        shifted: [ShiftedMotion; 2],
+        body: &BodyOfShape,
+        shifted: [MotionFromStart; 2],
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
         let side = shifted[1 - index].without_ball_rotation(body);
-        let stray = side.stray;
+        let stray = side.deviation;
         let side = side.motion_with_extent(body);
         let of_plane = shifted[index].plane_motion_with_extent(&side);
         let within = self.settings(&[body], body.slack())?;
@@ -127,9 +126,9 @@ impl Cast {
         // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);
         let away = length(of_plane.about - of_plane.motion.centre());
-        let off = shifted[index].stray.at(4.0 * reach + away);
+        let off = shifted[index].deviation.at(4.0 * reach + away);
         let slack =
-            body.slack() + point_deviation(stray, &side) + off + self.velocity_rounding(reach);
+            body.slack() + max_point_deviation(stray, &side) + off + self.velocity_rounding(reach);
         let settings = self.settings(&[body], slack)?;
         let stand_in = plane.covering_box(of_plane, 2.0 * reach).map_err(|error| {
             let which = index as u8 + 1;
@@ -161,7 +160,7 @@ impl Cast {
         match found {
             Some(found)
                 if found.status == CastStatus::Overlap
-                    && self.start == StartPolicy::Leave
+                    && self.start_policy == StartPolicy::Leave
                     && scene.may_ignore_overlap() =>
             {
                 first_contact_unless_parting(scene, found, solver)
@@ -172,9 +171,9 @@ impl Cast {
 
     /// Returns both motions from the start of the interval on, as seen by an observer who moves with the velocity of
     /// the second body. A large common velocity then costs no digits.
-    fn motions_from_start(&self) -> Result<[ShiftedMotion; 2], CastError> {
+    fn motions_from_start(&self) -> Result<[MotionFromStart; 2], CastError> {
         let along = self.motions[1].velocity();
-        let shifted = |motion: &Motion| ShiftedMotion::new(motion, self.interval.start, along);
+        let shifted = |motion: &Motion| MotionFromStart::new(motion, self.interval.start, along);
         CastError::motions_or_error(self.motions.each_ref().map(shifted))
     }
 
@@ -188,10 +187,10 @@ impl Cast {
     }
 
     /// Returns the tolerance of the cast: that of the options, or a default that is smaller for tiny bodies.
-    fn tolerance(&self, bodies: &[&Prepared]) -> f64 {
+    fn tolerance(&self, bodies: &[&BodyOfShape]) -> f64 {
         let sizes = bodies.iter().map(|body| body.ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
-        let by_default = sizes.fold(self.contact, |least, size| {
+        let by_default = sizes.fold(self.default_tolerance, |least, size| {
             lesser(least, MAX_TOLERANCE_SHARE * size)
         });
         let asked = self.options.tolerance;
@@ -199,7 +198,7 @@ impl Cast {
     }
 
     /// Returns the engine's settings for bodies whose points deviate by at most `slack`.
-    fn settings(&self, bodies: &[&Prepared], slack: f64) -> Result<Settings, CastError> {
+    fn settings(&self, bodies: &[&BodyOfShape], slack: f64) -> Result<Settings, CastError> {
         let margin = self.target + slack;
         if !(self.target >= 0.0 && margin.is_finite()) {
             return Err(CastError::InvalidNumber {
@@ -211,7 +210,7 @@ impl Cast {
         Ok(Settings {
             tolerance: self.tolerance(bodies),
             margin,
-            start: self.start,
+            start: self.start_policy,
             budget: self.options.budget,
             deadline: self.options.deadline,
             ..Settings::DEFAULT
@@ -219,7 +218,7 @@ impl Cast {
     }
 }
 
-impl ShiftedMotion {
+impl MotionFromStart {
     fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
         // All points of a body that does not rotate move straight; its origin as the centre rounds least.
         let centre = if motion.spin() == DVec3::ZERO {
@@ -230,18 +229,18 @@ impl ShiftedMotion {
         let motion = Motion::about(motion.start(), motion.velocity(), motion.spin(), centre)?;
         let Stretch {
             motion,
-            deviation: stray,
+            deviation_bound: stray,
             ..
         } = motion.stretch(start, start)?;
         let velocity = motion.velocity() - along;
-        Ok(ShiftedMotion {
+        Ok(MotionFromStart {
             motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,
-            stray,
+            deviation: stray,
         })
     }
 
     /// Returns the motion with a ball that contains the body, and whose centre moves in a straight line.
-    fn motion_with_extent(&self, body: &Prepared) -> MotionWithExtent {
+    fn motion_with_extent(&self, body: &BodyOfShape) -> MotionWithExtent {
         let (middle, radius) = body.ball;
         let about = if self.motion.spin() == DVec3::ZERO {
             middle
@@ -251,7 +250,7 @@ impl ShiftedMotion {
         MotionWithExtent {
             motion: self.motion,
             about,
-            reach: (length(middle - about) + radius) * INTERVAL_END_ROUNDING_FACTOR,
+            reach: (length(middle - about) + radius) * ENLARGEMENT_FACTOR,
         }
     }
 
@@ -272,13 +271,13 @@ impl ShiftedMotion {
     }
 
     /// Returns the motion, without the angular velocity if the body is a ball that rotates about its centre.
-    fn without_ball_rotation(self, body: &Prepared) -> Self {
-        if body.point != Some(self.motion.centre()) {
+    fn without_ball_rotation(self, body: &BodyOfShape) -> Self {
+        if body.ball_centre != Some(self.motion.centre()) {
             return self;
         }
         let [velocity, centre] = [self.motion.velocity(), self.motion.centre()];
         let slides = Motion::about(self.motion.start(), velocity, DVec3::ZERO, centre);
-        ShiftedMotion {
+        MotionFromStart {
             motion: slides.unwrap_or(self.motion),
             ..self
         }
@@ -286,7 +285,7 @@ impl ShiftedMotion {
 }
 
 /// Returns a bound on the deviation of any point of a body, as a length.
-fn point_deviation(stray: DeviationBound, side: &MotionWithExtent) -> f64 {
+fn max_point_deviation(stray: DeviationBound, side: &MotionWithExtent) -> f64 {
     stray.at(side.reach + length(side.about - side.motion.centre()))
 }
 

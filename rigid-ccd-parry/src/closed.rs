@@ -7,7 +7,7 @@ use std::collections::HashMap;
 /// Returns an edge that triangles use more often in one direction than in the other; `None` for a closed mesh.
 ///
 /// Vertices at one place count as one.
-pub(crate) fn open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {
+pub(crate) fn find_open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {
     let mut first_at: HashMap<[u64; 3], u32> = HashMap::new();
     // Adding zero makes both zeros equal.
     let place = |v: u32| {

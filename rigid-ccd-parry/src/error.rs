@@ -97,17 +97,17 @@ pub enum ShapeError {
     },
     /// A polytope around a round shape would need too many corners.
     #[error(
-        "a polytope about it that exceeds it by only {requested} would have too many corners; {least} can be had"
+        "a polytope about it that exceeds it by only {requested_excess} would have too many corners; {least_excess} can be had"
     )]
-    Excess {
+    ExcessTooSmall {
         /// The excess that the options allow, in the scene's unit of length.
-        requested: f64,
+        requested_excess: f64,
         /// The least possible excess for this shape, in the scene's unit of length.
-        least: f64,
+        least_excess: f64,
     },
     /// The shape is a cylinder or a cone, which the [options](crate::Excess::NotAllowed) refuse.
     #[error("it is a cylinder or a cone, for which the options allow no polytope about it")]
-    Round,
+    RoundShapeRefused,
     /// An oriented mesh that should be a solid is not closed.
     #[error(
         "the mesh is oriented, but has an edge without a neighbour, from vertex {from} to {to}"
@@ -120,7 +120,7 @@ pub enum ShapeError {
     },
     /// Voxels have sizes or positions that parry itself cannot distinguish.
     #[error("its voxels are too far from the origin, or of a size that is not positive")]
-    Grid,
+    UnresolvableVoxels,
     /// The shape is a compound of compounds that is nested too deeply.
     #[error(
         "its parts are nested more than {} deep",

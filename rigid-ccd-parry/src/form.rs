@@ -1,6 +1,6 @@
 //! Describes the geometry of a shape in double precision, from which a body is made.
 
-use crate::closed::open_edge;
+use crate::closed::find_open_edge;
 use crate::order::{greater, length};
 use crate::tolerance::POSE_ROUNDING;
 use crate::{Excess, ShapeError};
@@ -156,9 +156,9 @@ impl ShapeGeometry {
     /// Returns the geometry of the solid whose surface the triangles are.
     ///
     /// # Errors
-    /// [`ShapeError::Open`] unless they are closed.
+    /// [`ShapeError::OpenMesh`] unless they are closed.
     pub(crate) fn into_solid(self) -> Result<Self, ShapeError> {
-        match open_edge(&self.vertices, &self.triangles) {
+        match find_open_edge(&self.vertices, &self.triangles) {
             Some([from, to]) => Err(ShapeError::OpenMesh { from, to }),
             None => Ok(ShapeGeometry {
                 volume: Volume::Solid,
@@ -220,10 +220,7 @@ impl ShapeGeometry {
             |part: &Part| farthest(part.polytope.points.iter(), middle) + part.polytope.radius;
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
         let radius = greater(parts, farthest(self.vertices.iter(), middle));
-        (
-            middle,
-            radius * crate::tolerance::INTERVAL_END_ROUNDING_FACTOR,
-        )
+        (middle, radius * crate::tolerance::ENLARGEMENT_FACTOR)
     }
 
     /// Returns the centre if the geometry is a single ball; `None` for other geometries.
@@ -348,7 +345,7 @@ fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosur
     let asked = match excess {
         Excess::RadiusFraction => round.default_excess(),
         Excess::Length(length) => length,
-        Excess::NotAllowed => return Err(ShapeError::Round),
+        Excess::NotAllowed => return Err(ShapeError::RoundShapeRefused),
     };
     // Written so that NaN is refused.
     if !(asked >= 0.0) {
@@ -359,9 +356,9 @@ fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosur
     }
     let least = round.least_excess();
     if asked < least {
-        Err(ShapeError::Excess {
-            requested: asked,
-            least,
+        Err(ShapeError::ExcessTooSmall {
+            requested_excess: asked,
+            least_excess: least,
         })
     } else {
         round.enclose(asked).map_err(ShapeError::Body)

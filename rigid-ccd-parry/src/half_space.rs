@@ -6,8 +6,8 @@
 use crate::form::ShapeGeometry;
 use crate::horizon::{MotionWithExtent, QueryDuration, repetition_time, rotation_period};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{INTERVAL_END_ROUNDING_FACTOR, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
-use crate::{Prepared, ShapeError};
+use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
+use crate::{BodyOfShape, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
 
@@ -22,7 +22,7 @@ impl HalfSpace {
     /// Creates a half-space from the direction of its normal.
     ///
     /// # Errors
-    /// [`ShapeError::Size`] for a normal that has no direction.
+    /// [`ShapeError::InvalidSize`] for a normal that has no direction.
     pub(crate) fn new(normal: DVec3) -> Result<Self, ShapeError> {
         let size = ShapeError::InvalidSize {
             what: "normal",
@@ -85,14 +85,14 @@ impl HalfSpace {
         let rounding = PLANE_ROUNDING * length(velocity);
         let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
         let height = normal.dot(to - from);
-        let reach = (body.reach + within + PLANE_ROUNDING * spread) * INTERVAL_END_ROUNDING_FACTOR;
+        let reach = (body.reach + within + PLANE_ROUNDING * spread) * ENLARGEMENT_FACTOR;
         let needed = if rate < 0.0 {
             height + reach
         } else {
             reach - height
         };
         let rate = rate.abs() - rounding;
-        (rate > 0.0).then(|| greater(0.0, needed) / rate * INTERVAL_END_ROUNDING_FACTOR)
+        (rate > 0.0).then(|| greater(0.0, needed) / rate * ENLARGEMENT_FACTOR)
     }
 
     /// Returns a bound on the distance from `plane.about` to any point of the half-space that the body may touch.
@@ -107,7 +107,7 @@ impl HalfSpace {
         let speed = length(body.motion.velocity() - plane.motion.velocity());
         let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
         (length(b - p) + speed * duration + body.reach + within + PLANE_ROUNDING * spread)
-            * INTERVAL_END_ROUNDING_FACTOR
+            * ENLARGEMENT_FACTOR
     }
 
     /// Returns a box that contains all points of the half-space within the distance `reach` of `plane.about`.
@@ -115,7 +115,7 @@ impl HalfSpace {
         &self,
         plane: MotionWithExtent,
         reach: f64,
-    ) -> Result<Prepared, ShapeError> {
+    ) -> Result<BodyOfShape, ShapeError> {
         let normal = self.normal;
         let height = normal.dot(plane.about);
         let middle = plane.about - height * normal;
@@ -124,7 +124,7 @@ impl HalfSpace {
         // The face is above the plane, whatever rounding does to the corners.
         let above = PLANE_ROUNDING * (reach + length(plane.about));
         let below = -(reach + above) + lesser(height, 0.0);
-        let wide = reach * INTERVAL_END_ROUNDING_FACTOR + above;
+        let wide = reach * ENLARGEMENT_FACTOR + above;
         let corner = |k: u32| {
             let side = |bit: u32| if k >> bit & 1 == 1 { wide } else { -wide };
             let high = if k & 4 == 4 { above } else { below };
@@ -133,7 +133,7 @@ impl HalfSpace {
         let mut form = ShapeGeometry::EMPTY;
         form.excess = 2.0 * above;
         form.push_box_of_corners((0..8).map(corner).collect(), 0.0);
-        Prepared::new(&form)
+        BodyOfShape::new(&form)
     }
 }
 

@@ -4,7 +4,7 @@
 //! have passed each other, and a motion that repeats itself need be looked at once.
 
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{INTERVAL_END_ROUNDING_FACTOR, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
+use crate::tolerance::{ENLARGEMENT_FACTOR, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_ROTATION_ANGLE};
@@ -52,7 +52,10 @@ impl QueryDuration {
     /// Returns the duration of the engine's query for a cast of two bodies over the time `wanted`, with the contact
     /// distance `within`.
     pub(crate) fn new(bodies: [MotionWithExtent; 2], within: f64, wanted: f64) -> Self {
-        let needed = [time_when_passed(bodies, within), repetition_time(bodies)];
+        let needed = [
+            time_when_past_each_other(bodies, within),
+            repetition_time(bodies),
+        ];
         QueryDuration::for_duration(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
 
@@ -69,17 +72,15 @@ impl QueryDuration {
 }
 
 /// Returns a time after which the bodies can no longer meet; `None` if their velocities are equal.
-fn time_when_passed(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
+fn time_when_past_each_other(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);
-    (speed > 0.0)
-        .then(|| relative_displacement(&bodies, within) / speed * INTERVAL_END_ROUNDING_FACTOR)
+    (speed > 0.0).then(|| max_relative_displacement(&bodies, within) / speed * ENLARGEMENT_FACTOR)
 }
 
 /// Returns a bound on the relative displacement of the bodies, from the start until contact is no longer possible.
-pub(crate) fn relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
-    let rounding =
-        (INTERVAL_END_ROUNDING_FACTOR - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
+pub(crate) fn max_relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
+    let rounding = (ENLARGEMENT_FACTOR - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
     length(b.start_position() - a.start_position()) + rounding + a.reach + b.reach + within
 }
 
@@ -98,7 +99,7 @@ pub(crate) fn rotation_period(spin: DVec3) -> f64 {
     if spin == DVec3::ZERO {
         0.0
     } else {
-        TAU / length(spin) * INTERVAL_END_ROUNDING_FACTOR
+        TAU / length(spin) * ENLARGEMENT_FACTOR
     }
 }
 

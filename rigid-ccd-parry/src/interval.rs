@@ -14,7 +14,7 @@ impl Interval {
     /// Creates an interval; `None` if its end is before its start.
     ///
     /// # Errors
-    /// [`CastError::Number`] for NaN, and for a start that is infinite.
+    /// [`CastError::InvalidNumber`] for NaN, and for a start that is infinite.
     pub(crate) fn new(start: f64, end: f64) -> Result<Option<Self>, CastError> {
         let number = |what, value, allowed| CastError::InvalidNumber {
             what,
@@ -40,7 +40,7 @@ impl Interval {
     }
 
     /// Returns the sum of the start and `after`, rounded down and clamped to the interval.
-    pub(crate) fn time_after(self, after: f64) -> f64 {
+    pub(crate) fn time_after_start(self, after: f64) -> f64 {
         let time = if self.start == 0.0 {
             after
         } else {

@@ -8,8 +8,8 @@ mod direction;
 use crate::form::ShapeGeometry;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
-use crate::tolerance::{INTERVAL_END_ROUNDING_FACTOR, LARGEST_SLIDING_RATE};
-use crate::{CastError, Prepared};
+use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_SLIDING_RATE};
+use crate::{BodyOfShape, CastError};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
 use direction::direction;
@@ -39,7 +39,7 @@ pub(crate) fn first_contact_unless_parting(
         match found.status {
             CastStatus::Overlap => {
                 left_out += 1;
-                let [a, b] = found.numbers;
+                let [a, b] = found.sub_shape_indices;
                 if left_out > MAX_PARTING_PAIRS || !pieces_begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
                 }
@@ -52,8 +52,12 @@ pub(crate) fn first_contact_unless_parting(
             CastStatus::Inside => return Ok(Some(overlap)),
             CastStatus::Near | CastStatus::Contact | CastStatus::Limit => {
                 if first.is_none_or(|first| found.time < first.time) {
-                    let numbers = [0, 1].map(|k| scene.bodies[k].sub_shape_index(found.numbers[k]));
-                    first = Some(CastHit { numbers, ..found });
+                    let numbers =
+                        [0, 1].map(|k| scene.bodies[k].sub_shape_index(found.sub_shape_indices[k]));
+                    first = Some(CastHit {
+                        sub_shape_indices: numbers,
+                        ..found
+                    });
                 }
             }
         }
@@ -77,7 +81,7 @@ fn first_contact_of_pieces(
 }
 
 /// Returns a body of the given pieces, with the pieces' indices as sub-shape indices.
-fn body_of_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
+fn body_of_pieces(body: &BodyOfShape, pieces: &[u32]) -> Result<BodyOfShape, crate::ShapeError> {
     let mut form = ShapeGeometry::EMPTY;
     for &number in pieces {
         let piece = body.body().pieces().get(number as usize);
@@ -88,7 +92,7 @@ fn body_of_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Sh
             number,
         );
     }
-    Prepared::new(&form)
+    BodyOfShape::new(&form)
 }
 
 /// Returns the indices of the pieces of body `k` that the other body may reach during the cast.
@@ -103,11 +107,11 @@ fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let comes_near = |piece: &Piece<'_>| {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
-        let rounding = (INTERVAL_END_ROUNDING_FACTOR - 1.0)
-            * (length(place) + length(from) + length(displacement));
+        let rounding =
+            (ENLARGEMENT_FACTOR - 1.0) * (length(place) + length(from) + length(displacement));
         let apart = distance_to_segment(place - from, displacement);
         // The comparison treats NaN as near.
-        !(apart > (within + radius) * INTERVAL_END_ROUNDING_FACTOR + rounding)
+        !(apart > (within + radius) * ENLARGEMENT_FACTOR + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
     pieces

@@ -59,7 +59,7 @@
 //! # What comes out
 //! | field | here |
 //! |---|---|
-//! | `time_of_impact` | rounded down. At it the shapes are within the target distance + the tolerance ([`Options::tolerance`], or the least that can be proven at such coordinates) + what polytopes exceed their shapes by ([`Prepared::excess`]) + rounding ([`Prepared::slack`], twice) |
+//! | `time_of_impact` | rounded down. At it the shapes are within the target distance + the tolerance ([`Options::tolerance`], or the least that can be proven at such coordinates) + what polytopes exceed their shapes by ([`BodyOfShape::excess`]) + rounding ([`BodyOfShape::slack`], twice) |
 //! | `witness1`, `witness2` | the nearest points, each in its shape's frame. Of shapes that overlap at the start they are one common point |
 //! | `normal1`, `normal2` | the directions to the other shape, each in its shape's frame. Of shapes that overlap at the start they are some direction |
 //! | `status: Converged` | a contact. Also at the start, of shapes that touch and do not overlap |
@@ -76,9 +76,9 @@
 //! | `TriMesh` | its triangles, exact. It is a surface, with the flag `ORIENTED` too, as in all of parry's queries between two shapes; [`Meshes`] fills it. Other flags play no role |
 //! | `HeightField` | its triangles as parry computes their corners, without those that are removed |
 //! | `Polyline` | its segments, exact |
-//! | `Voxels` | boxes on the grid, up to rounding ([`Prepared::slack`]), for a motion of any kind. parry's nonlinear cast lets them slide only |
-//! | `Compound` | its parts, placed in double precision, up to rounding ([`Prepared::slack`]) |
-//! | `Cylinder`, `Cone`, `RoundCylinder`, `RoundCone` | a polytope about it, which exceeds it by a length that is asked for ([`Excess`]) and told ([`Prepared::excess`]): contacts may be early by that, never late |
+//! | `Voxels` | boxes on the grid, up to rounding ([`BodyOfShape::slack`]), for a motion of any kind. parry's nonlinear cast lets them slide only |
+//! | `Compound` | its parts, placed in double precision, up to rounding ([`BodyOfShape::slack`]) |
+//! | `Cylinder`, `Cone`, `RoundCylinder`, `RoundCone` | a polytope about it, which exceeds it by a length that is asked for ([`Excess`]) and told ([`BodyOfShape::excess`]): contacts may be early by that, never late |
 //! | `HalfSpace` | alone, not as a part: for each cast a box that has the same contacts. parry's nonlinear cast refuses it |
 //! | all others | refused: their points are not known |
 //!
@@ -117,7 +117,7 @@ mod tolerance;
 
 pub use error::{CastError, ShapeError};
 pub use options::{Excess, Meshes, Options};
-pub use prepared::Prepared;
+pub use prepared::BodyOfShape;
 #[cfg(feature = "record")]
 pub use recording::{RecordError, Recording};
 
@@ -136,7 +136,7 @@ pub mod f32 {
             "f32"
         };
     }
-    pub(crate) use crate::tolerance::CONTACT_DISTANCE_F32 as CONTACT;
+    pub(crate) use crate::tolerance::DEFAULT_TOLERANCE_F32 as CONTACT;
     pub(crate) use parry3d as library;
 
     #[path = "api.rs"]
@@ -164,7 +164,7 @@ pub mod f64 {
             "f64"
         };
     }
-    pub(crate) use crate::tolerance::CONTACT_DISTANCE_F64 as CONTACT;
+    pub(crate) use crate::tolerance::DEFAULT_TOLERANCE_F64 as CONTACT;
     pub(crate) use parry3d_f64 as library;
 
     #[path = "api.rs"]
@@ -175,4 +175,4 @@ pub mod f64 {
 /// The examples in the README, run as doctests.
 #[cfg(all(doctest, feature = "f32"))]
 #[doc = include_str!("../README.md")]
-struct Readme;
+struct ReadmeDoctests;

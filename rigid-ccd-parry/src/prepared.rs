@@ -8,23 +8,23 @@ use ccd_core::glam::DVec3;
 /// A body made from a shape, for casts and for all other questions of [`rigid_ccd::Solver`].
 ///
 /// # Guarantee
-/// Each point of the shape is at most [`slack`](Prepared::slack) from the body, and each point of the body at most
-/// [`slack`](Prepared::slack) + [`excess`](Prepared::excess) from the shape. The casts of this crate add the slack to
+/// Each point of the shape is at most [`slack`](BodyOfShape::slack) from the body, and each point of the body at most
+/// [`slack`](BodyOfShape::slack) + [`excess`](BodyOfShape::excess) from the shape. The casts of this crate add the slack to
 /// the target distance: they are never late for it. The [body's excess](Body::excess) is slack + excess, rounded up: upper
 /// bounds of distances hold for the shapes, lower ones less the slack of both.
 #[derive(Clone, Debug)]
-pub struct Prepared {
+pub struct BodyOfShape {
     body: Body,
-    numbers: Vec<u32>,
+    sub_shape_indices: Vec<u32>,
     /// An enclosing ball: its centre, in the shape's frame, and its radius.
     pub(crate) ball: (DVec3, f64),
     /// The centre in the shape's frame if the body is a ball; `None` for other shapes.
-    pub(crate) point: Option<DVec3>,
+    pub(crate) ball_centre: Option<DVec3>,
     slack: f64,
     excess: f64,
 }
 
-impl Prepared {
+impl BodyOfShape {
     /// Makes the body from the geometry of a shape.
     pub(crate) fn new(form: &ShapeGeometry) -> Result<Self, ShapeError> {
         let form = form.with_polytope()?;
@@ -34,11 +34,11 @@ impl Prepared {
         } else {
             form.excess
         };
-        Ok(Prepared {
+        Ok(BodyOfShape {
             body: body.with_excess(together).map_err(ShapeError::Body)?,
-            numbers,
+            sub_shape_indices: numbers,
             ball: form.ball(),
-            point: form.point(),
+            ball_centre: form.point(),
             slack: form.slack,
             excess: form.excess,
         })
@@ -66,11 +66,16 @@ impl Prepared {
     /// Returns the sub-shape index of a piece of the body, as in `parry3d::query::ShapeCastHit::subshape1`; 0 for a
     /// piece that does not exist.
     pub fn sub_shape_index(&self, piece: u32) -> u32 {
-        self.numbers.get(piece as usize).copied().unwrap_or(0)
+        self.sub_shape_indices
+            .get(piece as usize)
+            .copied()
+            .unwrap_or(0)
     }
 
     /// Returns the approximate memory use in bytes.
     pub fn bytes(&self) -> usize {
-        self.body.memory_usage() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
+        self.body.memory_usage()
+            + size_of_val(self.sub_shape_indices.as_slice())
+            + size_of::<Self>()
     }
 }

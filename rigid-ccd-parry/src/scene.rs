@@ -3,8 +3,8 @@
 use crate::horizon::QueryDuration;
 use crate::interval::Interval;
 use crate::order::lesser;
-use crate::tolerance::BUDGET_AT_LIMIT;
-use crate::{CastError, Prepared};
+use crate::tolerance::NEAREST_POINTS_BUDGET;
+use crate::{BodyOfShape, CastError};
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, Motion, Outcome, Overlap, Pose, Settings, Volume};
 use rigid_ccd::Solver;
@@ -12,7 +12,7 @@ use rigid_ccd::Solver;
 /// Two moving bodies and the distance at which they are in contact.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
-    pub(crate) bodies: [&'a Prepared; 2],
+    pub(crate) bodies: [&'a BodyOfShape; 2],
     /// The motions from the start of the interval on, without rotations that have no effect.
     pub(crate) motions: [Motion; 2],
     /// The full motions, with all rotations; the points and normals of a hit are in the frames that these motions move.
@@ -33,7 +33,7 @@ pub(crate) struct CastHit {
     /// Two unit normals: each points from its own body towards the other, and is in its own body's frame.
     pub(crate) normals: [DVec3; 2],
     /// The indices of the nearest sub-shapes.
-    pub(crate) numbers: [u32; 2],
+    pub(crate) sub_shape_indices: [u32; 2],
     pub(crate) status: CastStatus,
 }
 
@@ -66,7 +66,7 @@ impl Scene<'_> {
     pub(crate) fn may_ignore_overlap(&self) -> bool {
         let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
         // Inside a solid mesh there may be no piece from which a body could part.
-        let bare = |body: &&Prepared| {
+        let bare = |body: &&BodyOfShape| {
             let body = body.body();
             body.pieces().len() == 1 || body.volume() == Volume::Surface
         };
@@ -111,10 +111,10 @@ impl Scene<'_> {
         let normals = [separation.normal, -separation.normal];
         let poses = self.poses(after);
         CastHit {
-            time: self.interval.time_after(after),
+            time: self.interval.time_after_start(after),
             witnesses: [0, 1].map(|k| poses[k].inverse().transform_point(points[k])),
             normals: [0, 1].map(|k| poses[k].rotation().conjugate() * normals[k]),
-            numbers: [
+            sub_shape_indices: [
                 self.bodies[0].sub_shape_index(contact.piece_a),
                 self.bodies[1].sub_shape_index(contact.piece_b),
             ],
@@ -136,7 +136,7 @@ impl Scene<'_> {
     /// Returns the hit for a limit reached at the time `after` the start, with the nearest points if they can be found.
     fn hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
-            budget: lesser(self.settings.budget, BUDGET_AT_LIMIT),
+            budget: lesser(self.settings.budget, NEAREST_POINTS_BUDGET),
             deadline: self.settings.deadline,
             ..Settings::DEFAULT
         });
@@ -152,7 +152,10 @@ impl Scene<'_> {
         };
         match contact {
             Some(contact) => self.hit_from_contact(after, &contact, CastStatus::Limit),
-            None => CastHit::hit_without_points(self.interval.time_after(after), CastStatus::Limit),
+            None => CastHit::hit_without_points(
+                self.interval.time_after_start(after),
+                CastStatus::Limit,
+            ),
         }
     }
 
@@ -168,7 +171,7 @@ impl CastHit {
             time,
             witnesses: [DVec3::ZERO; 2],
             normals: [DVec3::X; 2],
-            numbers: [0; 2],
+            sub_shape_indices: [0; 2],
             status: ending,
         }
     }

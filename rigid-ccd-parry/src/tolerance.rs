@@ -10,12 +10,12 @@ use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 /// reports twice as early; a thousandth of it takes a few percent longer, for contacts that single precision can
 /// not tell apart.
 #[cfg(feature = "f32")]
-pub(crate) const CONTACT_DISTANCE_F32: f64 = 1e-6;
+pub(crate) const DEFAULT_TOLERANCE_F32: f64 = 1e-6;
 
 /// The default contact distance in double precision, in the scene's unit of length. parry's casts stop at 2e-15, which
 /// no proof in double precision can reach.
 #[cfg(feature = "f64")]
-pub(crate) const CONTACT_DISTANCE_F64: f64 = 1e-9;
+pub(crate) const DEFAULT_TOLERANCE_F64: f64 = 1e-9;
 
 /// The largest default tolerance, as a share of the smaller body's radius, so that tiny bodies are not in contact at a
 /// distance of their own size.
@@ -50,7 +50,7 @@ pub(crate) const VELOCITY_DIFFERENCE_ROUNDING: f64 = 2.0 * UNIT_ROUNDOFF_F64;
 
 /// The factor by which lengths and durations are enlarged to cover their rounding errors. The sums and quotients that
 /// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
-pub(crate) const INTERVAL_END_ROUNDING_FACTOR: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
+pub(crate) const ENLARGEMENT_FACTOR: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
 
 /// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
 pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;
@@ -59,7 +59,7 @@ pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;
 pub(crate) const LONGEST_DURATION: f64 = 1e250;
 
 /// The work limit of the search for the nearest points of a cast that reached a limit.
-pub(crate) const BUDGET_AT_LIMIT: u64 = 1 << 16;
+pub(crate) const NEAREST_POINTS_BUDGET: u64 = 1 << 16;
 
 /// The largest approach rate of overlapping bodies that counts as sliding, relative to their speed. The direction of
 /// least overlap has an error of some thousand `u`.

@@ -63,7 +63,7 @@ pub enum RobotError {
     },
     /// A joint follows another joint that does not exist, has no position, or follows the first joint in turn.
     #[error("joint `{joint}` follows `{followed}`, which has no position of its own")]
-    FollowsNothing {
+    UnfollowableJoint {
         /// The name of the joint that was to follow another joint.
         joint: String,
         /// The name of the joint that was to be followed.
@@ -71,7 +71,7 @@ pub enum RobotError {
     },
     /// A configuration does not have exactly one position for each joint with a position of its own.
     #[error("{given} positions for {expected} joints: {names}")]
-    PositionCount {
+    WrongPositionCount {
         /// The number of positions in the configuration.
         given: usize,
         /// The number of joints with a position of their own.
@@ -81,7 +81,7 @@ pub enum RobotError {
     },
     /// A position is outside of its joint's limits, or not finite.
     #[error("joint `{joint}`: {error}")]
-    Position {
+    InvalidPosition {
         /// The name of the joint whose position is refused.
         joint: String,
         /// The reason why the position is refused.

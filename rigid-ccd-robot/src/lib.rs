@@ -49,4 +49,4 @@ pub use urdf::{Geometry, MeshModel, Urdf, UrdfError};
 /// The example in the README, run as a doctest.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+struct ReadmeDoctests;

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 pub struct LinkPairs {
     skip_reasons: BTreeMap<[usize; 2], SkipReason>,
     /// The numbers of the links that have bodies.
-    links: Vec<usize>,
+    links_with_bodies: Vec<usize>,
 }
 
 /// The reason why a pair of links is not checked.
@@ -34,14 +34,14 @@ impl LinkPairs {
         let links: Vec<usize> = (0..robot.links().len()).filter(has_bodies).collect();
         let mut pairs = LinkPairs {
             skip_reasons: BTreeMap::new(),
-            links,
+            links_with_bodies: links,
         };
         for [one, other] in pairs.all().collect::<Vec<_>>() {
             let is_parent = |link, other| robot.parent_link(link) == Some(other);
             let reason = if is_parent(one, other) || is_parent(other, one) {
                 Some(SkipReason::Adjacent)
             } else {
-                let is_rigid = robot.is_rigid_between(one, other);
+                let is_rigid = robot.are_rigidly_connected(one, other);
                 is_rigid.then_some(SkipReason::NoMotion)
             };
             pairs
@@ -76,8 +76,12 @@ impl LinkPairs {
 
     /// Iterates over all pairs of links with bodies.
     fn all(&self) -> impl Iterator<Item = [usize; 2]> {
-        let links = self.links.iter().enumerate();
-        links.flat_map(|(k, &one)| self.links[k + 1..].iter().map(move |&other| [one, other]))
+        let links = self.links_with_bodies.iter().enumerate();
+        links.flat_map(|(k, &one)| {
+            self.links_with_bodies[k + 1..]
+                .iter()
+                .map(move |&other| [one, other])
+        })
     }
 }
 

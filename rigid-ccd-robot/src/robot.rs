@@ -22,7 +22,7 @@ pub struct Robot {
     joints: Vec<Joint>,
     tree: Tree,
     /// For each joint, the rule by which its position is computed from a configuration; `None` for a fixed joint.
-    position_sources: Vec<Option<Source>>,
+    position_sources: Vec<Option<PositionSource>>,
     /// The numbers of the joints with a position of their own, in the order of a configuration.
     free_joints: Vec<usize>,
 }
@@ -79,14 +79,14 @@ pub enum Position {
 
 /// The rule by which a joint's position is computed from a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Source {
+pub(crate) struct PositionSource {
     /// The index of a position in the configuration, from which the joint's position is computed.
     number: usize,
     multiplier: f64,
     offset: f64,
 }
 
-impl Source {
+impl PositionSource {
     /// Returns the position of the joint in a configuration.
     pub(crate) fn position(&self, configuration: &[f64]) -> f64 {
         self.multiplier * configuration[self.number] + self.offset
@@ -131,7 +131,7 @@ impl Robot {
             }
         }
         let tree = Tree::new(&links, &joints)?;
-        let (sources, free_joints) = sources(&joints)?;
+        let (sources, free_joints) = position_sources_and_free_joints(&joints)?;
         Ok(Robot {
             links,
             joints,
@@ -182,7 +182,7 @@ impl Robot {
     /// Returns the pose of a link in the frame of the base.
     ///
     /// # Errors
-    /// [`RobotError::NoSuchLink`], [`RobotError::PositionCount`], [`RobotError::Position`].
+    /// [`RobotError::NoSuchLink`], [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].
     pub fn pose(&self, link: &str, configuration: &[f64]) -> Result<Pose, RobotError> {
         let chain = self.chain_between(self.base(), self.link_number(link)?);
         let positions = chain.positions(self, configuration)?;
@@ -194,7 +194,7 @@ impl Robot {
     /// Returns the chain of joints by which link number `to` moves in the frame of link number `from`. It leads up to
     /// their common ancestor, through reversed joints, and down again.
     pub fn chain_between(&self, from: usize, to: usize) -> ChainBetween {
-        let steps = self.tree.steps_between(from, to);
+        let steps = self.tree.path_between(from, to);
         let joints = steps.iter().map(|step| {
             let joint = self.joints[step.joint].joint.clone();
             if step.leads_to_parent {
@@ -208,8 +208,8 @@ impl Robot {
     }
 
     /// Returns whether only fixed joints are between two links, so that neither moves in the frame of the other.
-    pub(crate) fn is_rigid_between(&self, one: usize, other: usize) -> bool {
-        let steps = self.tree.steps_between(one, other);
+    pub(crate) fn are_rigidly_connected(&self, one: usize, other: usize) -> bool {
+        let steps = self.tree.path_between(one, other);
         steps
             .iter()
             .all(|step| self.position_sources[step.joint].is_none())
@@ -227,7 +227,7 @@ impl Robot {
     }
 
     /// Returns how the position of a joint comes from a configuration; `None` for a fixed one.
-    pub(crate) fn source(&self, joint: usize) -> Option<Source> {
+    pub(crate) fn source(&self, joint: usize) -> Option<PositionSource> {
         self.position_sources[joint]
     }
 
@@ -235,7 +235,7 @@ impl Robot {
     pub(crate) fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let expected = self.free_joints.len();
         if configuration.len() != expected {
-            return Err(RobotError::PositionCount {
+            return Err(RobotError::WrongPositionCount {
                 given: configuration.len(),
                 expected,
                 names: self.joint_names().collect::<Vec<_>>().join(", "),
@@ -243,10 +243,12 @@ impl Robot {
         }
         for (&joint, &position) in self.free_joints.iter().zip(configuration) {
             let Joint { name, joint, .. } = &self.joints[joint];
-            joint.pose(position).map_err(|error| RobotError::Position {
-                joint: name.clone(),
-                error,
-            })?;
+            joint
+                .pose(position)
+                .map_err(|error| RobotError::InvalidPosition {
+                    joint: name.clone(),
+                    error,
+                })?;
         }
         Ok(())
     }
@@ -258,7 +260,9 @@ impl Robot {
 }
 
 /// Finds the rule for the position of each joint, and the joints that have a position of their own.
-fn sources(joints: &[Joint]) -> Result<(Vec<Option<Source>>, Vec<usize>), RobotError> {
+fn position_sources_and_free_joints(
+    joints: &[Joint],
+) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
     let is_free = |joint: &Joint| joint.position == Position::Free && !joint.joint.is_fixed();
     let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
     let sources = joints.iter().map(|joint| {
@@ -273,13 +277,13 @@ fn sources(joints: &[Joint]) -> Result<(Vec<Option<Source>>, Vec<usize>), RobotE
                     let number = free_joints.iter().position(|&k| joints[k].name == at.name);
                     return number
                         .map(|number| {
-                            Some(Source {
+                            Some(PositionSource {
                                 number,
                                 multiplier,
                                 offset,
                             })
                         })
-                        .ok_or_else(|| follows_nothing_error(joint, &at.name));
+                        .ok_or_else(|| unfollowable_joint_error(joint, &at.name));
                 }
                 Position::Follows {
                     joint: followed,
@@ -289,17 +293,17 @@ fn sources(joints: &[Joint]) -> Result<(Vec<Option<Source>>, Vec<usize>), RobotE
                     offset += multiplier * shift;
                     multiplier *= factor;
                     let found = joints.iter().find(|other| other.name == *followed);
-                    at = found.ok_or_else(|| follows_nothing_error(joint, followed))?;
+                    at = found.ok_or_else(|| unfollowable_joint_error(joint, followed))?;
                 }
             }
         }
-        Err(follows_nothing_error(joint, &at.name))
+        Err(unfollowable_joint_error(joint, &at.name))
     });
     Ok((sources.collect::<Result<_, _>>()?, free_joints))
 }
 
-fn follows_nothing_error(joint: &Joint, followed: &str) -> RobotError {
-    RobotError::FollowsNothing {
+fn unfollowable_joint_error(joint: &Joint, followed: &str) -> RobotError {
+    RobotError::UnfollowableJoint {
         joint: joint.name.clone(),
         followed: followed.to_owned(),
     }

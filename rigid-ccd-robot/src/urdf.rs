@@ -11,7 +11,7 @@ use crate::pairs::{LinkPairs, SkipReason};
 use crate::robot::{Joint, Link, LinkBody, Position, Robot};
 use crate::srdf::disabled_pairs;
 use bodies::BodyReader;
-use packages::Packages;
+use packages::SearchFolders;
 use rigid_ccd::glam::{DQuat, EulerRot};
 use rigid_ccd::{InputError, Pose, trajectory};
 use std::fs;
@@ -39,8 +39,8 @@ use urdf_rs::JointType;
 #[derive(Clone, Debug)]
 pub struct Urdf {
     path: PathBuf,
-    packages: Packages,
-    geometry: Geometry,
+    packages: SearchFolders,
+    body_elements: Geometry,
     meshes: MeshModel,
 }
 
@@ -60,24 +60,27 @@ impl Urdf {
     pub fn at(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Urdf {
-            packages: Packages::around(&path),
+            packages: SearchFolders::for_urdf(&path),
             path,
-            geometry: Geometry::default(),
+            body_elements: Geometry::default(),
             meshes: MeshModel::default(),
         }
     }
 
     /// Adds a folder that is searched first for `package://` names. The folder is a package, or holds packages.
     #[must_use]
-    pub fn with_packages(mut self, folder: impl Into<PathBuf>) -> Self {
+    pub fn with_package_folder(mut self, folder: impl Into<PathBuf>) -> Self {
         self.packages.prepend_folder(folder.into());
         self
     }
 
     /// Sets whether the `collision` or the `visual` elements of links become bodies.
     #[must_use]
-    pub fn with_geometry(self, geometry: Geometry) -> Self {
-        Urdf { geometry, ..self }
+    pub fn with_body_elements(self, geometry: Geometry) -> Self {
+        Urdf {
+            body_elements: geometry,
+            ..self
+        }
     }
 
     /// Sets whether a mesh becomes exact pieces or its convex hull.
@@ -133,7 +136,7 @@ impl Urdf {
     }
 
     fn link(&self, reader: &BodyReader<'_>, link: &urdf_rs::Link) -> Result<Link, UrdfError> {
-        let elements: Vec<(&urdf_rs::Pose, &urdf_rs::Geometry)> = match self.geometry {
+        let elements: Vec<(&urdf_rs::Pose, &urdf_rs::Geometry)> = match self.body_elements {
             Geometry::Collision => link
                 .collision
                 .iter()
@@ -146,7 +149,7 @@ impl Urdf {
                 .collect(),
         };
         let body = |(origin, geometry)| {
-            let (body, pose) = (reader.body(geometry)?, pose_of(origin)?);
+            let (body, pose) = (reader.body(geometry)?, convert_pose(origin)?);
             Ok(LinkBody { body, pose })
         };
         let bodies: Result<_, UrdfError> = elements.into_iter().map(body).collect();
@@ -165,7 +168,7 @@ fn read(file: &Path) -> Result<String, UrdfError> {
 }
 
 fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
-    let origin = pose_of(&joint.origin)?;
+    let origin = convert_pose(&joint.origin)?;
     let axis = joint.axis.xyz.0;
     let limits = joint.limit.lower..=joint.limit.upper;
     let moved = match joint.joint_type {
@@ -197,7 +200,7 @@ fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
 }
 
 /// Converts a pose of a URDF, whose roll, pitch and yaw are rotations about fixed axes: first x, then y, then z.
-fn pose_of(origin: &urdf_rs::Pose) -> Result<Pose, InputError> {
+fn convert_pose(origin: &urdf_rs::Pose) -> Result<Pose, InputError> {
     let [roll, pitch, yaw] = origin.rpy.0;
     let turned = DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll);
     Pose::new(origin.xyz.0, turned)

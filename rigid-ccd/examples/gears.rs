@@ -20,7 +20,7 @@ struct Gear {
 }
 
 const PRESSURE_ANGLE: f64 = PI / 9.0;
-const WIDTH: f64 = 4.0;
+const FACE_WIDTH: f64 = 4.0;
 
 impl Gear {
     fn pitch_radius(&self) -> f64 {
@@ -63,11 +63,11 @@ impl Gear {
         let outline = self.outline();
         let count = outline.len() as u32;
         let mut vertices = Vec::new();
-        for z in [-0.5 * WIDTH, 0.5 * WIDTH] {
+        for z in [-0.5 * FACE_WIDTH, 0.5 * FACE_WIDTH] {
             vertices.extend(outline.iter().map(|&[x, y]| DVec3::new(x, y, z)));
         }
         // Every point of the outline is visible from the axis.
-        vertices.extend([-0.5, 0.5].map(|side| side * WIDTH * DVec3::Z));
+        vertices.extend([-0.5, 0.5].map(|side| side * FACE_WIDTH * DVec3::Z));
         let (bottom, top) = (2 * count, 2 * count + 1);
         let mut faces = Vec::new();
         for k in 0..count {
@@ -84,17 +84,19 @@ impl Gear {
 const STEPS: u32 = 8;
 
 /// The angle of rotation, in degrees of the first gear, over which one clearance is computed.
-const WINDOW_DEGREES: u32 = 1;
+const DEGREES_PER_INTERVAL: u32 = 1;
 
 /// Bounds on the least clearance over one interval of the rotation.
-struct WindowClearance {
+struct IntervalClearance {
     angle: u32,
     lower: f64,
     upper: f64,
 }
 
 /// Returns bounds on the least clearance in each interval of a full turn of the first gear.
-fn clearances(gears: [&Gear; 2]) -> Result<Vec<WindowClearance>, Box<dyn std::error::Error>> {
+fn clearance_per_interval(
+    gears: [&Gear; 2],
+) -> Result<Vec<IntervalClearance>, Box<dyn std::error::Error>> {
     let [a, b] = gears;
     let bodies = [a.body()?, b.body()?];
     // The axes are a little farther apart than the pitch circles require.
@@ -105,8 +107,9 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<WindowClearance>, Box<dyn std::er
         ..Settings::DEFAULT
     });
     let mut windows = Vec::new();
-    for angle in (0..360).step_by(WINDOW_DEGREES as usize) {
-        let [from, turn] = [angle, WINDOW_DEGREES].map(|degrees| f64::from(degrees).to_radians());
+    for angle in (0..360).step_by(DEGREES_PER_INTERVAL as usize) {
+        let [from, turn] =
+            [angle, DEGREES_PER_INTERVAL].map(|degrees| f64::from(degrees).to_radians());
         // A tooth of the first gear points to a gap of the second one.
         let gap = PI + PI / f64::from(b.teeth);
         let turned = DQuat::from_rotation_z;
@@ -122,7 +125,7 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<WindowClearance>, Box<dyn std::er
             ),
             1.0,
         )?;
-        windows.push(WindowClearance {
+        windows.push(IntervalClearance {
             angle,
             lower: closest.outcome.lower(),
             upper: closest.outcome.upper(),
@@ -137,10 +140,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         module: 1.0,
         backlash: 0.1,
     };
-    let windows = clearances([&gear(20), &gear(30)])?;
+    let windows = clearance_per_interval([&gear(20), &gear(30)])?;
     let mut print = std::io::stdout().lock();
     writeln!(print, "degrees  least clearance, mm")?;
-    for WindowClearance {
+    for IntervalClearance {
         angle,
         lower,
         upper,

@@ -23,12 +23,12 @@ mod size;
 mod table;
 mod view;
 
-pub use bad_rows::BadRows;
-pub use files::{input_name, open_motions, refuse_overwriting, same_file};
+pub use bad_rows::BadRowCounter;
+pub use files::{input_name, is_same_file, open_motions, refuse_overwriting};
 pub use output::OutputError;
-pub use progress::{Progress, Total};
+pub use progress::{Progress, TotalWork};
 pub use size::Size;
-pub use table::Table;
+pub use table::TableWriter;
 
 use crate::Remark;
 use crate::text::PrintableText;
@@ -81,13 +81,13 @@ enum Command {
 
 /// The outcome of a run that wrote all its output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exit {
+pub enum RunOutcome {
     /// Every row has an answer.
     AllAnswered,
     /// Some rows could not be read, answered or drawn; all others are done.
     SomeRowsBad,
     /// Every row has an answer, and `--check` found rows that are not proven `free` or `kept`.
-    SomeRowsNotFree,
+    SomeRowsUnproven,
 }
 
 /// Parses the command line of this process, and runs the subcommand.
@@ -107,11 +107,11 @@ pub fn main() -> ExitCode {
 
 /// Returns the exit code of a run, and prints its error, if there is one. The code is 0 for success, 1 for results that
 /// cannot be written, 2 for bad input, and 3 for rows that fail `--check`.
-pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
+pub fn exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
     match outcome {
-        Ok(Exit::AllAnswered) => ExitCode::SUCCESS,
-        Ok(Exit::SomeRowsBad) => ExitCode::from(2),
-        Ok(Exit::SomeRowsNotFree) => ExitCode::from(3),
+        Ok(RunOutcome::AllAnswered) => ExitCode::SUCCESS,
+        Ok(RunOutcome::SomeRowsBad) => ExitCode::from(2),
+        Ok(RunOutcome::SomeRowsUnproven) => ExitCode::from(3),
         Err(error) => match error.downcast_ref::<OutputError>() {
             // The reader closed the pipe, which is not a failure.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,

@@ -27,7 +27,7 @@
 //! | move many bodies, and find who touches whom first, or at all | [`Scene`] |
 //! | set a tolerance, a margin, a budget or a deadline | [`Settings`], [`Solver::with_settings`] |
 //! | make a body | [`Body::sphere`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], [`load`] for a file |
-//! | make a body of each part of a file, convert units, scale or mirror it | [`load_parts`], [`load_in`], [`load_adjusted`], [`mesh::MeshFile`] |
+//! | make a body of each part of a file, convert units, scale or mirror it | [`load_parts`], [`load_in_unit`], [`load_adjusted`], [`mesh::MeshFile`] |
 //! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`body::Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Query::contacts_at`] |
@@ -71,7 +71,7 @@
 #![cfg_attr(
     feature = "meshes",
     doc = "[`load`]: load()
-[`load_in`]: load_in()
+[`load_in_unit`]: load_in_unit()
 [`load_adjusted`]: load_adjusted()
 [`load_parts`]: load_parts()
 [`mesh`]: mesh
@@ -82,7 +82,7 @@
 #![cfg_attr(
     not(feature = "meshes"),
     doc = "[`load`]: #features
-[`load_in`]: #features
+[`load_in_unit`]: #features
 [`load_adjusted`]: #features
 [`load_parts`]: #features
 [`mesh`]: #features
@@ -133,7 +133,7 @@ pub use ccd_core::{
 pub use ccd_decomp as mesh;
 pub use error::Error;
 #[cfg(feature = "meshes")]
-pub use load::{load, load_adjusted, load_in, load_parts};
+pub use load::{load, load_adjusted, load_in_unit, load_parts};
 pub use parallel::{ParallelSolver, first_contacts};
 pub use remark::Remark;
 #[cfg(feature = "scenes")]
@@ -143,4 +143,4 @@ pub use solver::{Solver, first_contact};
 /// The example in the README, run as a doctest.
 #[cfg(all(doctest, feature = "meshes"))]
 #[doc = include_str!("../README.md")]
-struct Readme;
+struct ReadmeDoctests;

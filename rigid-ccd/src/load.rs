@@ -33,11 +33,11 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
 /// Those of [`load`].
 ///
 /// ```
-/// use rigid_ccd::{load_in, mesh::Unit};
-/// let part = load_in("examples/bracket.obj", Unit::Millimetre)?;
+/// use rigid_ccd::{load_in_unit, mesh::Unit};
+/// let part = load_in_unit("examples/bracket.obj", Unit::Millimetre)?;
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
-pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
+pub fn load_in_unit(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
     let source = BodySource::from_file(path.as_ref().into());
     Ok(source.load_in_unit(unit, Detail::Auto)?.body)
 }

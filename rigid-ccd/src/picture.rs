@@ -12,7 +12,7 @@ mod tests;
 mod verdict;
 
 pub use ccd_view::{Group, Page, PageError};
-pub use course::course;
+pub use course::shown_motions;
 pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, gap};
 #[cfg(feature = "scenes")]
@@ -36,7 +36,7 @@ pub struct Painter<'a> {
     bodies: Bodies<'a>,
     query_context: QueryContext,
     meshes: Meshes,
-    numbers: [usize; 2],
+    mesh_indices: [usize; 2],
     solver: Solver,
 }
 
@@ -70,7 +70,7 @@ impl<'a> Painter<'a> {
             bodies,
             query_context: asked,
             meshes,
-            numbers,
+            mesh_indices: numbers,
             solver: Solver::new(),
         }
     }
@@ -94,11 +94,11 @@ impl<'a> Painter<'a> {
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
-        if self.query_context.claim == TimeMeaning::TableTime {
+        if self.query_context.time_meaning == TimeMeaning::TableTime {
             self.check_distance(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
-        let name = match (self.query_context.claim, row.time) {
+        let name = match (self.query_context.time_meaning, row.time) {
             // A path has one row for each of its poses.
             (TimeMeaning::MeasurementTime, Some(time)) => {
                 format!(
@@ -113,24 +113,28 @@ impl<'a> Painter<'a> {
         let mut view = View::new(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
-            let floor = match (row.status, self.query_context.claim) {
-                (Status::Free, TimeMeaning::FirstContact | TimeMeaning::Any) => {
+            let floor = match (row.status, self.query_context.time_meaning) {
+                (Status::Free, TimeMeaning::FirstContact | TimeMeaning::SomeContact) => {
                     self.query_context.margin
                 }
                 _ => 0.0,
             };
             let found = gap(&mut self.solver, self.bodies, query, floor)?;
-            view.ghost_times = found.ghosts(duration);
+            view.ghost_times = found.ghost_times(duration);
             proven = found.least();
             nearest = found.nearest();
             view.gap = Some(found.gap);
         }
         view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
-        let motions = course(query)?;
+        let motions = shown_motions(query)?;
         let names = ["A", "B"];
-        view.bodies = (names.iter().zip(self.numbers).zip(BODY_COLORS).zip(motions))
-            .map(|(((name, mesh), color), motion)| ShownBody::new(name, mesh, color, motion))
-            .collect();
+        view.bodies = (names
+            .iter()
+            .zip(self.mesh_indices)
+            .zip(BODY_COLORS)
+            .zip(motions))
+        .map(|(((name, mesh), color), motion)| ShownBody::new(name, mesh, color, motion))
+        .collect();
         Ok(View {
             start,
             // For bodies that do not touch, show the time at which they are nearest.
@@ -138,8 +142,9 @@ impl<'a> Painter<'a> {
                 Status::Free => nearest,
                 _ => time.unwrap_or(nearest),
             },
-            origin: (query.poses(0.0)?[1].transform_point(self.meshes.middle(self.numbers[1])))
-                .to_array(),
+            origin: (query.poses(0.0)?[1]
+                .transform_point(self.meshes.middle(self.mesh_indices[1])))
+            .to_array(),
             contacts: contact.into_iter().collect(),
             ..view
         })

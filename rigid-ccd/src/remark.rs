@@ -17,9 +17,9 @@ use std::fmt;
 /// // A part in metres, and a tolerance as for millimetres.
 /// let (part, wall) = (Body::sphere(0.0005)?, Body::cuboid([1.0; 3])?);
 /// let sizes = [&part, &wall].map(Remark::size);
-/// let remark = Remark::check_tolerance(0.001, sizes).expect("it is as large as the part");
+/// let remark = Remark::remark_on_tolerance(0.001, sizes).expect("it is as large as the part");
 /// assert!(remark.to_string().starts_with("the tolerance is large against the smaller body"));
-/// assert_eq!(Remark::check_tolerance(0.00001, sizes), None);
+/// assert_eq!(Remark::remark_on_tolerance(0.00001, sizes), None);
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub enum Remark {
         position: f64,
     },
     /// A quaternion is far from unit length.
-    LongQuaternion {
+    NonUnitQuaternion {
         /// The components w, x, y, z as given.
         parts: [f64; 4],
         /// The length of the quaternion, which should be 1.
@@ -66,7 +66,7 @@ const MAX_SUSPICIOUS_DEGREES: f64 = 720.0;
 
 /// The step in degrees whose multiples count as round angles. None of 50, 100, 200, 500 and the multiples of π, which
 /// are typical of radians, is a multiple of it.
-const DEGREE_STEP: f64 = 15.0;
+const ROUND_ANGLE_STEP_DEGREES: f64 = 15.0;
 
 /// The largest relative deviation from a round angle that is attributed to rounding.
 const ROUNDING: f64 = 1e-9;
@@ -89,7 +89,7 @@ impl Remark {
 
     /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their
     /// [sizes](Remark::size). A point has none.
-    pub fn check_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
+    pub fn remark_on_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
         let size = lesser(sizes[0], sizes[1]);
         let is_coarse = size > 0.0 && tolerance > COARSE_TOLERANCE_SHARE * size;
         is_coarse.then_some(Remark::CoarseTolerance { tolerance, size })
@@ -97,7 +97,7 @@ impl Remark {
 
     /// Returns a remark if an angular velocity rotates a body by many turns in the duration, and is a round number of
     /// degrees.
-    pub fn check_spin(spin: impl Into<[f64; 3]>, duration: f64) -> Option<Self> {
+    pub fn remark_on_spin(spin: impl Into<[f64; 3]>, duration: f64) -> Option<Self> {
         let spin = DVec3::from_array(spin.into());
         let turn = length(spin) * duration;
         let is_round = [spin, spin * duration]
@@ -108,17 +108,17 @@ impl Remark {
     }
 
     /// Returns a remark if a joint's position is many turns and a round number of degrees.
-    pub fn check_joint(position: f64) -> Option<Self> {
+    pub fn remark_on_joint(position: f64) -> Option<Self> {
         let is_odd = may_be_degrees(position.abs()) && is_round_degrees(position);
         is_odd.then_some(Remark::JointInDegrees { position })
     }
 
     /// Returns a remark if a quaternion w, x, y, z is far from unit length.
-    pub fn check_quaternion(parts: [f64; 4]) -> Option<Self> {
+    pub fn remark_on_quaternion(parts: [f64; 4]) -> Option<Self> {
         let [w, x, y, z] = parts;
         let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
         let is_unit = (length - 1.0).abs() <= MAX_UNIT_LENGTH_DEVIATION;
-        (!is_unit).then_some(Remark::LongQuaternion { parts, length })
+        (!is_unit).then_some(Remark::NonUnitQuaternion { parts, length })
     }
 
     /// Returns the remark's text without numbers, the same for remarks of one kind.
@@ -134,7 +134,7 @@ impl Remark {
             Remark::JointInDegrees { .. } => {
                 "a joint's position is a round number of degrees and many turns; positions are in radians"
             }
-            Remark::LongQuaternion { .. } => {
+            Remark::NonUnitQuaternion { .. } => {
                 "a quaternion is far from unit length, and was taken as one of length 1; is it w, x, y, z?"
             }
         }
@@ -174,7 +174,8 @@ fn may_be_degrees(angle: f64) -> bool {
 }
 
 fn is_round_degrees(angle: f64) -> bool {
-    (angle - (angle / DEGREE_STEP).round() * DEGREE_STEP).abs() <= ROUNDING * angle.abs()
+    (angle - (angle / ROUND_ANGLE_STEP_DEGREES).round() * ROUND_ANGLE_STEP_DEGREES).abs()
+        <= ROUNDING * angle.abs()
 }
 
 impl fmt::Display for Remark {
@@ -195,7 +196,7 @@ impl fmt::Display for Remark {
             Remark::JointInDegrees { position } => {
                 write!(f, "{position} is {:.1} turns", position.abs() / TAU)
             }
-            Remark::LongQuaternion {
+            Remark::NonUnitQuaternion {
                 parts: [w, x, y, z],
                 length,
             } => write!(f, "({w}, {x}, {y}, {z}) has the length {length:.3}"),

@@ -52,7 +52,7 @@ pub use stops::Stop;
 pub struct Scene<'a> {
     members: Vec<SceneBody<'a>>,
     settings: Settings,
-    asked: Option<Box<dyn Fn(usize, usize) -> bool + 'a>>,
+    pair_filter: Option<Box<dyn Fn(usize, usize) -> bool + 'a>>,
     workers: ParallelSolver<WorkerMemory>,
 }
 
@@ -104,7 +104,7 @@ impl<'a> Scene<'a> {
         Scene {
             members: Vec::new(),
             settings: Settings::DEFAULT,
-            asked: None,
+            pair_filter: None,
             workers,
         }
     }
@@ -124,7 +124,7 @@ impl<'a> Scene<'a> {
     #[must_use]
     pub fn with_filter(self, asked: impl Fn(usize, usize) -> bool + 'a) -> Self {
         Scene {
-            asked: Some(Box::new(asked)),
+            pair_filter: Some(Box::new(asked)),
             ..self
         }
     }
@@ -290,8 +290,8 @@ impl<'a> Scene<'a> {
             let pair = [&self.members[a], &self.members[b]];
             pair.iter()
                 .any(|member| member.mobility == Mobility::Moving)
-                && pair[0].groups.pairs_with(pair[1].groups)
-                && self.asked.as_ref().is_none_or(|asked| asked(a, b))
+                && pair[0].groups.may_pair_with(pair[1].groups)
+                && self.pair_filter.as_ref().is_none_or(|asked| asked(a, b))
         })
     }
 }

@@ -18,5 +18,5 @@ pub mod records;
 mod remark_collector;
 pub mod results;
 
-pub use lines::Lines;
+pub use lines::LineEndReader;
 pub use quotes::QuoteTracker;

@@ -3,7 +3,7 @@
 //! This is a program of its own: the allocator that counts is that of the whole program.
 
 use ccd_distance_gjk::{Direct, Gjk};
-use ccd_tests::mixed::Mixed;
+use ccd_tests::mixed::MixedBodies;
 use rigid_ccd::oracle::DistanceOracle;
 use rigid_ccd::{Outcome, Solver};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
@@ -15,7 +15,7 @@ static COUNTING_ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 const QUERY_COUNT: u64 = 3_000;
 
 /// Answers all queries, and returns the number of queries whose bodies are in contact at the start.
-fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
+fn answer_all<O: DistanceOracle>(mixed: &MixedBodies, solver: &mut Solver<O>) -> u64 {
     let mut at_start = 0;
     for number in 0..QUERY_COUNT {
         let query = mixed.query(number);
@@ -32,12 +32,12 @@ fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
 // There is a single test, because the count covers all threads.
 #[test]
 fn queries_do_not_allocate_once_the_solver_is_warm() {
-    let mixed = Mixed::new();
+    let mixed = MixedBodies::new();
     assert_no_allocations_when_warm(&mixed, Direct::default());
     assert_no_allocations_when_warm(&mixed, Gjk);
 }
 
-fn assert_no_allocations_when_warm<O: DistanceOracle>(mixed: &Mixed, oracle: O) {
+fn assert_no_allocations_when_warm<O: DistanceOracle>(mixed: &MixedBodies, oracle: O) {
     let mut solver = Solver::with_oracle(oracle);
     let cold = Region::new(COUNTING_ALLOCATOR);
     let at_start = answer_all(mixed, &mut solver);

@@ -95,7 +95,10 @@ fn motions_have_a_range() {
 fn faces_have_as_many_numbers() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let unnumbered = Pieces::triangles(&triangle, &[[0, 1, 2]], &[]).map(drop);
-    assert_eq!(unnumbered, Err(InputError::FaceIds { faces: 1, ids: 0 }));
+    assert_eq!(
+        unnumbered,
+        Err(InputError::FaceIdCountMismatch { faces: 1, ids: 0 })
+    );
 }
 
 /// Tests that an invalid length of a shape gives an error with the name of that length. Boxes with a negative side

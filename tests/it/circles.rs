@@ -77,7 +77,7 @@ fn parsed_modules(root: &Path) -> BTreeMap<Module, syn::File> {
         for item in &file.items {
             if let syn::Item::Mod(child) = item
                 && child.content.is_none()
-                && !is_test(&child.attrs)
+                && !is_test_only(&child.attrs)
             {
                 let name = child.ident.to_string();
                 let below = folder.join(&name);
@@ -90,7 +90,7 @@ fn parsed_modules(root: &Path) -> BTreeMap<Module, syn::File> {
     texts
 }
 
-fn is_test(attributes: &[syn::Attribute]) -> bool {
+fn is_test_only(attributes: &[syn::Attribute]) -> bool {
     let is_test = |attribute: &syn::Attribute| match &attribute.meta {
         syn::Meta::List(list) => list.path.is_ident("cfg") && list.tokens.to_string() == "test",
         _ => false,
@@ -100,7 +100,7 @@ fn is_test(attributes: &[syn::Attribute]) -> bool {
 
 fn imports_by_module(texts: &BTreeMap<Module, syn::File>) -> Imports {
     let imports = texts.iter().map(|(module, file)| {
-        let mut paths = Paths::default();
+        let mut paths = PathCollector::default();
         paths.visit_file(file);
         let used = paths
             .0
@@ -140,9 +140,9 @@ fn module_of_path(
 
 /// The paths in a file that may lead to another module of the crate.
 #[derive(Default)]
-struct Paths(Vec<Module>);
+struct PathCollector(Vec<Module>);
 
-impl Paths {
+impl PathCollector {
     fn add_use_tree(&mut self, tree: &syn::UseTree, above: &[String]) {
         let below = |ident: &syn::Ident| [above, &[ident.to_string()]].concat();
         match tree {
@@ -159,9 +159,9 @@ impl Paths {
     }
 }
 
-impl<'f> Visit<'f> for Paths {
+impl<'f> Visit<'f> for PathCollector {
     fn visit_item_mod(&mut self, module: &'f syn::ItemMod) {
-        if !is_test(&module.attrs) {
+        if !is_test_only(&module.attrs) {
             visit::visit_item_mod(self, module);
         }
     }

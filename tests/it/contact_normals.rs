@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 /// The allowed angle between a contact's normal and the normal cone, in radians, for coordinates near 1 and faces of at
 /// least 0.3.
-const ANGLE_ROUNDING: f64 = 1e-12;
+const MAX_ANGLE_FROM_CONE: f64 = 1e-12;
 
 /// The rounding error of the direction between two points, multiplied by their distance.
 const DIRECTION_ROUNDING: f64 = 4e-15;
@@ -21,15 +21,15 @@ const DIRECTION_ROUNDING: f64 = 4e-15;
 /// The distance between witnesses above which the direction between them is accurate enough for a normal.
 const MIN_WITNESS_DISTANCE: f64 = 1e-8;
 
-const GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
+const TESTED_GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
 
 #[test]
 fn normals_are_in_the_cones_of_both_surfaces() {
     let rng = &mut Pcg64::seed_from_u64(45);
     let (mut checked, mut blurred) = ([0; 3], 0);
     for round in 0..runner(150).config().cases {
-        let touch = FeatureContact::draw(rng);
-        for bodies in touch.query.all_bodies() {
+        let touch = FeatureContactCase::draw(rng);
+        for bodies in touch.query.bodies_of_all_kinds() {
             let settings = touch.config();
             let problem = touch.query.problem(&bodies, &settings);
             let pairs = problem.contacts_at(0.0).unwrap();
@@ -54,7 +54,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
 fn answers_of_all_backends_have_a_common_normal() {
     let rng = &mut Pcg64::seed_from_u64(46);
     for _ in 0..runner(25).config().cases {
-        let touch = FeatureContact::draw(rng);
+        let touch = FeatureContactCase::draw(rng);
         for_each_setup(&touch.query, &touch.config(), |_, _, answer| {
             touch.check_answer(answer.outcome);
         });
@@ -62,20 +62,20 @@ fn answers_of_all_backends_have_a_common_normal() {
 }
 
 /// Two bodies a small gap apart along a direction that is in the normal cone of a feature of each body.
-struct FeatureContact {
+struct FeatureContactCase {
     query: Query,
     gap: f64,
     /// The larger dimension of both features: 0 for a vertex, 1 for an edge, 2 for a face.
     feature_dimension: usize,
 }
 
-impl FeatureContact {
+impl FeatureContactCase {
     fn draw(rng: &mut Pcg64) -> Self {
         let shape_b = shape(rng);
         let same = rng.random_bool(0.4);
         let shape_a = if same { shape_b.clone() } else { shape(rng) };
         let [a, b] = [&shape_a, &shape_b].map(|shape| Support::draw(rng, shape));
-        let gap = GAPS[rng.random_range(0..GAPS.len())];
+        let gap = TESTED_GAPS[rng.random_range(0..TESTED_GAPS.len())];
         let frame = if rng.random_bool(0.3) {
             Pose::IDENTITY
         } else {
@@ -83,7 +83,7 @@ impl FeatureContact {
         };
         // A's support touches B's from the other side; its edge is parallel to B's, or arbitrary.
         let aligned = b.rotation_to_frame() * a.rotation_to_frame().conjugate();
-        let facing = DQuat::from_axis_angle(b.along, TAU / 2.0) * aligned;
+        let facing = DQuat::from_axis_angle(b.edge_direction, TAU / 2.0) * aligned;
         let twist = match rng.random_range(0..3) {
             0 => rng.random_range(0.0..TAU),
             quarters => TAU / 4.0 * f64::from(quarters),
@@ -95,10 +95,10 @@ impl FeatureContact {
             shape,
             motion: Motion::still(pose),
         };
-        FeatureContact {
+        FeatureContactCase {
             query: Query::new(still(shape_a, start), still(shape_b, frame)),
             gap,
-            feature_dimension: a.size.max(b.size),
+            feature_dimension: a.dimension.max(b.dimension),
         }
     }
 
@@ -136,12 +136,12 @@ impl FeatureContact {
             return None;
         }
         let allowed = if way < MIN_WITNESS_DISTANCE {
-            ANGLE_ROUNDING
+            MAX_ANGLE_FROM_CONE
         } else {
-            ANGLE_ROUNDING + DIRECTION_ROUNDING / way
+            MAX_ANGLE_FROM_CONE + DIRECTION_ROUNDING / way
         };
-        let off_a = angle_from_normal_cone(&self.query.a, witness_a, normal);
-        let off_b = angle_from_normal_cone(&self.query.b, witness_b, -normal);
+        let off_a = sine_from_normal_cone(&self.query.a, witness_a, normal);
+        let off_b = sine_from_normal_cone(&self.query.b, witness_b, -normal);
         assert!(
             off_a <= allowed && off_b <= allowed,
             "{off_a:e} {off_b:e} at {:e}: {separation:?}\n{:?}\n{:?}",
@@ -155,7 +155,7 @@ impl FeatureContact {
 
 /// Returns the sine of the angle by which a direction is outside the normal cone of a surface at a point; 0 within the
 /// cone.
-fn angle_from_normal_cone(actor: &MovingShape, at: DVec3, n: DVec3) -> f64 {
+fn sine_from_normal_cone(actor: &MovingShape, at: DVec3, n: DVec3) -> f64 {
     let mesh = &actor.shape.mesh;
     let pose = actor.motion.start();
     let placed = |p: DVec3| pose.transform_point(p);
@@ -189,8 +189,8 @@ struct Support {
     normal: DVec3,
     point: DVec3,
     /// A direction perpendicular to the normal, along an edge of the feature if there is one.
-    along: DVec3,
-    size: usize,
+    edge_direction: DVec3,
+    dimension: usize,
 }
 
 impl Support {
@@ -239,16 +239,16 @@ impl Support {
         Support {
             normal,
             point,
-            along,
-            size,
+            edge_direction: along,
+            dimension: size,
         }
     }
 
     /// Returns the rotation that takes x to the edge direction and z to the normal.
     fn rotation_to_frame(&self) -> DQuat {
-        let aside = self.normal.cross(self.along);
+        let aside = self.normal.cross(self.edge_direction);
         DQuat::from_mat3(&ccd_core::glam::DMat3::from_cols(
-            self.along,
+            self.edge_direction,
             aside,
             self.normal,
         ))

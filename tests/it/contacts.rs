@@ -3,14 +3,14 @@
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Feature, FeaturePair, Outcome, Settings};
-use ccd_tests::analytic::scenes_named;
+use ccd_tests::analytic::scenes_with_name_prefix;
 use ccd_tests::backends::Backend;
 use ccd_tests::case::Case;
 use ccd_tests::checks::CheckResult;
 use ccd_tests::distances::distance_to_mesh_feature;
 use ccd_tests::models::Kind;
 use ccd_tests::query::{Bodies, MovingShape, Query};
-use ccd_tests::strategies::{cases, check_cases, remote_cases};
+use ccd_tests::strategies::{cases, check_cases, scaled_and_remote_cases};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,9 +25,9 @@ fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
 
 /// Returns the contacts of the scene with a given name, for every kind of pieces.
 fn scene_contacts(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
-    let scenes = scenes_named(name);
+    let scenes = scenes_with_name_prefix(name);
     let query = &scenes[0].query;
-    let bodies = query.all_bodies();
+    let bodies = query.bodies_of_all_kinds();
     let of_kind = |bodies: &Bodies| {
         let problem = query.problem(bodies, &Settings::DEFAULT);
         let (time, _) = first_contact(&problem).expect("a hit");
@@ -120,7 +120,7 @@ fn contacts_of_random_cases_hold() {
         let query = case.query();
         let mut at = None;
         let mut exact: Option<BTreeSet<Names>> = None;
-        for bodies in query.all_bodies() {
+        for bodies in query.bodies_of_all_kinds() {
             let settings = case.config();
             let problem = query.problem(&bodies, &settings);
             let Some((time, upper)) = at.map_or_else(|| first_contact(&problem), Some) else {
@@ -149,7 +149,7 @@ fn contacts_of_random_cases_hold() {
         Ok(())
     };
     check_cases(160, cases(), law);
-    check_cases(80, remote_cases(), law);
+    check_cases(80, scaled_and_remote_cases(), law);
     let (reported, same, coarser) = (reported.get(), same.get(), coarser.get());
     assert!(
         reported > 400 && same > 200 && 20 * coarser < same,

@@ -55,7 +55,9 @@ fn check_reused_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>(
         let query = case.query();
         // Patches have facets, over which marching keeps its position from call to call.
         let shapes = [&query.a.shape, &query.b.shape];
-        let solid = shapes.iter().all(|shape| shape.has_kind(Kind::Patches));
+        let solid = shapes
+            .iter()
+            .all(|shape| shape.can_be_made_of(Kind::Patches));
         let as_patches = solid.then(|| query.bodies([Kind::Patches; 2]));
         for bodies in as_patches.into_iter().chain([query.triangles()]) {
             if bodies.pairs() > 1_000 {

@@ -4,7 +4,7 @@ use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::{Body, Limit, Motion, Outcome, Pose, Settings, StartPolicy};
 use ccd_tests::backends::for_each_setup;
-use ccd_tests::models::{Kind, Mesh, Shape, cuboid, dented_cube, icosphere, l_block};
+use ccd_tests::models::{Kind, Mesh, Shape, cuboid, dented_cube, divided_l_prism, icosphere};
 use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::strategies::seeds;
 use rand::{RngExt, SeedableRng};
@@ -27,7 +27,7 @@ fn settings_with_leave() -> Settings {
 }
 
 /// Returns flat ground at height 0, cut along `cuts` random lines in x and in y, with a diagonal in each cell.
-fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
+fn ground_cut_along_lines(rng: &mut Pcg64, cuts: usize) -> Mesh {
     let mut lines = || {
         let mut lines: Vec<f64> = (0..cuts)
             .map(|_| rng.random_range(-GROUND_HALF_LENGTH..GROUND_HALF_LENGTH))
@@ -85,7 +85,7 @@ fn slab(top: Mesh) -> Mesh {
 
 fn random_ground(rng: &mut Pcg64) -> Shape {
     let cuts = rng.random_range(0..4);
-    let sheet = cut_sheet(rng, cuts);
+    let sheet = ground_cut_along_lines(rng, cuts);
     if rng.random() {
         Shape::open(sheet)
     } else {
@@ -99,7 +99,7 @@ fn random_solid(rng: &mut Pcg64) -> Shape {
     let shape = match rng.random_range(0..5) {
         0 => cuboid(half()),
         1 => Shape::closed(cuboid(half()).mesh),
-        2 => l_block(2),
+        2 => divided_l_prism(2),
         3 => dented_cube(0.5, 0.3),
         _ => Shape::closed(icosphere(0.5, 1).mesh),
     };
@@ -171,7 +171,7 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
         let block = cuboid(dvec3(0.5, 7.0, 0.5 * height));
         let block = block.placed(DQuat::IDENTITY, dvec3(3.0, 0.0, 0.5 * height));
         let cuts = rng.random_range(0..4);
-        let ground = Shape::union([Shape::open(cut_sheet(rng, cuts)), block]);
+        let ground = Shape::union([Shape::open(ground_cut_along_lines(rng, cuts)), block]);
         let half = dvec3(0.3, 0.4, 0.5);
         let mover = if rng.random() {
             cuboid(half)
@@ -209,7 +209,7 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
 #[test]
 fn ground_of_a_thousand_triangles_is_as_one() {
     for_random_cases(4, |rng, seed| {
-        let ground = Shape::open(cut_sheet(rng, 22)).body(Kind::Triangles);
+        let ground = Shape::open(ground_cut_along_lines(rng, 22)).body(Kind::Triangles);
         for mover in [random_solid(rng), random_solid(rng), random_solid(rng)] {
             let mover = mover.body(Kind::Triangles);
             let velocity = dvec3(
@@ -238,7 +238,7 @@ fn ground_of_a_thousand_triangles_is_as_one() {
 fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     for_random_cases(16, |rng, seed| {
         let wall = cuboid(dvec3(0.5, 7.0, 1.0)).placed(DQuat::IDENTITY, dvec3(3.0, 0.0, 1.0));
-        let sheet = Shape::open(cut_sheet(rng, 6));
+        let sheet = Shape::open(ground_cut_along_lines(rng, 6));
         let [open, walled] =
             [&sheet, &Shape::union([sheet.clone(), wall])].map(|shape| shape.body(Kind::Triangles));
         let ball = Body::sphere(0.5).expect("a ball");

@@ -2,9 +2,9 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Outcome, Settings};
-use ccd_tests::analytic::{ExpectedOutcome, combs, screw_in_nut};
+use ccd_tests::analytic::{ExpectedOutcome, combs_closing, screw_in_nut};
 use ccd_tests::backends::{Backend, OracleKind, ScheduleKind};
-use ccd_tests::models::{PITCH, parallel_plate};
+use ccd_tests::models::{PITCH, square_plate};
 use ccd_tests::query::{MovingShape, Query};
 
 /// Returns the answer for a plate of `2·cells²` triangles that falls flat onto another plate. They touch at half of
@@ -12,8 +12,8 @@ use ccd_tests::query::{MovingShape, Query};
 fn falling_plate_answer(cells: usize, backend: Backend, tolerance: f64) -> Answer {
     let high = DVec3::new(0.3, 0.2, 0.5);
     let query = Query::new(
-        MovingShape::straight(parallel_plate(cells), high, -DVec3::Z),
-        MovingShape::still(parallel_plate(cells), DVec3::ZERO),
+        MovingShape::straight(square_plate(cells), high, -DVec3::Z),
+        MovingShape::still(square_plate(cells), DVec3::ZERO),
     );
     let config = Settings {
         tolerance,
@@ -35,7 +35,7 @@ fn check(answer: &Answer) {
 #[test]
 fn a_million_pairs_kept_at_once() {
     let naive = Backend {
-        order: ScheduleKind::Naive,
+        schedule: ScheduleKind::Naive,
         oracle: OracleKind::ClosedForm,
     };
     let answer = falling_plate_answer(23, naive, 1e-3);
@@ -55,9 +55,9 @@ fn sixty_million_pairs_touching_at_once() {
 #[test]
 fn combs_of_many_teeth() {
     let teeth = if is_slow_run() { 512 } else { 96 };
-    let scene = combs(teeth);
+    let scene = combs_closing(teeth);
     let ExpectedOutcome::Hit {
-        earliest_time: earliest,
+        earliest_time_of_distance: earliest,
         latest_time: latest,
     } = &scene.expected
     else {

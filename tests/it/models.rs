@@ -1,7 +1,7 @@
 //! Tests that the models have the properties that other tests rely on, such as closed surfaces and convex parts.
 
 use ccd_core::glam::DVec3;
-use ccd_tests::models::{Shape, convex_solids, gear, l_block, l_prism, solids};
+use ccd_tests::models::{Shape, convex_solids, divided_l_prism, gear, l_prism, solids};
 use std::collections::HashMap;
 
 fn closed_models() -> impl Iterator<Item = (String, Shape)> {
@@ -33,7 +33,7 @@ fn closed_models_are_not_inside_out() {
         assert!(volume > 0.0, "{name}: {volume}");
     }
     assert!((l_prism().mesh.signed_volume() - 3.0).abs() < 1e-12);
-    assert!((l_block(5).mesh.signed_volume() - 3.0).abs() < 1e-12);
+    assert!((divided_l_prism(5).mesh.signed_volume() - 3.0).abs() < 1e-12);
 }
 
 #[test]

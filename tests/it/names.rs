@@ -19,7 +19,10 @@ fn contacts_of_patches_name_the_mesh() {
     check_cases(250, cases(), |case| {
         let query = case.query();
         let shapes = [&query.a.shape, &query.b.shape];
-        if !shapes.iter().all(|shape| shape.has_kind(Kind::Patches)) {
+        if !shapes
+            .iter()
+            .all(|shape| shape.can_be_made_of(Kind::Patches))
+        {
             return Ok(());
         }
         let bodies = query.bodies([Kind::Patches; 2]);

@@ -3,7 +3,9 @@
 use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::case::Case;
 use ccd_tests::checks::{CheckResult, Judge};
-use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, remote_cases};
+use ccd_tests::strategies::{
+    cases, check_cases, convex_cases, crowded_cases, scaled_and_remote_cases,
+};
 
 #[test]
 fn triangles_of_any_shape() {
@@ -33,7 +35,7 @@ fn every_setup_near_and_overlapping() {
 
 #[test]
 fn every_setup_far_away_tiny_and_huge() {
-    check_cases(150, remote_cases(), check_every_setup);
+    check_cases(150, scaled_and_remote_cases(), check_every_setup);
 }
 
 fn check_every_setup(case: &Case) -> CheckResult {

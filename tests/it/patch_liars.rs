@@ -5,7 +5,7 @@ use ccd_core::order::greater;
 use ccd_core::{Facet, FacetOrigin, Polytope};
 use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
-use ccd_tests::patches::{Claim, check_cover, check_inside, check_polytope};
+use ccd_tests::patches::{Claim, check_cover, check_hull_in_solid, check_polytope};
 
 /// Returns a cube, and its surface as a single, correct patch.
 fn cube() -> (Mesh, Polytope) {
@@ -42,7 +42,7 @@ fn an_honest_patch_keeps_every_law() {
         polytope: &polytope,
     };
     assert_eq!(check_polytope(&mesh, &claim), Ok(()));
-    let points = check_inside(&Solid::new(&mesh), &claim, Effort::THOROUGH, 0);
+    let points = check_hull_in_solid(&Solid::new(&mesh), &claim, Effort::THOROUGH, 0);
     assert!(points.is_ok_and(|count| count > 100));
     assert_eq!(check_cover(&mesh, &[claim]), Ok(()));
 }
@@ -95,7 +95,7 @@ fn an_invalid_cover_is_found() {
 }
 
 /// Returns a patch of two faces: the convex hull of their corners.
-fn pair_as_patch(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
+fn face_pair_as_patch(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     let mut vertex_ids: Vec<u32> = faces.iter().flat_map(|&f| mesh.faces[f as usize]).collect();
     vertex_ids.sort_unstable();
     vertex_ids.dedup();
@@ -116,12 +116,12 @@ fn count_leaving_hulls(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -
     let mut found = 0;
     let count = mesh.faces.len() as u32;
     for faces in (0..count).flat_map(|f| (f + 1..count).map(move |g| [f, g])) {
-        let polytope = pair_as_patch(mesh, faces);
+        let polytope = face_pair_as_patch(mesh, faces);
         let claim = Claim {
             faces: &faces,
             polytope: &polytope,
         };
-        let law = check_inside(&solid, &claim, Effort::THOROUGH, 0);
+        let law = check_hull_in_solid(&solid, &claim, Effort::THOROUGH, 0);
         if let Some(leaves) = leaves(faces) {
             assert_eq!(law.is_err(), leaves, "{faces:?} {law:?}");
         }
@@ -185,6 +185,6 @@ fn a_hull_a_rounding_out_of_the_solid_is_found() {
         faces: &[],
         polytope: &lid,
     };
-    let law = check_inside(&Solid::new(&mesh), &claim, Effort::QUICK, 0);
+    let law = check_hull_in_solid(&Solid::new(&mesh), &claim, Effort::QUICK, 0);
     assert!(law.is_err(), "{law:?}");
 }

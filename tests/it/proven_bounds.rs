@@ -14,34 +14,34 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::Solver;
 use rigid_ccd::trajectory::Poses;
-use samples::{ROUNDING, Samples, Scene};
+use samples::{DistanceSamples, ROUNDING, Scene};
 use std::io::Write;
 
 /// The number of answers of each kind.
 #[derive(Debug, Default)]
 struct Tally {
-    free: u64,
-    contact: u64,
-    start: u64,
-    measured: u64,
-    unresolved: u64,
+    free_count: u64,
+    contact_count: u64,
+    start_contact_count: u64,
+    least_distance_count: u64,
+    unresolved_count: u64,
     /// The number of scenes in which one question reports a contact within the tolerance, and another question reports
     /// none.
-    grazing_scenes: u64,
+    grazing_scene_count: u64,
 }
 
 /// A scene, the settings of its queries, and its known distances.
 struct Case<'s> {
     scene: &'s Scene,
     config: Settings,
-    samples: Samples,
+    samples: DistanceSamples,
 }
 
 impl<'s> Case<'s> {
     /// Draws the tolerance and the margin, in most cases near the least distance of the scene.
     fn draw(rng: &mut Pcg64, scene: &'s Scene) -> Self {
         let samples = scene.samples();
-        let least = samples.least();
+        let least = samples.least_distance();
         let tolerance = 10f64.powf(rng.random_range(-12.0..0.5));
         let near = least - tolerance * rng.random_range(-1.0..2.0);
         let (margin, tolerance) = match rng.random_range(0..4) {
@@ -114,24 +114,24 @@ impl<'s> Case<'s> {
     ) -> CheckResult {
         match *outcome {
             Outcome::Contact { time, contact } => {
-                tally.contact += 1;
+                tally.contact_count += 1;
                 self.check_no_contact_before(time)?;
                 self.check_contact(time, &contact, tolerance)
             }
             Outcome::Free { proven_gap } => {
-                tally.free += 1;
+                tally.free_count += 1;
                 self.check_proven_gap(proven_gap)
             }
             Outcome::Touching { contact } => {
-                tally.start += 1;
+                tally.start_contact_count += 1;
                 self.check_contact(0.0, &contact, tolerance)
             }
             Outcome::Overlapping { .. } => {
-                tally.start += 1;
+                tally.start_contact_count += 1;
                 self.check_overlapping()
             }
             Outcome::Unresolved(Unresolved { safe_until, .. }) => {
-                tally.unresolved += 1;
+                tally.unresolved_count += 1;
                 self.check_no_contact_before(safe_until)
             }
             other => Err(format!("no outcome of a first contact: {other:?}")),
@@ -148,7 +148,8 @@ impl<'s> Case<'s> {
         let is_free = matches!(any, Outcome::Free { .. });
         let decided = !matches!(any, Outcome::Unresolved(_));
         if decided && !matches!(first, Outcome::Unresolved(_)) {
-            tally.grazing_scenes += u64::from(is_free != matches!(first, Outcome::Free { .. }));
+            tally.grazing_scene_count +=
+                u64::from(is_free != matches!(first, Outcome::Free { .. }));
         }
         match *any {
             Outcome::Contact { time, contact } => self.check_contact(time, &contact, tolerance),
@@ -210,7 +211,7 @@ impl<'s> Case<'s> {
         self.samples
             .check_lower_bound(closest.lower(), |_| true, "closest")?;
         if let Outcome::LeastDistance { time, contact, .. } = closest {
-            tally.measured += 1;
+            tally.least_distance_count += 1;
             let distance = self.scene.distance(*time);
             let upper = contact.separation.upper;
             law!(
@@ -234,7 +235,7 @@ impl<'s> Case<'s> {
         self.check_closest_approach(&closest.outcome, tally)?;
         if self
             .scene
-            .kinds
+            .trajectory_kinds
             .iter()
             .all(|&kind| courses::is_motion_kind(kind))
         {
@@ -270,7 +271,7 @@ fn no_bound_is_above_a_sampled_distance() {
         let scene = Scene::draw(&mut rng);
         let case = Case::draw(&mut rng, &scene);
         if let Err(why) = case.check(&mut solver, &mut tally) {
-            let kinds = scene.kinds.map(|kind| KINDS[kind]);
+            let kinds = scene.trajectory_kinds.map(|kind| KINDS[kind]);
             wrong.push(format!(
                 "{seed}: {kinds:?}, {:?}, {:?}: {why}",
                 scene.solids, case.config
@@ -291,12 +292,12 @@ fn no_bound_is_above_a_sampled_distance() {
         shown.join("\n")
     );
     let Tally {
-        free,
-        contact,
-        start,
-        measured,
-        unresolved,
-        grazing_scenes: grazes,
+        free_count: free,
+        contact_count: contact,
+        start_contact_count: start,
+        least_distance_count: measured,
+        unresolved_count: unresolved,
+        grazing_scene_count: grazes,
     } = tally;
     let many = count / 20;
     assert!(

@@ -6,7 +6,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{Answer, Motion, Outcome, Pose, Schedule, Settings};
 use ccd_distance_gjk::Gjk;
-use ccd_tests::analytic::{ExpectedOutcome, scenes_named};
+use ccd_tests::analytic::{ExpectedOutcome, scenes_with_name_prefix};
 use ccd_tests::models::{Kind, cuboid};
 use ccd_tests::query::{Bodies, MovingShape, Query};
 use ccd_tests::referee::{Finding, Referee};
@@ -44,7 +44,7 @@ fn bodies(query: &Query) -> Bodies {
 
 #[test]
 fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_one() {
-    let scenes = scenes_named("T9 ");
+    let scenes = scenes_with_name_prefix("T9 ");
     let ExpectedOutcome::Hit {
         latest_time: latest,
         ..

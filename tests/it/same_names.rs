@@ -4,7 +4,7 @@ use ccd_core::glam::{DQuat, DVec2};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Motion, MovingBody, Pose, Settings};
 use ccd_decomp::{Detail, PatchOrder, PreparedBody, TriangleMesh, body_from_mesh};
-use ccd_tests::models::{Mesh, divided_cube, l_block};
+use ccd_tests::models::{Mesh, divided_cube, divided_l_prism};
 
 /// Returns a mesh in which no two faces share a vertex, as in an STL file.
 fn without_shared_vertices(mesh: &Mesh) -> Mesh {
@@ -20,7 +20,7 @@ fn without_shared_vertices(mesh: &Mesh) -> Mesh {
 /// A mesh, and the same body made of its triangles and of patches.
 struct Body {
     mesh: Mesh,
-    made: [PreparedBody; 2],
+    prepared_bodies: [PreparedBody; 2],
 }
 
 impl Body {
@@ -28,17 +28,20 @@ impl Body {
         let good = TriangleMesh::new(mesh.vertices.clone(), &mesh.faces).expect("a mesh");
         let made = [Detail::Triangles, Detail::Patches(PatchOrder::default())]
             .map(|detail| body_from_mesh(&good, detail).expect("a solid"));
-        Body { mesh, made }
+        Body {
+            mesh,
+            prepared_bodies: made,
+        }
     }
 
-    fn heights(&self) -> impl Iterator<Item = f64> {
+    fn vertex_heights(&self) -> impl Iterator<Item = f64> {
         self.mesh.vertices.iter().map(|p| p.z)
     }
 
     /// Returns a pose of the body on top of another one, at a small gap, shifted in x and y, and rotated about z.
     fn pose_resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
-        let top = other.heights().fold(f64::NEG_INFINITY, greater);
-        let bottom = self.heights().fold(f64::INFINITY, lesser);
+        let top = other.vertex_heights().fold(f64::NEG_INFINITY, greater);
+        let bottom = self.vertex_heights().fold(f64::INFINITY, lesser);
         let up = top - bottom + 5e-4;
         Pose::new(shift.extend(up), DQuat::from_rotation_z(turn)).expect("finite")
     }
@@ -59,7 +62,7 @@ fn contact_names([a, b]: [&PreparedBody; 2], pose: Pose) -> Vec<[Feature; 2]> {
 /// and for vertices at equal positions.
 #[test]
 fn triangles_and_patches_have_the_same_names() {
-    let shapes = [divided_cube(1), divided_cube(3), l_block(2)];
+    let shapes = [divided_cube(1), divided_cube(3), divided_l_prism(2)];
     let meshes = shapes
         .iter()
         .flat_map(|s| [s.mesh.clone(), without_shared_vertices(&s.mesh)]);
@@ -69,9 +72,12 @@ fn triangles_and_patches_have_the_same_names() {
         for (x, y, turn) in [(0.13, 0.07, 0.0), (0.2, 0.1, 0.25), (0.4, -0.3, 2.0)] {
             let pose = a.pose_resting_on(b, DVec2::new(x, y), turn);
             let [of_triangles, of_patches] =
-                [0, 1].map(|k| contact_names([&a.made[k], &b.made[k]], pose));
+                [0, 1].map(|k| contact_names([&a.prepared_bodies[k], &b.prepared_bodies[k]], pose));
             assert_eq!(of_triangles, of_patches);
-            assert_eq!(of_triangles, contact_names([&a.made[0], &b.made[1]], pose));
+            assert_eq!(
+                of_triangles,
+                contact_names([&a.prepared_bodies[0], &b.prepared_bodies[1]], pose)
+            );
             found += of_triangles.len();
         }
     }

@@ -2,13 +2,13 @@
 
 use ccd_core::order::lesser;
 use ccd_core::{Answer, Outcome, Settings};
-use ccd_tests::analytic::{ExpectedOutcome, Scene, scenes_named};
+use ccd_tests::analytic::{ExpectedOutcome, Scene, scenes_with_name_prefix};
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{CheckResult, Judge, check_contact};
 use ccd_tests::query::Bodies;
 use ccd_tests::questions::{TrajectoryAnswers, for_each_trajectory_answer_set};
 use ccd_tests::referee::Finding;
-use ccd_tests::tolerance::CLOSED_FORM_LATENESS;
+use ccd_tests::tolerance::MAX_LATENESS_FRACTION;
 use std::fmt::Debug;
 
 /// Defines one test for each group of scenes, whose names begin alike.
@@ -54,7 +54,7 @@ groups! {
 }
 
 fn check_group(prefix: &str) {
-    let scenes = scenes_named(prefix);
+    let scenes = scenes_with_name_prefix(prefix);
     assert!(!scenes.is_empty(), "no scene is called {prefix}");
     for scene in &scenes {
         let mut judge = Judge::new(&scene.query, &Settings::DEFAULT);
@@ -64,7 +64,7 @@ fn check_group(prefix: &str) {
         for tolerance in [1e-3, 1e-9] {
             judge = judge.with_tolerance(tolerance * tolerance_scale(scene));
             check_setups(&judge, scene, &scene.expected);
-            check_all_trajectories(&judge, scene, &scene.expected);
+            check_trajectory_setups(&judge, scene, &scene.expected);
         }
         let swapped = Scene {
             name: format!("{}, swapped", scene.name),
@@ -95,7 +95,7 @@ fn check_finding(
     match (expect, judge.finding()) {
         (
             ExpectedOutcome::Hit {
-                earliest_time: earliest,
+                earliest_time_of_distance: earliest,
                 latest_time: latest,
             },
             Finding::Hit { lo, hi },
@@ -129,7 +129,7 @@ fn check_finding(
             let free = matches!(finding, Finding::Free { .. });
             assert_eq!(free, name.contains("right"), "{name}: {finding:?}");
         }
-        (ExpectedOutcome::Overlap, Finding::Start) | (ExpectedOutcome::Unknown, _) => {}
+        (ExpectedOutcome::Overlap, Finding::ContactAtStart) | (ExpectedOutcome::Unknown, _) => {}
         (ExpectedOutcome::Overlap, finding) => assert!(judge.nested(), "{name}: {finding:?}"),
         (_, finding) => panic!("{name}: {finding:?}"),
     }
@@ -143,7 +143,7 @@ fn check_setups(judge: &Judge<'_>, scene: &Scene, expect: &ExpectedOutcome) {
     });
 }
 
-fn check_all_trajectories(judge: &Judge<'_>, scene: &Scene, expect: &ExpectedOutcome) {
+fn check_trajectory_setups(judge: &Judge<'_>, scene: &Scene, expect: &ExpectedOutcome) {
     for_each_trajectory_answer_set(&scene.query, &judge.config(), |bodies, asked, answers| {
         if let Err(why) = check_trajectory_answers(judge, scene, expect, (bodies, &answers)) {
             fail(scene, &asked, &answers, &why);
@@ -173,15 +173,15 @@ fn check_answer(
     match (expect, &answer.outcome) {
         (
             ExpectedOutcome::Hit {
-                earliest_time: earliest,
+                earliest_time_of_distance: earliest,
                 latest_time: latest,
             },
             Outcome::Contact { time, .. },
         ) => {
-            if *time > latest + CLOSED_FORM_LATENESS * duration {
+            if *time > latest + MAX_LATENESS_FRACTION * duration {
                 return Err(format!("late: {time} > {latest}"));
             }
-            let earliest = earliest(answer.tolerance + rounding) - CLOSED_FORM_LATENESS * duration;
+            let earliest = earliest(answer.tolerance + rounding) - MAX_LATENESS_FRACTION * duration;
             if *time < earliest {
                 return Err(format!("loose: {time} < {earliest}"));
             }
@@ -218,11 +218,11 @@ fn check_trajectory_answers(
     expect: &ExpectedOutcome,
     (bodies, answers): (&Bodies, &TrajectoryAnswers),
 ) -> CheckResult {
-    check_answer(judge, scene, expect, (bodies, &answers.first))?;
+    check_answer(judge, scene, expect, (bodies, &answers.first_contact))?;
     let TrajectoryAnswers {
         any,
-        closest,
-        interval,
+        closest_approach: closest,
+        contact_interval: interval,
         ..
     } = answers;
     if !scene.query.a.shape.mesh.faces.is_empty() {

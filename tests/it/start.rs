@@ -1,14 +1,14 @@
 //! Tests contacts at the start, which are reported, or ignored as long as the bodies do not approach.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
-use ccd_core::rounding::RESTING_DECREASE;
+use ccd_core::rounding::APPROACH_DECREASE;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{
     Body, Claim, DistanceOracle, GiveUpReason, Motion, Outcome, PiecePair, Pieces, Pose, Settings,
     StartPolicy, Volume,
 };
 use ccd_distance_gjk::ClosedForm;
-use ccd_tests::analytic::sliding;
+use ccd_tests::analytic::sliding_cube;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::Judge;
 use ccd_tests::models::{Mesh, Shape, cuboid};
@@ -54,17 +54,17 @@ fn is_touching(outcome: Outcome) -> bool {
 #[test]
 fn sliding_within_the_tolerance_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
-        let query = sliding(gap, DVec3::new(1.0, 1.0, 0.0)).query;
+        let query = sliding_cube(gap, DVec3::new(1.0, 1.0, 0.0)).query;
         check_outcomes(&query, &settings_with_tolerance(1e-3), is_touching);
         check_outcomes(&query, &leave_settings(1e-3), is_free);
     }
     check_outcomes(
-        &sliding(1e-6, -DVec3::X).query,
+        &sliding_cube(1e-6, -DVec3::X).query,
         &settings_with_tolerance(1e-8),
         is_free,
     );
     check_outcomes(
-        &sliding(1e-6, -DVec3::X).query,
+        &sliding_cube(1e-6, -DVec3::X).query,
         &leave_settings(1e-8),
         is_free,
     );
@@ -76,7 +76,7 @@ fn sliding_within_the_tolerance_is_free() {
 fn sliding_onto_another_piece_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
         check_outcomes(
-            &sliding(gap, -DVec3::X).query,
+            &sliding_cube(gap, -DVec3::X).query,
             &leave_settings(1e-3),
             is_free,
         );
@@ -88,17 +88,17 @@ fn sliding_onto_another_piece_is_free() {
 fn touching_and_parting_is_free() {
     for gap in [1e-6, 0.0] {
         check_outcomes(
-            &sliding(gap, DVec3::Z).query,
+            &sliding_cube(gap, DVec3::Z).query,
             &leave_settings(1e-3),
             is_free,
         );
         check_outcomes(
-            &sliding(gap, DVec3::new(2.0, 0.0, 1.0)).query,
+            &sliding_cube(gap, DVec3::new(2.0, 0.0, 1.0)).query,
             &leave_settings(1e-3),
             is_free,
         );
         check_outcomes(
-            &sliding(gap, DVec3::Z).query,
+            &sliding_cube(gap, DVec3::Z).query,
             &settings_with_tolerance(1e-3),
             is_touching,
         );
@@ -109,12 +109,12 @@ fn touching_and_parting_is_free() {
 #[test]
 fn touching_and_approaching_is_a_contact_at_once() {
     for gap in [1e-6, 0.0] {
-        let query = sliding(gap, -DVec3::Z).query;
+        let query = sliding_cube(gap, -DVec3::Z).query;
         check_outcomes(&query, &settings_with_tolerance(1e-3), is_touching);
         check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
             // An approach at speed 1 is visible once the distance has decreased by more than rounding.
             Outcome::Contact { time, .. } => {
-                (0.0..=gap + RESTING_DECREASE * query.rounding()).contains(&time)
+                (0.0..=gap + APPROACH_DECREASE * query.rounding()).contains(&time)
             }
             _ => false,
         });
@@ -150,7 +150,7 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
 #[test]
 fn a_very_slow_approach_takes_few_steps() {
     for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
-        let query = sliding(0.0, -approach * DVec3::Z).query;
+        let query = sliding_cube(0.0, -approach * DVec3::Z).query;
         for_each_setup(&query, &leave_settings(1e-3), |_, setup, answer| {
             let Outcome::Contact { time, .. } = answer.outcome else {
                 panic!("{approach:e} {setup:?}\n{answer:?}");
@@ -197,7 +197,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
                 assert!(expected, "{gap} {setup:?}\n{answer:?}");
             });
             let query = at(across - 0.01 * DVec3::Z);
-            let allowed = 2.0 * RESTING_DECREASE * query.rounding() / 0.01;
+            let allowed = 2.0 * APPROACH_DECREASE * query.rounding() / 0.01;
             check_outcomes(&query, &config(margin), |outcome| match outcome {
                 Outcome::Contact { time, .. } => time <= allowed,
                 _ => false,

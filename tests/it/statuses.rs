@@ -3,7 +3,9 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
 use ccd_tests::backends::{default_answer, for_each_setup};
-use ccd_tests::models::{Kind, Mesh, Shape, boulder, cuboid, hollow, icosphere, torus, two_solids};
+use ccd_tests::models::{
+    Kind, Mesh, Shape, boulder, cuboid, hollow, icosphere, merged_solids, torus,
+};
 use ccd_tests::query::{MovingShape, Query};
 use std::cell::Cell;
 
@@ -26,22 +28,26 @@ fn check_outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> b
 
 /// Returns true if `check` accepts the reported overlap. If pieces may fill the inside of a body, an overlap of pieces
 /// is also right.
-fn is_nested_as(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
+fn is_accepted_overlap(
+    kinds: [Kind; 2],
+    outcome: Outcome,
+    check: impl Fn(Overlap) -> bool,
+) -> bool {
     match outcome {
         Outcome::Overlapping {
             overlap: Overlap::Pieces(_),
             ..
-        } => kinds.into_iter().any(Kind::is_filled),
+        } => kinds.into_iter().any(Kind::may_fill_interior),
         Outcome::Overlapping { overlap, .. } => check(overlap),
         _ => false,
     }
 }
 
 fn is_b_in_a(kinds: [Kind; 2], outcome: Outcome) -> bool {
-    is_nested_as(kinds, outcome, |o| matches!(o, Overlap::BInsideA(_)))
+    is_accepted_overlap(kinds, outcome, |o| matches!(o, Overlap::BInsideA(_)))
 }
 
-fn is_overlap(outcome: Outcome) -> bool {
+fn is_overlap_of_pieces(outcome: Outcome) -> bool {
     matches!(
         outcome,
         Outcome::Overlapping {
@@ -75,8 +81,11 @@ fn surfaces_that_cross_overlap() {
         DVec3::new(0.5, 0.4, 0.3),
         DVec3::splat(0.99),
     ] {
-        check_outcomes(&query(cube(0.5), cube(0.5), at), is_overlap);
-        check_outcomes(&query(cube(0.5), icosphere(1.0, 1), at), is_overlap);
+        check_outcomes(&query(cube(0.5), cube(0.5), at), is_overlap_of_pieces);
+        check_outcomes(
+            &query(cube(0.5), icosphere(1.0, 1), at),
+            is_overlap_of_pieces,
+        );
     }
 }
 
@@ -104,7 +113,7 @@ fn flush_solids_overlap() {
 #[test]
 fn polytopes_of_many_facets_overlap() {
     let ball = || icosphere(1.0, 3);
-    check_outcomes(&query(ball(), ball(), 0.5 * DVec3::X), is_overlap);
+    check_outcomes(&query(ball(), ball(), 0.5 * DVec3::X), is_overlap_of_pieces);
 }
 
 /// Returns an octahedron around the origin.
@@ -154,7 +163,10 @@ fn needles_that_cross_overlap() {
                 ..Settings::DEFAULT
             };
             let answer = default_answer(&query, &config);
-            assert!(is_overlap(answer.outcome), "{thickness} {k} {answer:?}");
+            assert!(
+                is_overlap_of_pieces(answer.outcome),
+                "{thickness} {k} {answer:?}"
+            );
         }
     }
 }
@@ -195,13 +207,13 @@ fn a_solid_inside_a_solid_overlaps() {
     );
     let query_of = |a, b| query(a, b, 0.3 * DVec3::ONE);
     check_outcomes_by_kind(&query_of(big(), small()), |kinds, outcome| {
-        is_nested_as(kinds, outcome, |overlap| match overlap {
+        is_accepted_overlap(kinds, outcome, |overlap| match overlap {
             Overlap::BInsideA(p) => p.abs().max_element() < 2.0,
             _ => false,
         })
     });
     check_outcomes_by_kind(&query_of(small(), big()), |kinds, outcome| {
-        is_nested_as(kinds, outcome, |overlap| match overlap {
+        is_accepted_overlap(kinds, outcome, |overlap| match overlap {
             Overlap::AInsideB(p) => p.abs().max_element() <= 0.5,
             _ => false,
         })
@@ -229,7 +241,7 @@ fn the_hole_of_a_torus_is_outside() {
 
 #[test]
 fn the_second_of_two_shells_is_found_inside() {
-    let two = two_solids(&cube(0.2).moved(9.0 * DVec3::X), &cube(0.2));
+    let two = merged_solids(&cube(0.2).moved(9.0 * DVec3::X), &cube(0.2));
     let big = Shape::closed(cube(1.0).mesh);
     check_outcomes_by_kind(&query(big, two, DVec3::ZERO), is_b_in_a);
 }
@@ -289,7 +301,7 @@ fn nothing_moves() {
         )
     };
     check_outcomes(&at(3.0), |o| matches!(o, Outcome::Free { .. }));
-    check_outcomes(&at(0.9), is_overlap);
+    check_outcomes(&at(0.9), is_overlap_of_pieces);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 /// The files that may normalise vectors by themselves, each with the reason why no proof uses the result as an axis.
-const ALLOWED_FILES: [(&str, &str); 2] = [
+const FILES_ALLOWED_TO_NORMALISE: [(&str, &str); 2] = [
     ("ccd-core/src/motion/pose.rs", "a quaternion, scaled first"),
     ("ccd-core/src/motion/interop.rs", "a quaternion of nalgebra"),
 ];
@@ -34,14 +34,16 @@ fn no_proof_uses_a_vector_normalised_elsewhere() {
             !line.starts_with("//") && (code.contains("normalize") || code.contains("length_recip"))
         };
         if let Some(line) = code.lines().find(normalises) {
-            let elsewhere = ALLOWED_FILES.iter().any(|(path, _)| file.ends_with(path));
+            let elsewhere = FILES_ALLOWED_TO_NORMALISE
+                .iter()
+                .any(|(path, _)| file.ends_with(path));
             assert!(elsewhere, "{}: {line}", file.display());
             allowed += 1;
         }
     }
     assert_eq!(
         allowed,
-        ALLOWED_FILES.len(),
+        FILES_ALLOWED_TO_NORMALISE.len(),
         "a file on the list needs it no more"
     );
 }

@@ -5,7 +5,7 @@ mod rounded;
 mod turning;
 mod twisted;
 
-pub use linear::{combs, sliding};
+pub use linear::{combs_closing, sliding_cube};
 pub use twisted::screw_in_nut;
 
 use crate::query::{MovingShape, Query};
@@ -25,7 +25,7 @@ pub enum ExpectedOutcome {
     /// The bodies touch, at a known time or within known bounds.
     Hit {
         /// The first time at which the distance falls to a given value. It bounds the time of contact from below.
-        earliest_time: Distance,
+        earliest_time_of_distance: TimeOfDistance,
         /// An upper bound of the time of contact.
         latest_time: f64,
     },
@@ -41,7 +41,7 @@ pub enum ExpectedOutcome {
 }
 
 /// A function that returns the first time at which the bodies are within a given distance.
-pub type Distance = Box<dyn Fn(f64) -> f64 + Send + Sync>;
+pub type TimeOfDistance = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Returns the scenes of all groups.
 pub fn scenes() -> Vec<Scene> {
@@ -57,7 +57,7 @@ pub fn scenes() -> Vec<Scene> {
 }
 
 /// Returns the scenes whose name begins with `prefix`.
-pub fn scenes_named(prefix: &str) -> Vec<Scene> {
+pub fn scenes_with_name_prefix(prefix: &str) -> Vec<Scene> {
     scenes()
         .into_iter()
         .filter(|scene| scene.name.starts_with(prefix))
@@ -81,7 +81,7 @@ impl ExpectedOutcome {
     fn exact_hit(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         ExpectedOutcome::Hit {
             latest_time: distance(0.0),
-            earliest_time: Box::new(distance),
+            earliest_time_of_distance: Box::new(distance),
         }
     }
 }

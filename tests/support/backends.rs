@@ -43,14 +43,14 @@ impl OracleKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backend {
     /// The schedule, which orders the pairs of pieces.
-    pub order: ScheduleKind,
+    pub schedule: ScheduleKind,
     /// The oracle, which computes the distances of pieces.
     pub oracle: OracleKind,
 }
 
 /// The backend and the kinds of pieces that gave an answer. It is printed if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Setup {
+pub struct BackendSetup {
     /// The backend that gave the answer.
     pub backend: Backend,
     /// The kinds of pieces of bodies A and B.
@@ -63,7 +63,7 @@ const MAX_NAIVE_PAIRS: usize = 400;
 impl Backend {
     /// The backend that the engine uses by default.
     pub const DEFAULT: Backend = Backend {
-        order: ScheduleKind::BestFirst,
+        schedule: ScheduleKind::BestFirst,
         oracle: OracleKind::Direct,
     };
 
@@ -76,14 +76,17 @@ impl Backend {
             ScheduleKind::Fast,
             ScheduleKind::Naive,
         ];
-        orders
-            .into_iter()
-            .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
+        orders.into_iter().flat_map(move |order| {
+            oracles.map(|oracle| Backend {
+                schedule: order,
+                oracle,
+            })
+        })
     }
 
     /// Returns true if the backend supports the bodies and is fast enough for them in a test.
     pub fn suits_bodies(self, bodies: &Bodies) -> bool {
-        let fit = match self.order {
+        let fit = match self.schedule {
             ScheduleKind::BestFirst => true,
             // Without trees, the answer would be that of another schedule.
             ScheduleKind::Fast => {
@@ -110,7 +113,7 @@ impl Backend {
         problem: &ccd_core::Query<'_>,
         oracle: &mut O,
     ) -> Answer {
-        match self.order {
+        match self.schedule {
             ScheduleKind::BestFirst => BestFirst::<O>::default()
                 .first_contact(problem, oracle)
                 .unwrap(),
@@ -130,12 +133,12 @@ fn has_tree(body: &&Body) -> bool {
 pub fn for_each_setup(
     query: &Query,
     config: &Settings,
-    mut check: impl FnMut(&Bodies, Setup, Answer),
+    mut check: impl FnMut(&Bodies, BackendSetup, Answer),
 ) {
-    for bodies in query.all_bodies() {
+    for bodies in query.bodies_of_all_kinds() {
         let problem = query.problem(&bodies, config);
         for backend in Backend::all().filter(|backend| backend.suits_bodies(&bodies)) {
-            let setup = Setup {
+            let setup = BackendSetup {
                 backend,
                 kinds: bodies.kinds,
             };

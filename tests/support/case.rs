@@ -212,7 +212,7 @@ impl Model {
             }
             Model::Gear { spokes } => models::gear(*spokes),
             Model::Soup { triangles } => Shape::open(soup(triangles)),
-            Model::Plate { cells } => models::parallel_plate(*cells),
+            Model::Plate { cells } => models::square_plate(*cells),
             Model::Needles { count, width } => models::needles(*count, *width),
         }
     }

@@ -18,7 +18,7 @@ pub struct Judge<'a> {
     config: Settings,
     referee: Referee<'a>,
     finding: Finding,
-    nested: bool,
+    are_nested: bool,
     /// Pairs of a time and the distance of the bodies at that time, at 17 even times.
     samples: Vec<(f64, f64)>,
 }
@@ -46,7 +46,7 @@ impl<'a> Judge<'a> {
             query,
             config: config.clone(),
             finding: referee.finding(),
-            nested: referee.nested(0.0),
+            are_nested: referee.are_nested(0.0),
             samples: (0..=16).map(|k| (time(k), referee.gap(time(k)))).collect(),
             referee,
         }
@@ -73,7 +73,7 @@ impl<'a> Judge<'a> {
 
     /// Returns true if one solid contains the other at the start.
     pub fn nested(&self) -> bool {
-        self.nested
+        self.are_nested
     }
 
     /// Checks an answer under `StartPolicy::Report`: it is resolved, not late and not false, and its contact is as
@@ -116,11 +116,11 @@ impl<'a> Judge<'a> {
             }
             Outcome::Free { proven_gap } => {
                 law!(
-                    self.finding.latest().is_none(),
+                    self.finding.latest_contact_time().is_none(),
                     "missed: {:?}",
                     self.finding
                 );
-                law!(!self.nested, "missed: one body is inside the other");
+                law!(!self.are_nested, "missed: one body is inside the other");
                 let less = self.samples.iter().find(|s| s.1 < proven_gap - rounding);
                 law!(
                     less.is_none(),
@@ -147,7 +147,7 @@ impl<'a> Judge<'a> {
         law!(in_range, "the time {time} is not within the duration");
         match self.finding {
             Finding::Hit { hi, .. } => law!(time <= hi, "late: {time} > {hi}"),
-            Finding::Start => law!(time == 0.0, "late: {time} > 0"),
+            Finding::ContactAtStart => law!(time == 0.0, "late: {time} > 0"),
             _ => {}
         }
         Ok(())
@@ -215,14 +215,14 @@ pub fn check_contact(
     let placements = Placement::pair(query);
     // Placements are relative to A's centre, but witnesses are not.
     let drift = placements[0].origin() + time * query.a.motion.velocity();
-    let side_a = Side {
+    let side_a = ContactSide {
         moving_shape: &query.a,
         body: bodies.a(),
         kind: bodies.kinds[0],
         piece: contact.piece_a,
         to_world: &|p| placements[0].at(time, p) + drift,
     };
-    let side_b = Side {
+    let side_b = ContactSide {
         moving_shape: &query.b,
         body: bodies.b(),
         kind: bodies.kinds[1],
@@ -276,7 +276,7 @@ fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Che
 }
 
 /// One of the two bodies of a contact, with the piece in contact.
-struct Side<'a> {
+struct ContactSide<'a> {
     moving_shape: &'a MovingShape,
     body: &'a Body,
     kind: Kind,
@@ -284,7 +284,7 @@ struct Side<'a> {
     to_world: &'a dyn Fn(DVec3) -> DVec3,
 }
 
-impl Side<'_> {
+impl ContactSide<'_> {
     fn piece(&self) -> Result<Piece<'_>, String> {
         law!(
             (self.piece as usize) < self.body.pieces().len(),

@@ -66,7 +66,7 @@ fn random_trajectory(
             motion(rng, reach)?,
             vector(rng, 4.0 * reach),
         )?),
-        "Bézier curve, slerp" => bezier_curve(rng, reach)?,
+        "Bézier curve, slerp" => bezier_trajectory(rng, reach)?,
         "B-spline, slerp" => {
             let count = rng.random_range(4..9);
             let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
@@ -75,13 +75,13 @@ fn random_trajectory(
                 OrientationCurve::slerp(&random_orientations(rng))?,
             ))
         }
-        "link" => last_link(rng, reach)?,
+        "link" => last_link_trajectory(rng, reach)?,
         "smooth" => Box::new(Oscillation {
             place: vector(rng, reach),
-            along: vector(rng, reach),
+            amplitude: vector(rng, reach),
             rate: rng.random_range(0.5..20.0),
             axis: vector(rng, 1.0).normalize(),
-            turn: rng.random_range(0.0..3.0),
+            angle_amplitude: rng.random_range(0.0..3.0),
         }),
         _ => Box::new(Zigzag {
             corners: points(rng, 5, reach)
@@ -108,7 +108,7 @@ fn poses(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError>
 }
 
 /// Returns a body whose centre follows a Bézier curve, and whose orientation follows a slerp.
-fn bezier_curve(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+fn bezier_trajectory(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
     let count = rng.random_range(1..6);
     let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
     Ok(Box::new(
@@ -118,11 +118,11 @@ fn bezier_curve(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, Inpu
 }
 
 /// Returns the trajectory of the last link of a random chain, all of whose joints move.
-fn last_link(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+fn last_link_trajectory(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
     let count = rng.random_range(1..6);
     let joints: Result<_, InputError> = (0..count).map(|_| joint(rng, reach)).collect();
     let positions = [(); 2].map(|()| (0..count).map(|_| rng.random_range(-1.0..1.0)).collect());
-    Ok(Box::new(LastLink {
+    Ok(Box::new(LastLinkTrajectory {
         chain: Chain::new(Pose::IDENTITY, joints?),
         positions,
     }))
@@ -171,12 +171,12 @@ fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
 }
 
 /// The trajectory of the last link of a kinematic chain, which owns the chain.
-struct LastLink {
+struct LastLinkTrajectory {
     chain: Chain,
     positions: [Vec<f64>; 2],
 }
 
-impl Trajectory for LastLink {
+impl Trajectory for LastLinkTrajectory {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = &self.positions;
         (self.chain.link(first.len(), first, last, 1.0)?).stretch(from, to)
@@ -186,26 +186,30 @@ impl Trajectory for LastLink {
 /// A user-defined trajectory that oscillates as a sine of the time, with known bounds on its accelerations.
 struct Oscillation {
     place: DVec3,
-    along: DVec3,
+    amplitude: DVec3,
     rate: f64,
     axis: DVec3,
-    turn: f64,
+    angle_amplitude: f64,
 }
 
 impl SmoothTrajectory for Oscillation {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let (sin, cos) = (self.rate * time).sin_cos();
-        let turned = DQuat::from_axis_angle(self.axis, self.turn * sin);
-        let start = Pose::new(self.place + self.along * sin, turned)?;
+        let turned = DQuat::from_axis_angle(self.axis, self.angle_amplitude * sin);
+        let start = Pose::new(self.place + self.amplitude * sin, turned)?;
         let cos = self.rate * cos;
-        Motion::new(start, self.along * cos, self.axis * (self.turn * cos))
+        Motion::new(
+            start,
+            self.amplitude * cos,
+            self.axis * (self.angle_amplitude * cos),
+        )
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
+    fn acceleration_bounds(&self, _: f64, _: f64) -> AccelerationBounds {
         let square = self.rate * self.rate * (1.0 + 1e-9);
         AccelerationBounds {
-            linear: self.along.length() * square,
-            angular_acceleration: self.turn * square,
+            linear_acceleration: self.amplitude.length() * square,
+            angular_acceleration: self.angle_amplitude * square,
         }
     }
 }
@@ -224,7 +228,7 @@ impl Zigzag {
         self.corners[k].lerp(self.corners[k + 1], place - k as f64)
     }
 
-    fn inner(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+    fn inner_corner_times(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
         let count = self.corners.len() - 1;
         let times = (0..=count).map(move |k| k as f64 / count as f64);
         times.filter(move |&time| time > from && time < to)
@@ -241,12 +245,13 @@ impl Trajectory for Zigzag {
         };
         // It is farthest from the chord at a corner.
         let off = |time: f64| self.at(time).distance(ends[0] + velocity * (time - from));
-        let shift = (self.inner(from, to).map(off)).fold(0.0, ccd_core::order::greater);
+        let shift =
+            (self.inner_corner_times(from, to).map(off)).fold(0.0, ccd_core::order::greater);
         let motion = Motion::new(Pose::at(ends[0])?, velocity, DVec3::ZERO)?;
         let reach = self.corners.iter().map(|corner| corner.length());
         let rounding = 1e-15 * reach.fold(0.0, ccd_core::order::greater);
         Ok(Stretch {
-            deviation: DeviationBound {
+            deviation_bound: DeviationBound {
                 shift: shift + 8.0 * rounding,
                 turn: 0.0,
             },
@@ -255,6 +260,7 @@ impl Trajectory for Zigzag {
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        self.inner(from, to).find(|_| self.reveals_corners)
+        self.inner_corner_times(from, to)
+            .find(|_| self.reveals_corners)
     }
 }

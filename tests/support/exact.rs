@@ -90,7 +90,7 @@ impl<'a> Solid<'a> {
         for &face in self.columns.candidate_faces(&p) {
             let triangle = self.mesh.triangle(face as usize);
             let top = greater(greater(triangle[0].z, triangle[1].z), triangle[2].z);
-            if top < p.near.z - p.rounding() || is_outside_projection(triangle, &p) {
+            if top < p.rounded_point.z - p.rounding() || is_outside_projection(triangle, &p) {
                 continue;
             }
             if triangle_contains(triangle, &p) {
@@ -112,7 +112,7 @@ fn is_outside_projection([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
             lesser(lesser(a[axis], b[axis]), c[axis]),
             greater(greater(a[axis], b[axis]), c[axis]),
         );
-        p.near[axis] + p.rounding() < lo || p.near[axis] - p.rounding() > hi
+        p.rounded_point[axis] + p.rounding() < lo || p.rounded_point[axis] - p.rounding() > hi
     })
 }
 
@@ -190,7 +190,7 @@ impl Columns {
 
     /// Returns all faces whose projections may contain that of a point, and possibly others.
     fn candidate_faces(&self, p: &LazyPoint<'_>) -> &[u32] {
-        let [x, y] = self.cell_of(p.near.truncate());
+        let [x, y] = self.cell_of(p.rounded_point.truncate());
         &self.faces[x * self.count + y]
     }
 }

@@ -7,11 +7,11 @@ use ccd_core::{Claim, ConvexCombination, DistanceOracle, GiveUpReason, PiecePair
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContractBreach {
     /// Returns a random axis and random points of the pieces.
-    Random,
+    RandomClaim,
     /// Returns an axis with a component that is NaN.
     NanAxis,
     /// Returns an axis of length zero, and no points.
-    Nothing,
+    ZeroAxis,
     /// Returns an axis of infinite components.
     InfiniteAxis,
     /// Returns indices of points that the pieces do not have.
@@ -25,9 +25,9 @@ pub enum ContractBreach {
 impl ContractBreach {
     /// Every way to break the contract.
     pub const ALL: [ContractBreach; 7] = [
-        ContractBreach::Random,
+        ContractBreach::RandomClaim,
         ContractBreach::NanAxis,
-        ContractBreach::Nothing,
+        ContractBreach::ZeroAxis,
         ContractBreach::InfiniteAxis,
         ContractBreach::OutOfRange,
         ContractBreach::ReversedAxis,
@@ -80,9 +80,9 @@ impl DistanceOracle for FaultyOracle {
             b: ConvexCombination::point(self.index(count_b)),
         };
         match self.breach {
-            ContractBreach::Random => {}
+            ContractBreach::RandomClaim => {}
             ContractBreach::NanAxis => claim.axis.y = f64::NAN,
-            ContractBreach::Nothing => {
+            ContractBreach::ZeroAxis => {
                 (claim.axis, claim.a, claim.b) = (
                     DVec3::ZERO,
                     ConvexCombination::EMPTY,

@@ -23,4 +23,4 @@ pub mod tolerance;
 /// An item whose documentation is the README, so that the README's code runs as doctests.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
-pub struct Readme;
+pub struct ReadmeDoctests;

@@ -10,11 +10,11 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// The bodies to which all queries refer.
-pub struct Mixed {
+pub struct MixedBodies {
     bodies: Vec<Body>,
 }
 
-/// A query that refers to the bodies of a [`Mixed`] by index.
+/// A query that refers to the bodies of a [`MixedBodies`] by index.
 #[derive(Clone, Debug)]
 pub struct MixedQuery {
     /// The indices of bodies A and B.
@@ -25,7 +25,7 @@ pub struct MixedQuery {
     pub config: Settings,
 }
 
-impl Mixed {
+impl MixedBodies {
     /// Creates the bodies to which all queries refer.
     pub fn new() -> Self {
         let cube = || cuboid(DVec3::splat(0.5));
@@ -44,7 +44,7 @@ impl Mixed {
             (boulder(2, 0.3, 7), Kind::Triangles),
         ];
         let bodies = shapes.iter().map(|(shape, kind)| shape.body(*kind));
-        Mixed {
+        MixedBodies {
             bodies: bodies.collect(),
         }
     }
@@ -78,9 +78,9 @@ impl Mixed {
     }
 }
 
-impl Default for Mixed {
+impl Default for MixedBodies {
     fn default() -> Self {
-        Mixed::new()
+        MixedBodies::new()
     }
 }
 

@@ -9,15 +9,16 @@ mod thread;
 mod voxels;
 
 pub use boxes::{
-    comb, cuboid, frame_plate, l_prism, mace, needles, parallel_plate, post, rod, slit_plate,
-    u_hook, wall_at,
+    comb, cuboid, frame_plate, l_prism, mace, needles, post, rod, slit_plate, square_plate, u_hook,
+    wall_at,
 };
-pub use catalog::{Model, convex_solids, flat_solids, solids};
+pub use catalog::{Model, convex_solids, flat_faced_solids, solids};
 use ccd_core::order::greater;
 pub use cells::{
-    divided_cube, gear, l_block, meshed_combs, perforated_plate, slotted_plate, terrain,
+    divided_cube, divided_l_prism, gear, interlocking_combs, perforated_plate, slotted_plate,
+    terrain,
 };
-pub use lumps::{blob, boulder, dented_cube, hollow, two_solids};
+pub use lumps::{blob, boulder, dented_cube, hollow, merged_solids};
 pub use round::{icosphere, inradius, torus, torus_knot};
 pub use thread::{PITCH, nut, screw};
 pub use voxels::pile;
@@ -64,7 +65,7 @@ impl Kind {
     pub const ALL: [Kind; 4] = [Kind::Triangles, Kind::Parts, Kind::Patches, Kind::Hull];
 
     /// Returns true if pieces of this kind may extend into the interior of the mesh.
-    pub fn is_filled(self) -> bool {
+    pub fn may_fill_interior(self) -> bool {
         self != Kind::Triangles
     }
 }
@@ -180,7 +181,7 @@ impl Shape {
     }
 
     /// Returns true if the shape can be made of a kind of pieces.
-    pub fn has_kind(&self, kind: Kind) -> bool {
+    pub fn can_be_made_of(&self, kind: Kind) -> bool {
         self.kinds().any(|known| known == kind)
     }
 
@@ -190,9 +191,9 @@ impl Shape {
     /// If the shape cannot be built of these pieces.
     pub fn body(&self, kind: Kind) -> Body {
         match kind {
-            Kind::Triangles => core_body(self.mesh.pieces(), self.volume),
+            Kind::Triangles => expect_body(self.mesh.pieces(), self.volume),
             Kind::Parts => {
-                let body = core_body(Pieces::polytopes(&self.parts), Volume::Surface);
+                let body = expect_body(Pieces::polytopes(&self.parts), Volume::Surface);
                 let tree = build_hull_tree(body.pieces()).expect("a hull tree");
                 body.with_hull_tree(tree).expect("its own hull tree")
             }
@@ -270,13 +271,13 @@ impl Mesh {
     }
 }
 
-fn core_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
+fn expect_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
     Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
 }
 
 /// Returns two triangles for each cell of a grid of `rows × columns` vertices, row by row. A closed direction wraps
 /// around. Faces are counter-clockwise seen from where rows run to the right and columns upwards.
-fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
+fn grid_faces(rows: GridDirection, columns: GridDirection) -> Vec<[u32; 3]> {
     let vertex =
         |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;
     let mut faces = Vec::new();
@@ -296,21 +297,21 @@ fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
 
 /// The number of vertices of a grid in one direction, which may wrap around.
 #[derive(Clone, Copy)]
-enum Line {
-    Open(usize),
-    Closed(usize),
+enum GridDirection {
+    Bounded(usize),
+    Wrapping(usize),
 }
 
-impl Line {
+impl GridDirection {
     fn count(self) -> usize {
-        let (Line::Open(n) | Line::Closed(n)) = self;
+        let (GridDirection::Bounded(n) | GridDirection::Wrapping(n)) = self;
         n
     }
 
     fn steps(self) -> usize {
         match self {
-            Line::Open(n) => n.saturating_sub(1),
-            Line::Closed(n) => n,
+            GridDirection::Bounded(n) => n.saturating_sub(1),
+            GridDirection::Wrapping(n) => n,
         }
     }
 }

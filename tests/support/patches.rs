@@ -42,7 +42,7 @@ pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> CheckResult {
 ///
 /// # Errors
 /// Names the point that is outside the solid.
-pub fn check_inside(
+pub fn check_hull_in_solid(
     solid: &Solid<'_>,
     claim: &Claim<'_>,
     effort: Effort,
@@ -66,7 +66,7 @@ pub fn check_inside(
 pub fn check_polytope(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     check_points(mesh, claim.polytope)?;
     check_hull(claim.polytope)?;
-    check_names(mesh, claim)
+    check_face_names(mesh, claim)
 }
 
 fn check_points(mesh: &Mesh, polytope: &Polytope) -> CheckResult {
@@ -130,7 +130,7 @@ fn triangles<'a>(
 
 /// Checks that every face of the patch is named exactly once, by a facet that equals or contains the face, with outward
 /// orientation.
-fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
+fn check_face_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     let polytope = claim.polytope;
     let (mut named, inside_out) = (Vec::new(), mesh.signed_volume() < 0.0);
     for facet in &polytope.facets {

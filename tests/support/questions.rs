@@ -23,7 +23,7 @@ impl SmoothTrajectory for UserTrajectory {
         Motion::about(motion.pose(time), velocity, spin, motion.centre())
     }
 
-    fn accelerations(&self, _from: f64, _to: f64) -> AccelerationBounds {
+    fn acceleration_bounds(&self, _from: f64, _to: f64) -> AccelerationBounds {
         AccelerationBounds::default()
     }
 }
@@ -41,7 +41,7 @@ pub struct OracleSetup {
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
     /// The answer to whether the bodies touch at all.
-    pub any: Answer,
+    pub any_contact: Answer,
     /// The answer about the least distance.
     pub closest_approach: Answer,
     /// A required distance, and the answer to whether the bodies keep it.
@@ -52,15 +52,15 @@ pub struct Answers {
 #[derive(Clone, Copy, Debug)]
 pub struct TrajectoryAnswers {
     /// The answer about the first contact.
-    pub first: Answer,
+    pub first_contact: Answer,
     /// The answer to whether the bodies touch at all.
     pub any: Answer,
     /// The answer about the least distance.
-    pub closest: Answer,
+    pub closest_approach: Answer,
     /// A required distance, and the answer to whether the bodies keep it.
     pub clearance_check: (f64, Answer),
     /// The answer about the first and the last contact.
-    pub interval: Answer,
+    pub contact_interval: Answer,
 }
 
 impl OracleKind {
@@ -81,10 +81,12 @@ pub fn for_each_answer_set(
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
-            OracleKind::ClosedForm => answers_of(query, bodies, config, ClosedForm::default()),
-            OracleKind::Gjk => answers_of(query, bodies, config, Gjk),
-            OracleKind::Direct => answers_of(query, bodies, config, Direct::default()),
-            OracleKind::Vmarch => answers_of(query, bodies, config, Vmarch::default().or_else(Gjk)),
+            OracleKind::ClosedForm => motion_answers(query, bodies, config, ClosedForm::default()),
+            OracleKind::Gjk => motion_answers(query, bodies, config, Gjk),
+            OracleKind::Direct => motion_answers(query, bodies, config, Direct::default()),
+            OracleKind::Vmarch => {
+                motion_answers(query, bodies, config, Vmarch::default().or_else(Gjk))
+            }
         };
         check(bodies, asked, answers);
     });
@@ -112,7 +114,7 @@ pub fn for_each_trajectory_answer_set(
 }
 
 fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
-    for bodies in query.all_bodies() {
+    for bodies in query.bodies_of_all_kinds() {
         for oracle in OracleKind::ALL
             .into_iter()
             .filter(|oracle| oracle.supports(&bodies))
@@ -141,7 +143,7 @@ fn required_distance_near(closest: &Answer, config: &Settings) -> (f64, Settings
     (clearance.unwrap_or(1.0), keeping)
 }
 
-fn answers_of<O: DistanceOracle>(
+fn motion_answers<O: DistanceOracle>(
     query: &Query,
     bodies: &Bodies,
     config: &Settings,
@@ -156,7 +158,7 @@ fn answers_of<O: DistanceOracle>(
     let (required, keeping) = required_distance_near(&closest, config);
     let problem = query.problem(bodies, &keeping);
     Answers {
-        any: schedule
+        any_contact: schedule
             .any_contact(&problem, &mut oracle)
             .expect(well_posed),
         closest_approach: closest,
@@ -189,10 +191,10 @@ fn trajectory_answers<O: DistanceOracle>(
     let keeping = ccd_core::Query::new(a, b, query.duration, &keeping).expect("a well-posed query");
     let cleared = (depth_first.closest_approach(&keeping, &mut oracle)).expect(well_posed);
     TrajectoryAnswers {
-        first: (best_first.first_contact(&along, &mut oracle)).expect(well_posed),
+        first_contact: (best_first.first_contact(&along, &mut oracle)).expect(well_posed),
         any: (depth_first.any_contact(&along, &mut oracle)).expect(well_posed),
-        closest,
+        closest_approach: closest,
         clearance_check: (required, cleared),
-        interval: (best_first.contact_interval(&along, &mut oracle)).expect(well_posed),
+        contact_interval: (best_first.contact_interval(&along, &mut oracle)).expect(well_posed),
     }
 }

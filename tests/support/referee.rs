@@ -13,7 +13,7 @@ pub(crate) use triangles::{Face, distance_squared};
 pub use triangles::{contains, nearest_on_segment, nearest_on_triangle};
 
 use crate::query::Query;
-use crate::tolerance::{STEP_FRACTION, TOUCHING_FRACTION};
+use crate::tolerance::{STEP_FRACTION, TOUCHING_DISTANCE_FRACTION};
 use ccd_core::glam::DVec3;
 use triangles::PosedMesh;
 
@@ -21,7 +21,7 @@ use triangles::PosedMesh;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finding {
     /// The surfaces are in contact or within the margin at the start.
-    Start,
+    ContactAtStart,
     /// The surfaces are apart until `lo`, and in contact at `hi`.
     Hit {
         /// The time until which the bodies are proven apart.
@@ -78,7 +78,7 @@ impl<'a> Referee<'a> {
     }
 
     /// Returns true if one solid contains the first vertex of the other body at a time.
-    pub fn nested(&self, time: f64) -> bool {
+    pub fn are_nested(&self, time: f64) -> bool {
         let [a, b] = self.posed_meshes(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
         let inside = |outer: &PosedMesh<'_>, inner: &PosedMesh<'_>| {
@@ -102,7 +102,7 @@ impl<'a> Referee<'a> {
     /// Searches for the first contact of the bodies.
     pub fn finding(&self) -> Finding {
         let speed = self.speed();
-        let close = TOUCHING_FRACTION * self.size();
+        let close = TOUCHING_DISTANCE_FRACTION * self.size();
         let (mut time, mut least) = (0.0, f64::INFINITY);
         for _ in 0..MAX_STEPS {
             let gap = self.gap(time) - self.margin;
@@ -124,18 +124,18 @@ impl<'a> Referee<'a> {
     /// Returns an upper bound on the rate of change of the distance.
     pub fn speed(&self) -> f64 {
         let [a, b] = &self.placements;
-        (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
+        (b.velocity() - a.velocity()).length() + a.max_rotational_speed() + b.max_rotational_speed()
     }
 
     /// Searches for a contact soon after `lo`, a time at which the bodies nearly touch.
     fn find_contact(&self, lo: f64, first_step: f64) -> Finding {
-        if lo == 0.0 && self.touches(0.0) {
-            return Finding::Start;
+        if lo == 0.0 && self.is_in_contact(0.0) {
+            return Finding::ContactAtStart;
         }
         let mut step = first_step;
         while step <= 1e-2 * self.query.duration {
             let hi = lesser(lo + step, self.query.duration);
-            if self.touches(hi) {
+            if self.is_in_contact(hi) {
                 return Finding::Hit { lo, hi };
             }
             step *= 1.5;
@@ -143,7 +143,7 @@ impl<'a> Referee<'a> {
         Finding::Near { lo }
     }
 
-    fn touches(&self, time: f64) -> bool {
+    fn is_in_contact(&self, time: f64) -> bool {
         let gap = self.gap(time);
         if self.margin > 0.0 {
             gap < self.margin
@@ -176,9 +176,9 @@ impl<'a> Referee<'a> {
 
 impl Finding {
     /// Returns a time at which the bodies are certainly in contact; `None` if no contact is proven.
-    pub fn latest(self) -> Option<f64> {
+    pub fn latest_contact_time(self) -> Option<f64> {
         match self {
-            Finding::Start => Some(0.0),
+            Finding::ContactAtStart => Some(0.0),
             Finding::Hit { hi, .. } => Some(hi),
             _ => None,
         }

@@ -64,7 +64,7 @@ pub fn convex_cases() -> impl Strategy<Value = Case> {
 }
 
 /// Generates [`cases`] of very small to very large size, some of them far from the origin.
-pub fn remote_cases() -> impl Strategy<Value = Case> {
+pub fn scaled_and_remote_cases() -> impl Strategy<Value = Case> {
     (
         cases(),
         -6.0..6.0f64,
@@ -149,11 +149,13 @@ fn drift() -> impl Strategy<Value = Option<DVec3>> {
 }
 
 fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
-    (model, rotation_vector(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| Part {
-        turned: turned.into(),
-        spin: spin.into(),
-        centre: centre.into(),
-        ..Part::new(shape)
+    (model, vector_up_to_length(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| {
+        Part {
+            turned: turned.into(),
+            spin: spin.into(),
+            centre: centre.into(),
+            ..Part::new(shape)
+        }
     })
 }
 
@@ -161,18 +163,18 @@ fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
 fn spin() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         2 => Just(DVec3::ZERO),
-        3 => rotation_vector(PI),
-        1 => rotation_vector(3.0 * TAU),
-        1 => rotation_vector(1e-6),
+        3 => vector_up_to_length(PI),
+        1 => vector_up_to_length(3.0 * TAU),
+        1 => vector_up_to_length(1e-6),
     ]
 }
 
 fn centre() -> impl Strategy<Value = DVec3> {
-    prop_oneof![2 => Just(DVec3::ZERO), 1 => rotation_vector(1.0)]
+    prop_oneof![2 => Just(DVec3::ZERO), 1 => vector_up_to_length(1.0)]
 }
 
 /// Generates a vector of length up to `most`, in any direction.
-fn rotation_vector(most: f64) -> impl Strategy<Value = DVec3> {
+fn vector_up_to_length(most: f64) -> impl Strategy<Value = DVec3> {
     (direction(), 0.0..=most).prop_map(|(n, length)| length * n)
 }
 
@@ -197,7 +199,7 @@ pub fn random_direction(rng: &mut Pcg64) -> DVec3 {
 
 /// Generates a rotation about a random axis by up to half a turn.
 pub fn rotation() -> impl Strategy<Value = DQuat> {
-    rotation_vector(PI).prop_map(DQuat::from_scaled_axis)
+    vector_up_to_length(PI).prop_map(DQuat::from_scaled_axis)
 }
 
 /// Generates a half extent between 0.05 and 1, uniformly on a logarithmic scale.

@@ -12,11 +12,11 @@ pub fn rounding(scale: f64) -> f64 {
 
 /// The allowed lateness of a reported time relative to a closed form, as a fraction of the duration. It is the rounding
 /// of the closed form itself, a few units in the last place after its subtractions.
-pub const CLOSED_FORM_LATENESS: f64 = 1e-13;
+pub const MAX_LATENESS_FRACTION: f64 = 1e-13;
 
 /// The distance, as a fraction of a scene's size, below which the referee looks for an intersection nearby. It is 2²³
 /// times the rounding of the referee's distances, and less than any tolerance tested.
-pub const TOUCHING_FRACTION: f64 = 1e-10;
+pub const TOUCHING_DISTANCE_FRACTION: f64 = 1e-10;
 
 /// The fraction of each proven step that the referee takes, less than 1 to allow for rounding.
 pub const STEP_FRACTION: f64 = 1.0 - 1e-9;

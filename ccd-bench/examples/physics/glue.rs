@@ -25,7 +25,7 @@ pub(crate) fn step_to_first_contacts(
         let motion = motion_since(start, &world.bodies[body], duration)?;
         scene.set_movement(index, motion)?;
     }
-    let stops = scene.stops(duration)?;
+    let stops = scene.find_stops(duration)?;
     for &(index, body) in moving {
         if stops[index].stopped_by.is_some() {
             let pose = scene.movement(index).pose(stops[index].time)?;

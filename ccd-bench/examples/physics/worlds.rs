@@ -36,10 +36,10 @@ pub(crate) struct SimulatedBody {
 }
 
 /// A function that creates a world, with rapier's continuous collision detection on or off.
-type Make = fn(bool) -> Result<World>;
+type WorldConstructor = fn(bool) -> Result<World>;
 
 /// The worlds to compare: the name of each in the table, and the function that creates it.
-pub(crate) const WORLDS: [(&str, Make); 3] = [
+pub(crate) const WORLDS: [(&str, WorldConstructor); 3] = [
     ("bullets and paper", create_bullet_world),
     ("bunnies onto bunnies", create_bunny_world),
     ("chain through a slot", create_chain_world),

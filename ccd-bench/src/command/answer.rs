@@ -4,12 +4,12 @@
 use crate::method::solver::Solver;
 use crate::method::wire::{REFUSAL_PREFIX, serve_queries};
 use crate::method::{Method, ProjectSolver};
-use crate::run::contest::MAX_PAIRS_FOR_NAIVE;
+use crate::run::contest::MAX_PAIRS_FOR_NAIVE_SCHEDULE;
 use anyhow::{Context, Result, anyhow};
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::batch::{Bodies, ScheduleKind};
-use rigid_ccd::command::{Exit, OutputError};
+use rigid_ccd::command::{OutputError, RunOutcome};
 use std::io::{self, Write};
 #[cfg(unix)]
 use std::os::unix::process::parent_id;
@@ -37,8 +37,8 @@ pub(super) struct AnswerArgs {
     margin: f64,
 }
 
-pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
-    end_with_parent();
+pub(super) fn run(args: &AnswerArgs) -> Result<RunOutcome> {
+    exit_when_parent_ends();
     let name = &args.method;
     let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
     let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
@@ -46,7 +46,7 @@ pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
     if let Err(refusal) = answer_queries(method, &meshes, args)? {
         writeln!(io::stdout(), "{REFUSAL_PREFIX}{refusal}").map_err(reply_write_error)?;
     }
-    Ok(Exit::AllAnswered)
+    Ok(RunOutcome::AllAnswered)
 }
 
 /// Answers all queries on standard input; the inner `Err` says why the method refuses the bodies or the setting.
@@ -67,7 +67,7 @@ fn answer_queries(
                 [Err(error), _] | [_, Err(error)] => return Ok(Err(error.to_string())),
             };
             let pairs = a.pieces().len() as u64 * b.pieces().len() as u64;
-            if kind.schedule == ScheduleKind::Naive && pairs > MAX_PAIRS_FOR_NAIVE {
+            if kind.schedule == ScheduleKind::Naive && pairs > MAX_PAIRS_FOR_NAIVE_SCHEDULE {
                 return Ok(Err(format!("{pairs} pairs are too many")));
             }
             let bodies = Bodies { a: &a, b: &b };
@@ -110,7 +110,7 @@ const MAX_TIME_WITHOUT_PARENT: Duration = Duration::from_secs(1);
 
 /// Watches for the end of the parent process, and then ends this process, whatever it is doing.
 #[cfg(unix)]
-fn end_with_parent() {
+fn exit_when_parent_ends() {
     let parent = parent_id();
     thread::spawn(move || {
         while parent_id() == parent {

@@ -3,16 +3,16 @@
 use super::print_summary;
 use crate::method::Method;
 use crate::method::PAPER_TOLERANCE;
-use crate::method::guarded::Programs;
+use crate::method::guarded::MethodPrograms;
 use crate::method::peer::PeerKind;
 use crate::run::contest::MeasurementLimits;
-use crate::run::evaluation::Plan;
+use crate::run::evaluation::MeasurementPlan;
 use crate::run::export::export;
 use crate::scene::listings;
 use crate::show::presentation::write_report;
 use anyhow::{Result, ensure};
 use clap::Args;
-use rigid_ccd::command::Exit;
+use rigid_ccd::command::RunOutcome;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -47,7 +47,7 @@ pub(super) struct ChartArgs {
     #[arg(long = "patience", value_name = "SECONDS", value_parser = duration_from_seconds)]
     query_time_limit: Option<Duration>,
     #[command(flatten)]
-    programs: Programs,
+    programs: MethodPrograms,
     /// Draw the measurements that are already in the folder, and measure nothing
     #[arg(long, conflicts_with_all = ["full", "export"])]
     redraw: bool,
@@ -74,7 +74,7 @@ const COMPARISON_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
 
 /// The limits of each measurement with `--full`, chosen so that everything takes about half an hour.
 const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
-    cell: Duration::from_millis(600),
+    cell_time: Duration::from_millis(600),
     patience: Duration::from_secs(4),
     max_rows: usize::MAX,
     min_rows: 10,
@@ -82,15 +82,15 @@ const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
 };
 /// The limits of each measurement without `--full`, chosen so that a few queries of everything take about a minute.
 const QUICK_LIMITS: MeasurementLimits = MeasurementLimits {
-    cell: Duration::from_millis(40),
+    cell_time: Duration::from_millis(40),
     patience: Duration::from_millis(200),
     max_rows: 40,
     min_rows: 3,
     preparation_limit: Duration::from_millis(400),
 };
 
-pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
-    let mut plan = plan(args)?;
+pub(super) fn run(args: &ChartArgs) -> Result<RunOutcome> {
+    let mut plan = plan_measurements(args)?;
     if args.programs.script.is_some() {
         plan.methods.extend(Method::script_methods());
     }
@@ -107,7 +107,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
     }
     if let Some(folder) = &args.export {
         export(&plan.listings, plan.models, folder)?;
-        return Ok(Exit::AllAnswered);
+        return Ok(RunOutcome::AllAnswered);
     }
     let evaluated = if args.redraw {
         plan.load_measurements()?
@@ -119,12 +119,12 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
     print_summary(&format_args!(
         "{safety}\n\nThe report, with scenes in motion, a chart and tables: {page}"
     ))?;
-    Ok(Exit::AllAnswered)
+    Ok(RunOutcome::AllAnswered)
 }
 
 /// Returns the plan that the arguments ask for: a full one, or a quick one with fewer queries and only the fast
 /// methods.
-fn plan(args: &ChartArgs) -> Result<Plan> {
+fn plan_measurements(args: &ChartArgs) -> Result<MeasurementPlan> {
     if let Some(directory) = &args.models {
         ensure!(
             directory.is_dir(),
@@ -138,13 +138,13 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
         (QUICK_LIMITS, &COMPARISON_TOLERANCES[..])
     };
     let methods = Method::built_in_methods().into_iter();
-    let methods = methods.filter(|method| args.full || is_fast_to_run(*method));
-    Ok(Plan {
+    let methods = methods.filter(|method| args.full || is_in_quick_plan(*method));
+    Ok(MeasurementPlan {
         listings: listings()?,
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
         limits: MeasurementLimits {
-            cell: args.cell_time.unwrap_or(allowance.cell),
+            cell_time: args.cell_time.unwrap_or(allowance.cell_time),
             patience: args.query_time_limit.unwrap_or(allowance.patience),
             ..allowance
         },
@@ -156,7 +156,7 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
 
 /// Returns true if the method answers a few queries within seconds, so that the quick plan includes it. Peers take time
 /// to start, since they run in other processes, so only one of them is included.
-fn is_fast_to_run(method: Method) -> bool {
+fn is_in_quick_plan(method: Method) -> bool {
     match method {
         Method::ThisProject(..) | Method::Rival(_) => true,
         Method::Peer(kind) => kind == PeerKind::ParryF64,

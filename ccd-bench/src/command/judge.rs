@@ -1,15 +1,17 @@
 //! The command `ccd-bench judge`: runs one method, and compares its answers with the exact ones.
 
 use crate::method::Method;
-use crate::method::guarded::{GuardSettings, GuardedMethod, Programs};
-use crate::method::solver::Claim;
+use crate::method::guarded::{GuardSettings, GuardedMethod, MethodPrograms};
+use crate::method::solver::ContactClaim;
 use crate::run::contest::{judge, judge_outcome};
 use crate::truth::{Referee, Surface, TruthRow};
 use anyhow::{Context, Result, anyhow};
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use ccd_decomp::TriangleMesh;
 use clap::Args;
-use rigid_ccd::command::{BadRows, Exit, Progress, Table, input_name, open_motions};
+use rigid_ccd::command::{
+    BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions,
+};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -34,7 +36,7 @@ pub(super) struct JudgeArgs {
     #[arg(long, value_name = "LENGTH", default_value = "1e-3", value_parser = tolerance)]
     tolerance: f64,
     #[command(flatten)]
-    programs: Programs,
+    programs: MethodPrograms,
     /// Seconds that the method may take for a query before it is stopped
     #[arg(long, value_name = "SECONDS", default_value = "3")]
     patience: NonZeroU32,
@@ -52,7 +54,7 @@ Example:
 
 const VERDICT_COLUMNS: [&str; 7] = ["id", "status", "lo", "hi", "verdict", "answer", "time"];
 
-pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
+pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
     let name = &args.method;
     let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
     let read = |path: &Path| TriangleMesh::read(path);
@@ -62,8 +64,8 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
     let setting = GuardSettings::new(method, args.tolerance);
     let guarded = GuardedMethod::start(&args.programs, setting, meshes.each_ref());
     let mut guarded = guarded.with_context(|| name.clone())?;
-    let mut table = Table::create(&args.out, &VERDICT_COLUMNS)?;
-    let mut bad_rows = BadRows::new(input_name(&args.motions));
+    let mut table = TableWriter::create(&args.out, &VERDICT_COLUMNS)?;
+    let mut bad_rows = BadRowCounter::new(input_name(&args.motions));
     let (rows, _) = open_motions(&args.motions)?;
     for row in rows {
         let query = match row.with_context(|| input_name(&args.motions))? {
@@ -73,7 +75,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
                 continue;
             }
         };
-        let query = method.motion_kind().apply(query)?;
+        let query = method.motion_kind().convert_motions(query)?;
         let truth = referee.first_contact(&query);
         let asked = guarded.run_query(&query, Duration::from_secs(args.patience.get().into()))?;
         let verdict = judge_outcome(&asked, |reply| {
@@ -83,8 +85,8 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         let verdict = verdict.verdict.to_string();
         let claim = asked.claim();
         let (answer, time) = (
-            claim.map_or("none", Claim::status),
-            claim.and_then(Claim::time),
+            claim.map_or("none", ContactClaim::status),
+            claim.and_then(ContactClaim::time),
         );
         let truth = TruthRow::new(query.id.clone(), query.duration, truth);
         table.write(|writer| writer.serialize((truth, verdict, answer, time)))?;
@@ -92,8 +94,8 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
     table.finish()?;
     bad_rows.print_total();
     Ok(match bad_rows.count() {
-        0 => Exit::AllAnswered,
-        _ => Exit::SomeRowsBad,
+        0 => RunOutcome::AllAnswered,
+        _ => RunOutcome::SomeRowsBad,
     })
 }
 

@@ -3,16 +3,16 @@
 use super::chart::select_by_name;
 use super::print_summary;
 use crate::method::Method;
-use crate::method::guarded::Programs;
+use crate::method::guarded::MethodPrograms;
 use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
 use crate::show::write;
 use crate::stability::{
-    Findings, Survey, families, first_failure_table, growth_map, solved_range_map, summary,
+    Findings, Survey, cost_growth_map, families, first_failure_table, solved_range_map, summary,
 };
 use anyhow::{Result, ensure};
 use clap::Args;
-use rigid_ccd::command::Exit;
+use rigid_ccd::command::RunOutcome;
 use std::path::PathBuf;
 
 /// Find where each method fails: families of scenes that get harder step by step
@@ -29,7 +29,7 @@ pub(super) struct StabilityArgs {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     methods: Vec<String>,
     #[command(flatten)]
-    programs: Programs,
+    programs: MethodPrograms,
     /// Draw the answers that are already in the folder, even those of another build, and ask nothing
     #[arg(long)]
     redraw: bool,
@@ -55,7 +55,7 @@ Examples:
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
-pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
+pub(super) fn run(args: &StabilityArgs) -> Result<RunOutcome> {
     // The folder may contain more than the requested answers.
     let mut drawn = Method::known_methods();
     drawn.retain(|method| *method != Method::Script(ScriptKind::CoalDistance));
@@ -81,7 +81,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         args.out.display()
     );
     let reach = solved_range_map(&findings).draw()?;
-    let growth = growth_map(&findings).draw()?;
+    let growth = cost_growth_map(&findings).draw()?;
     let limits = format!("{}\n", first_failure_table(&findings));
     let files = [
         ("limits.md", &limits),
@@ -92,5 +92,5 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         write(&args.out.join(name), text)?;
     }
     print_summary(&summary(&findings))?;
-    Ok(Exit::AllAnswered)
+    Ok(RunOutcome::AllAnswered)
 }

@@ -1,14 +1,15 @@
 //! The command `ccd-bench truth`: reads two meshes and a table of motions, and writes a table of
 //! brackets of the exact first contacts.
 
-use crate::truth::{Referee, STATUSES, Surface, TRUTH_COLUMNS, TruthRow};
+use crate::truth::{Referee, Surface, TRUTH_COLUMNS, TRUTH_STATUSES, TruthRow};
 use anyhow::{Context, Result};
 use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{
-    BadRows, Exit, Progress, Table, input_name, open_motions, print_error, refuse_overwriting,
+    BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions, print_error,
+    refuse_overwriting,
 };
 use rigid_ccd::table::motions::MotionRow;
 use std::collections::HashMap;
@@ -65,7 +66,7 @@ Examples:
 const BATCH_SIZE: usize = 256;
 
 /// Brackets the first contact of every valid row, and writes the problem of every invalid row to the table.
-pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
+pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
     for (option, path) in [
         ("--motions", &args.motions),
         ("--a", &args.a),
@@ -80,9 +81,9 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     };
     let (a, b) = (surface("--a", &args.a)?, surface("--b", &args.b)?);
     let referee = Referee::new(&a, &b);
-    let mut table = Table::create(&args.out, &TRUTH_COLUMNS)?;
+    let mut table = TableWriter::create(&args.out, &TRUTH_COLUMNS)?;
     let progress = Progress::for_rows(length, args.quiet);
-    let mut bad_rows = BadRows::new(input_name(&args.motions));
+    let mut bad_rows = BadRowCounter::new(input_name(&args.motions));
     let (mut counts, mut widest) = (HashMap::new(), 0.0);
     let start = Instant::now();
     loop {
@@ -131,14 +132,14 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
         let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", summary(&counts, widest));
     }
     Ok(match bad_rows.count() {
-        0 => Exit::AllAnswered,
-        _ => Exit::SomeRowsBad,
+        0 => RunOutcome::AllAnswered,
+        _ => RunOutcome::SomeRowsBad,
     })
 }
 
 /// Returns a line of text with the number of rows of each status, and the width of the widest bracket.
 fn summary(counts: &HashMap<&str, usize>, widest: f64) -> String {
-    let kinds = STATUSES.map(|kind| format!("{} {kind}", counts.get(kind).unwrap_or(&0)));
+    let kinds = TRUTH_STATUSES.map(|kind| format!("{} {kind}", counts.get(kind).unwrap_or(&0)));
     let (rows, kinds): (usize, String) = (counts.values().sum(), kinds.join(", "));
     format!("{rows} rows: {kinds}; widest bracket {widest:.1e}")
 }

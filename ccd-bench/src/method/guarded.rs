@@ -1,7 +1,7 @@
 //! Runs a method in a separate process, which is stopped if a query exceeds its time limit.
 
 use super::Method;
-use super::solver::{Claim, TimedReply};
+use super::solver::{ContactClaim, TimedReply};
 use super::wire::{READY_LINE, REFUSAL_PREFIX, format_query};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
@@ -21,11 +21,11 @@ use tempfile::TempDir;
 #[derive(Debug)]
 pub struct GuardedMethod {
     program: PathBuf,
-    setting: GuardSettings,
+    settings: GuardSettings,
     /// The temporary folder with the mesh files of both bodies.
-    meshes: TempDir,
+    mesh_folder: TempDir,
     /// The running process; `None` if none is running, so that the next query starts one.
-    process: Option<Process>,
+    process: Option<MethodProcess>,
 }
 
 /// A method with its tolerance, its margin, and the time limit for its preparation.
@@ -66,13 +66,13 @@ pub enum QueryOutcome {
 
 /// The programs that run the methods: this one, and a script for the methods of kind [`Method::Script`].
 #[derive(Clone, Debug, Default, Args)]
-pub struct Programs {
+pub struct MethodPrograms {
     /// The script that runs the methods of Coal and FCL: scripts/peers.py
     #[arg(long = "peers", value_name = "SCRIPT")]
     pub script: Option<PathBuf>,
 }
 
-impl Programs {
+impl MethodPrograms {
     /// Starts the script of a method, if a script runs it, to detect missing libraries.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl Programs {
 
 impl QueryOutcome {
     /// Returns the method's claim about the query; `None` without an answer.
-    pub fn claim(&self) -> Option<Claim> {
+    pub fn claim(&self) -> Option<ContactClaim> {
         match self {
             QueryOutcome::Answered(timed) => Some(timed.reply.claim),
             QueryOutcome::CutOff | QueryOutcome::Crashed => None,
@@ -116,7 +116,7 @@ impl QueryOutcome {
 
     /// Returns the time of the query in microseconds: the time limit if the query was stopped, NaN if the process
     /// ended.
-    pub fn micros(&self, patience: Duration) -> f64 {
+    pub fn micros_or_limit(&self, patience: Duration) -> f64 {
         match self {
             QueryOutcome::Answered(timed) => timed.micros,
             QueryOutcome::CutOff => patience.as_secs_f64() * 1e6,
@@ -125,7 +125,7 @@ impl QueryOutcome {
     }
 
     /// Returns the number of steps in time that the method took; 0 without an answer.
-    pub fn steps(&self) -> u64 {
+    pub fn step_count(&self) -> u64 {
         match self {
             QueryOutcome::Answered(timed) => timed.reply.steps,
             QueryOutcome::CutOff | QueryOutcome::Crashed => 0,
@@ -141,12 +141,12 @@ impl GuardedMethod {
     /// [`Unsupported`](io::ErrorKind::Unsupported) if the method refuses the meshes or the setting, of the
     /// kind [`TimedOut`](io::ErrorKind::TimedOut) if it takes too long.
     pub fn start(
-        programs: &Programs,
+        programs: &MethodPrograms,
         setting: GuardSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         let mut guarded = GuardedMethod::new(programs, setting, meshes)?;
-        guarded.running_process()?;
+        guarded.ensure_running_process()?;
         Ok(guarded)
     }
 
@@ -155,7 +155,7 @@ impl GuardedMethod {
     /// # Errors
     /// If the meshes cannot be written, or the method has no program.
     pub fn new(
-        programs: &Programs,
+        programs: &MethodPrograms,
         setting: GuardSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
@@ -178,16 +178,16 @@ impl GuardedMethod {
         }
         Ok(GuardedMethod {
             program,
-            setting,
-            meshes: folder,
+            settings: setting,
+            mesh_folder: folder,
             process: None,
         })
     }
 
     /// Sets the tolerance; if it changes, the next query restarts the process.
     pub fn set_tolerance(&mut self, tolerance: f64) {
-        if self.setting.tolerance != tolerance {
-            self.setting.tolerance = tolerance;
+        if self.settings.tolerance != tolerance {
+            self.settings.tolerance = tolerance;
             self.process = None;
         }
     }
@@ -198,14 +198,14 @@ impl GuardedMethod {
     /// # Errors
     /// Those of [`GuardedMethod::start`].
     pub fn run_query(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
-        let outcome = self.running_process()?.send_query(query, patience);
+        let outcome = self.ensure_running_process()?.send_query(query, patience);
         if !matches!(outcome, QueryOutcome::Answered(_)) {
             self.process = None;
         }
         Ok(outcome)
     }
 
-    fn running_process(&mut self) -> io::Result<&mut Process> {
+    fn ensure_running_process(&mut self) -> io::Result<&mut MethodProcess> {
         let process = match self.process.take() {
             Some(process) => process,
             None => self.spawn()?,
@@ -213,17 +213,17 @@ impl GuardedMethod {
         Ok(self.process.insert(process))
     }
 
-    fn spawn(&self) -> io::Result<Process> {
+    fn spawn(&self) -> io::Result<MethodProcess> {
         let mut command = Command::new(&self.program);
         command
-            .args(["answer", "--method", &self.setting.method.to_string()])
-            .arg(format!("--tolerance={}", self.setting.tolerance))
-            .arg(format!("--margin={}", self.setting.margin))
+            .args(["answer", "--method", &self.settings.method.to_string()])
+            .arg(format!("--tolerance={}", self.settings.tolerance))
+            .arg(format!("--margin={}", self.settings.margin))
             .arg("--a")
-            .arg(self.meshes.path().join(MESH_FILE_NAMES[0]))
+            .arg(self.mesh_folder.path().join(MESH_FILE_NAMES[0]))
             .arg("--b")
-            .arg(self.meshes.path().join(MESH_FILE_NAMES[1]));
-        Process::start(&mut command, self.setting.preparation_limit)
+            .arg(self.mesh_folder.path().join(MESH_FILE_NAMES[1]));
+        MethodProcess::start(&mut command, self.settings.preparation_limit)
     }
 }
 
@@ -232,13 +232,13 @@ const MESH_FILE_NAMES: [&str; 2] = ["a.obj", "b.obj"];
 
 /// A running process that answers each line of input with one line. It ends when this is dropped.
 #[derive(Debug)]
-struct Process {
+struct MethodProcess {
     child: Child,
     input: Option<ChildStdin>,
-    lines: Receiver<String>,
+    output_lines: Receiver<String>,
 }
 
-impl Process {
+impl MethodProcess {
     fn start(command: &mut Command, preparation: Duration) -> io::Result<Self> {
         let mut child = command
             .stdin(Stdio::piped())
@@ -249,10 +249,10 @@ impl Process {
         let output = child.stdout.take();
         // From here on, dropping `self` stops the process.
         let (sender, lines) = channel();
-        let process = Process {
+        let process = MethodProcess {
             child,
             input,
-            lines,
+            output_lines: lines,
         };
         let output = output.ok_or_else(|| io::Error::other("no output of the method"))?;
         // This thread ends with the output, which ends with the process.
@@ -263,7 +263,7 @@ impl Process {
                 }
             }
         });
-        match process.lines.recv_timeout(preparation) {
+        match process.output_lines.recv_timeout(preparation) {
             Ok(line) if line == READY_LINE => Ok(process),
             Ok(line) if line.starts_with(REFUSAL_PREFIX) => {
                 let why = &line[REFUSAL_PREFIX.len()..];
@@ -281,7 +281,7 @@ impl Process {
         if writeln!(input, "{}", format_query(query)).is_err() {
             return QueryOutcome::Crashed;
         }
-        match self.lines.recv_timeout(patience) {
+        match self.output_lines.recv_timeout(patience) {
             Ok(line) => {
                 serde_json::from_str(&line).map_or(QueryOutcome::Crashed, QueryOutcome::Answered)
             }
@@ -291,7 +291,7 @@ impl Process {
     }
 }
 
-impl Drop for Process {
+impl Drop for MethodProcess {
     fn drop(&mut self) {
         // It is no error if the process has ended already.
         let _ = self.child.kill();

@@ -16,7 +16,7 @@ pub mod rapier;
 #[cfg(test)]
 mod tests;
 
-use crate::method::solver::{Claim, Solver};
+use crate::method::solver::{ContactClaim, Solver};
 use anyhow::Result;
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
@@ -52,8 +52,8 @@ impl PeerKind {
     pub fn solver(self, a: &TriangleMesh, b: &TriangleMesh) -> Result<Box<dyn Solver>> {
         use parry::{double, single};
         Ok(match self {
-            PeerKind::ParryF64 => Box::new(double::cast::NonlinearCast::new(a, b)?),
-            PeerKind::ParryF32 => Box::new(single::cast::NonlinearCast::new(a, b)?),
+            PeerKind::ParryF64 => Box::new(double::cast::CastMeshPair::new(a, b)?),
+            PeerKind::ParryF32 => Box::new(single::cast::CastMeshPair::new(a, b)?),
             PeerKind::ParrySweepF64 => Box::new(double::sweep::SweptMeshPair::new(a, b)?),
             PeerKind::ParrySweepF32 => Box::new(single::sweep::SweptMeshPair::new(a, b)?),
             PeerKind::RapierStepF64 => Box::new(rapier::TwoBodySimulation::new(a, b)?),
@@ -62,11 +62,11 @@ impl PeerKind {
 }
 
 /// Returns the claim of a contact at `time`, clamped to the duration because of rounding. An invalid time is no answer.
-fn contact_claim_at(time: f64, duration: f64) -> Claim {
+fn contact_claim_at(time: f64, duration: f64) -> ContactClaim {
     if time.is_finite() {
         let time = time.clamp(0.0, duration);
-        Claim::Contact { time }
+        ContactClaim::Contact { time }
     } else {
-        Claim::Unresolved { safe_until: 0.0 }
+        ContactClaim::Unresolved { safe_until: 0.0 }
     }
 }

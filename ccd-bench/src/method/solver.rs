@@ -23,19 +23,19 @@ pub struct TimedReply {
 
 /// The maximum number of times that a query is answered for timing. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
-const MAX_REPEATS: usize = 4;
+const MAX_ANSWER_COUNT: usize = 4;
 /// The total time spent on a query after which it is not answered again for timing.
 const REPEAT_TIME_LIMIT: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
 pub fn answer_timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedReply {
-    let mut micros = Vec::with_capacity(MAX_REPEATS);
+    let mut micros = Vec::with_capacity(MAX_ANSWER_COUNT);
     let first = Instant::now();
     loop {
         let start = Instant::now();
         let reply = solver.answer(query, tolerance);
         micros.push(start.elapsed().as_secs_f64() * 1e6);
-        if first.elapsed() > REPEAT_TIME_LIMIT || micros.len() == MAX_REPEATS {
+        if first.elapsed() > REPEAT_TIME_LIMIT || micros.len() == MAX_ANSWER_COUNT {
             let warm = usize::from(micros.len() > 1);
             let micros = median(&mut micros[warm..]);
             return TimedReply { reply, micros };
@@ -47,7 +47,7 @@ pub fn answer_timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) ->
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reply {
     /// What the solver claims about the first contact.
-    pub claim: Claim,
+    pub claim: ContactClaim,
     /// The number of steps in time: advancements, halvings or samples, depending on the solver.
     pub steps: u64,
     /// The tolerance at which the solver answered, if it states one.
@@ -58,7 +58,7 @@ pub struct Reply {
 
 impl Reply {
     /// Returns a reply with the given claim and steps, without a tolerance or a reason.
-    pub fn new(claim: Claim, steps: u64) -> Self {
+    pub fn new(claim: ContactClaim, steps: u64) -> Self {
         Reply {
             claim,
             steps,
@@ -76,7 +76,7 @@ impl Reply {
 /// What a solver claims about the first contact of a query.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Claim {
+pub enum ContactClaim {
     /// The bodies come within the tolerance at a time, and not before.
     Contact {
         /// The time of the claimed contact, from 0 to the query's duration.
@@ -92,26 +92,30 @@ pub enum Claim {
     /// The solver does not support the query.
     Refused,
     /// The solver measured something else, such as a single distance, for a comparison of times.
-    NoClaim,
+    OtherMeasurement,
 }
 
-impl Claim {
+impl ContactClaim {
     /// Returns the name of the claim's kind in tables.
     pub fn status(self) -> &'static str {
         match self {
-            Claim::Contact { .. } => "contact",
-            Claim::NoContact => "free",
-            Claim::Unresolved { .. } => "unresolved",
-            Claim::Refused => "refused",
-            Claim::NoClaim => "static",
+            ContactClaim::Contact { .. } => "contact",
+            ContactClaim::NoContact => "free",
+            ContactClaim::Unresolved { .. } => "unresolved",
+            ContactClaim::Refused => "refused",
+            ContactClaim::OtherMeasurement => "static",
         }
     }
 
     /// Returns the claimed time of a contact, or the time until which there is none.
     pub fn time(self) -> Option<f64> {
         match self {
-            Claim::Contact { time } | Claim::Unresolved { safe_until: time } => Some(time),
-            Claim::NoContact | Claim::Refused | Claim::NoClaim => None,
+            ContactClaim::Contact { time } | ContactClaim::Unresolved { safe_until: time } => {
+                Some(time)
+            }
+            ContactClaim::NoContact | ContactClaim::Refused | ContactClaim::OtherMeasurement => {
+                None
+            }
         }
     }
 }

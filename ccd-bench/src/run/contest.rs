@@ -14,8 +14,8 @@ pub use verdict::{Judgement, Verdict, is_within_tolerance, judge, judge_contact,
 use crate::method::MotionKind;
 use crate::method::guarded::QueryOutcome;
 use crate::method::rival::to_screw_motions;
-use crate::method::solver::Claim;
-use crate::run::measured::{Cell, Trial};
+use crate::method::solver::ContactClaim;
+use crate::run::measured::{MeasurementCell, Trial};
 use crate::scene::Scene;
 use crate::truth::{Referee, Surface, Truth};
 use anyhow::{Context, Result};
@@ -31,13 +31,13 @@ use std::time::{Duration, Instant};
 pub struct PreparedScene<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
-    given_rows: QueryRows<'s>,
+    constant_velocity_rows: QueriesWithTruths<'s>,
     /// The queries of the scene, with each motion replaced by the screw motion between its start and end poses.
-    screw_rows: QueryRows<'s>,
+    screw_rows: QueriesWithTruths<'s>,
 }
 
 /// The queries of a scene, each with its exact answer once that is known.
-struct QueryRows<'s> {
+struct QueriesWithTruths<'s> {
     queries: Cow<'s, [Motions]>,
     truths: Vec<OnceLock<Truth>>,
 }
@@ -46,7 +46,7 @@ struct QueryRows<'s> {
 #[derive(Clone, Copy, Debug)]
 pub struct MeasurementLimits {
     /// The time for one method on one scene at one tolerance, after which no more queries are started.
-    pub cell: Duration,
+    pub cell_time: Duration,
     /// The time limit of one query of a peer, which is then stopped.
     pub patience: Duration,
     /// The maximum number of queries to ask.
@@ -59,7 +59,7 @@ pub struct MeasurementLimits {
 }
 
 /// The maximum number of pairs of pieces on which the naive schedule is run, which processes all pairs in every step.
-pub const MAX_PAIRS_FOR_NAIVE: u64 = 100_000;
+pub const MAX_PAIRS_FOR_NAIVE_SCHEDULE: u64 = 100_000;
 
 impl<'s> PreparedScene<'s> {
     /// Prepares a scene: makes the surfaces for the referee, and the screw motions of all queries.
@@ -78,14 +78,14 @@ impl<'s> PreparedScene<'s> {
         Ok(PreparedScene {
             scene,
             surfaces: [a, b],
-            given_rows: QueryRows::new(Cow::Borrowed(&scene.queries)),
-            screw_rows: QueryRows::new(Cow::Owned(screws?)),
+            constant_velocity_rows: QueriesWithTruths::new(Cow::Borrowed(&scene.queries)),
+            screw_rows: QueriesWithTruths::new(Cow::Owned(screws?)),
         })
     }
 
-    fn rows(&self, motion: MotionKind) -> &QueryRows<'s> {
+    fn rows(&self, motion: MotionKind) -> &QueriesWithTruths<'s> {
         match motion {
-            MotionKind::ConstantVelocity => &self.given_rows,
+            MotionKind::ConstantVelocity => &self.constant_velocity_rows,
             MotionKind::Screw => &self.screw_rows,
         }
     }
@@ -93,7 +93,7 @@ impl<'s> PreparedScene<'s> {
     /// Judges the outcome of a query by the exact answer, which is computed when it is first needed.
     fn judge(
         &self,
-        rows: &QueryRows<'_>,
+        rows: &QueriesWithTruths<'_>,
         row: usize,
         outcome: &QueryOutcome,
         tolerance: f64,
@@ -129,7 +129,7 @@ impl<'s> PreparedScene<'s> {
         session: &mut Session<'_>,
         tolerance: f64,
         allowance: &MeasurementLimits,
-    ) -> Result<Option<(Cell, Vec<Trial>)>> {
+    ) -> Result<Option<(MeasurementCell, Vec<Trial>)>> {
         let method = session.method();
         let rows = self.rows(method.motion_kind());
         let queries = &rows.queries;
@@ -141,12 +141,12 @@ impl<'s> PreparedScene<'s> {
         let start = Instant::now();
         for &row in &order[..prepared] {
             let enough = asked.len() >= allowance.min_rows;
-            if start.elapsed() > allowance.cell && enough {
+            if start.elapsed() > allowance.cell_time && enough {
                 break;
             }
             let answered = session.ask(&queries[row], tolerance, allowance.patience);
             let answered = answered.with_context(|| format!("{method} cannot be started"))?;
-            if answered.claim() != Some(Claim::Refused) {
+            if answered.claim() != Some(ContactClaim::Refused) {
                 asked.push((row, answered));
             }
         }
@@ -175,9 +175,9 @@ impl<'s> PreparedScene<'s> {
     }
 }
 
-impl<'s> QueryRows<'s> {
+impl<'s> QueriesWithTruths<'s> {
     fn new(queries: Cow<'s, [Motions]>) -> Self {
-        QueryRows {
+        QueriesWithTruths {
             truths: vec![OnceLock::new(); queries.len()],
             queries,
         }
@@ -185,7 +185,7 @@ impl<'s> QueryRows<'s> {
 }
 
 /// Summarises the trials of one method on one scene at one tolerance. There is at least one trial.
-pub fn summarise_trials(trials: &[Trial]) -> Cell {
+pub fn summarise_trials(trials: &[Trial]) -> MeasurementCell {
     let count = |verdict: Verdict| {
         let name = verdict.to_string();
         trials.iter().filter(|t| t.verdict == name).count()
@@ -197,7 +197,7 @@ pub fn summarise_trials(trials: &[Trial]) -> Cell {
     let rows = trials.len();
     let first = trials.first();
     let cut_off = count(Verdict::CutOff) + count(Verdict::Crashed);
-    Cell {
+    MeasurementCell {
         scene: first.map_or_else(String::new, |t| t.scene.clone()),
         method: first.map_or_else(String::new, |t| t.method.clone()),
         tolerance: first.map_or(f64::NAN, |t| t.tolerance),

@@ -1,21 +1,21 @@
 //! Measures all combinations of methods, scenes and tolerances, one after another, and records them in a journal.
 
-use crate::method::guarded::Programs;
+use crate::method::guarded::MethodPrograms;
 use crate::method::{Method, PAPER_TOLERANCE};
 use crate::run::contest::{Journal, MeasurementLimits, PreparedScene, Session, program_stamp};
-use crate::scene::{ModelCache, PieceKind, Scene, SceneBody, SceneEntry};
+use crate::scene::{ModelCache, PieceKind, Scene, SceneBody, SceneListing};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
-use rigid_ccd::command::{Progress, Total};
+use rigid_ccd::command::{Progress, TotalWork};
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The measurements to make: scenes, methods, tolerances and limits.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct MeasurementPlan {
     /// The descriptions of the scenes on which the methods run.
-    pub listings: Vec<SceneEntry>,
+    pub listings: Vec<SceneListing>,
     /// The methods to measure on every scene.
     pub methods: Vec<Method>,
     /// The tolerances at which to measure each method.
@@ -24,7 +24,7 @@ pub struct Plan {
     /// `preparation` does not apply.
     pub limits: MeasurementLimits,
     /// The programs that run the methods: this program, and a script for some.
-    pub programs: Programs,
+    pub programs: MethodPrograms,
     /// The folder of mesh files that replace the models made by code.
     pub models: Option<PathBuf>,
     /// The folder into which the measurements are written.
@@ -39,7 +39,7 @@ pub struct Evaluation {
     pub journal: Journal,
 }
 
-impl Plan {
+impl MeasurementPlan {
     /// Returns the measurements in the folder, whatever their settings, and measures nothing.
     ///
     /// # Errors
@@ -69,16 +69,16 @@ impl Plan {
             .iter()
             .map(|&method| self.tolerances_of(method).count())
             .sum();
-        let progress = Progress::new(Total::Steps(scenes.len() * cells));
+        let progress = Progress::new(TotalWork::Steps(scenes.len() * cells));
         for scene in &scenes {
             let contest = PreparedScene::new(scene)?;
-            self.run_scene(&contest, &mut journal, &progress)?;
+            self.measure_scene(&contest, &mut journal, &progress)?;
         }
         drop(progress);
         Ok(Evaluation { scenes, journal })
     }
 
-    fn run_scene(
+    fn measure_scene(
         &self,
         contest: &PreparedScene<'_>,
         journal: &mut Journal,
@@ -117,8 +117,8 @@ impl Plan {
     }
 
     fn scenes(&self, models: &mut ModelCache) -> Result<Vec<Scene>> {
-        let progress = Progress::new(Total::Steps(self.listings.len()));
-        let make = |listing: &SceneEntry| {
+        let progress = Progress::new(TotalWork::Steps(self.listings.len()));
+        let make = |listing: &SceneListing| {
             progress.set_message(&format!("making {}", listing.name));
             let scene = listing.make_scene(models);
             progress.step();

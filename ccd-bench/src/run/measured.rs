@@ -2,7 +2,7 @@
 //! summarise.
 
 use crate::method::guarded::QueryOutcome;
-use crate::method::solver::Claim;
+use crate::method::solver::ContactClaim;
 use crate::run::contest::verdict::Judgement;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// The measurements of one method on one scene at one tolerance: a row of `chart.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Cell {
+pub struct MeasurementCell {
     /// The name of the scene.
     pub scene: String,
     /// The name of the method.
@@ -92,20 +92,20 @@ impl Trial {
             tolerance,
             row,
             id: id.to_owned(),
-            micros: outcome.micros(patience),
-            steps: outcome.steps(),
+            micros: outcome.micros_or_limit(patience),
+            steps: outcome.step_count(),
             verdict: judged.verdict.to_string(),
             error: judged.time_error,
             time: outcome
                 .claim()
-                .and_then(Claim::time)
+                .and_then(ContactClaim::time)
                 .filter(|time| !time.is_nan()),
             note,
         }
     }
 }
 
-impl Cell {
+impl MeasurementCell {
     /// Returns true if some contact was reported too late, or not at all.
     pub fn is_unsafe(&self) -> bool {
         self.late + self.missed > 0

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The description of a scene, from which it can be made.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SceneEntry {
+pub struct SceneListing {
     /// The name of the scene in tables.
     pub name: String,
     a: String,
@@ -23,10 +23,10 @@ pub struct SceneEntry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ListingFile {
-    scene: Vec<SceneEntry>,
+    scene: Vec<SceneListing>,
 }
 
-const SCENES: &str = include_str!("../../scenes/scenes.toml");
+const SCENES_TOML: &str = include_str!("../../scenes/scenes.toml");
 pub(super) const MOTION_TABLES: [(&str, &str); 6] = [
     ("santa.csv", include_str!("../../scenes/santa.csv")),
     ("bunnies.csv", include_str!("../../scenes/bunnies.csv")),
@@ -49,12 +49,12 @@ pub(super) const MOTION_TABLES: [(&str, &str); 6] = [
 ///
 /// # Errors
 /// If the data file is invalid.
-pub fn listings() -> Result<Vec<SceneEntry>> {
-    let file: ListingFile = toml::from_str(SCENES).context("scenes.toml")?;
+pub fn listings() -> Result<Vec<SceneListing>> {
+    let file: ListingFile = toml::from_str(SCENES_TOML).context("scenes.toml")?;
     Ok(file.scene)
 }
 
-impl SceneEntry {
+impl SceneListing {
     /// Makes the scene from its models and its table of motions.
     ///
     /// # Errors
@@ -63,13 +63,13 @@ impl SceneEntry {
         let motions = || format!("scene {}: {}", self.name, self.motions);
         Ok(Scene {
             name: self.name.clone(),
-            a: models.body(self.model(&self.a)?)?,
-            b: models.body(self.model(&self.b)?)?,
+            a: models.body(self.model_from_name(&self.a)?)?,
+            b: models.body(self.model_from_name(&self.b)?)?,
             queries: self.queries().with_context(motions)?,
         })
     }
 
-    fn model(&self, name: &str) -> Result<Model> {
+    fn model_from_name(&self, name: &str) -> Result<Model> {
         let found = Model::from_str(name, false);
         found.map_err(|_| anyhow!("scene {}: there is no model {name}", self.name))
     }

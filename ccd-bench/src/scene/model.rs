@@ -43,7 +43,7 @@ pub enum Model {
 }
 
 /// The radius of the tube along each torus knot.
-const TUBE_RADIUS: f64 = 0.16;
+const KNOT_TUBE_RADIUS: f64 = 0.16;
 
 impl Model {
     /// Returns the name of the model's file, without the extension.
@@ -69,10 +69,10 @@ impl Model {
     /// None, since every model has a valid size.
     pub fn generate(self) -> Result<TriangleMesh, MeshError> {
         match self {
-            Model::Knot216 => torus_knot([27, 4], TUBE_RADIUS),
-            Model::Knot2880 => torus_knot([120, 12], TUBE_RADIUS),
-            Model::Knot11520 => torus_knot([240, 24], TUBE_RADIUS),
-            Model::Knot34560 => torus_knot([480, 36], TUBE_RADIUS),
+            Model::Knot216 => torus_knot([27, 4], KNOT_TUBE_RADIUS),
+            Model::Knot2880 => torus_knot([120, 12], KNOT_TUBE_RADIUS),
+            Model::Knot11520 => torus_knot([240, 24], KNOT_TUBE_RADIUS),
+            Model::Knot34560 => torus_knot([480, 36], KNOT_TUBE_RADIUS),
             Model::Ring => torus_mesh([250, 20], 0.8, 0.2),
             Model::Board => cuboid(1.5, 1.5, 0.01),
             Model::Bunny70k => Blob::BUNNY.mesh(34_834),

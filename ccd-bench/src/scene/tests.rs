@@ -4,13 +4,13 @@ use super::*;
 use ccd_core::Pose;
 use ccd_core::glam::DVec3;
 use rigid_ccd::table::motions::write;
-use shots::{Shots, drops_past_board};
+use shots::{ShotGenerator, drops_past_board};
 
-fn shots() -> Shots {
-    Shots {
+fn shot_generator() -> ShotGenerator {
+    ShotGenerator {
         count: 200,
         translation_count: 80,
-        distance: 3.0..3.5,
+        start_distances: 3.0..3.5,
         max_offset: 1.0,
         seed: 9,
     }
@@ -18,7 +18,7 @@ fn shots() -> Shots {
 
 #[test]
 fn shots_pass_the_origin_within_their_distance_aside() {
-    for query in shots().queries().unwrap() {
+    for query in shot_generator().queries().unwrap() {
         let start = query.a.start().translation();
         let end = query.a.pose(query.duration).translation();
         assert!((3.0..3.5).contains(&start.length()));
@@ -31,7 +31,7 @@ fn shots_pass_the_origin_within_their_distance_aside() {
 
 #[test]
 fn the_first_shots_do_not_turn_and_the_others_do() {
-    let queries = shots().queries().unwrap();
+    let queries = shot_generator().queries().unwrap();
     let (still, turning) = queries.split_at(80);
     assert!(still.iter().all(|q| q.a.spin() == DVec3::ZERO));
     let real_turns = turning.iter().filter(|q| q.a.spin().length() > 1e-3);
@@ -40,12 +40,18 @@ fn the_first_shots_do_not_turn_and_the_others_do() {
 
 #[test]
 fn scenes_are_the_same_every_time_and_differ_by_seed() {
-    assert_eq!(shots().queries().unwrap(), shots().queries().unwrap());
-    let other = Shots {
+    assert_eq!(
+        shot_generator().queries().unwrap(),
+        shot_generator().queries().unwrap()
+    );
+    let other = ShotGenerator {
         seed: 10,
-        ..shots()
+        ..shot_generator()
     };
-    assert_ne!(shots().queries().unwrap(), other.queries().unwrap());
+    assert_ne!(
+        shot_generator().queries().unwrap(),
+        other.queries().unwrap()
+    );
     assert_eq!(
         drops_past_board(9, 1).unwrap(),
         drops_past_board(9, 1).unwrap()
@@ -75,15 +81,15 @@ fn models_are_made_once() {
 /// Tests that the stored tables of motions are byte for byte those that the random seeds give.
 #[test]
 fn the_stored_motions_are_those_of_their_seeds() {
-    let bunnies = Shots {
+    let bunnies = ShotGenerator {
         count: 250,
         translation_count: 100,
-        distance: 2.6..3.2,
+        start_distances: 2.6..3.2,
         max_offset: 1.6,
         seed: 2,
     };
-    let knots = Shots {
-        distance: 3.0..3.8,
+    let knots = ShotGenerator {
+        start_distances: 3.0..3.8,
         max_offset: 2.3,
         seed: 3,
         ..bunnies.clone()

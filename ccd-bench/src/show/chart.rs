@@ -16,28 +16,30 @@ mod style;
 #[cfg(test)]
 mod tests;
 
-pub use heat_map::{COST_GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
+pub use heat_map::{
+    COST_GROWTH_TEXTS, HeatCell, HeatMap, HeatMapTexts, HeatRow, SOLVED_RANGE_TEXTS,
+};
 
 use crate::method::Method;
-use crate::run::measured::Cell;
+use crate::run::measured::MeasurementCell;
 use anyhow::{Result, ensure};
-use plane::Shown;
+use plane::StyledMethod;
 
 /// The measurements that all charts show.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartData<'a> {
     /// The measurements of every method on every scene at every tolerance, with medians that [can be
     /// compared](super::comparable).
-    pub cells: &'a [Cell],
+    pub cells: &'a [MeasurementCell],
     /// The scenes in display order; cells of other scenes are left out.
     pub scenes: &'a [&'a str],
     /// The methods in display order; cells of other methods are left out.
-    pub methods: &'a [MethodFacts<'a>],
+    pub methods: &'a [ChartedMethod<'a>],
 }
 
 /// The name of a method, and the family to which it belongs on charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MethodFacts<'a> {
+pub struct ChartedMethod<'a> {
     /// The name of the method in the tables.
     pub name: &'a str,
     /// Whether the method is this project's, a published one or a library.
@@ -48,13 +50,13 @@ pub struct MethodFacts<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MethodFamily {
     /// The method is this project's.
-    Ours,
+    ThisProject,
     /// The method is published, and built here for comparison.
     Rival,
     /// The method is a call of a peer library.
     Peer,
     /// The method is this project's default on other kinds of pieces; only tables show it.
-    Model,
+    OtherPieces,
 }
 
 impl ChartData<'_> {
@@ -80,14 +82,14 @@ impl ChartData<'_> {
     /// Returns the scenes for which there are measurements, in display order.
     fn measured_scenes(&self) -> Vec<&str> {
         let has_cells = |scene: &&str| {
-            let of = |method: &MethodFacts<'_>| !self.cells_of(scene, method.name).is_empty();
+            let of = |method: &ChartedMethod<'_>| !self.cells_of(scene, method.name).is_empty();
             self.methods.iter().any(of)
         };
         self.scenes.iter().copied().filter(has_cells).collect()
     }
 
     /// Returns the measurements of a method on a scene, the coarsest tolerance first.
-    fn cells_of(&self, scene: &str, method: &str) -> Vec<&Cell> {
+    fn cells_of(&self, scene: &str, method: &str) -> Vec<&MeasurementCell> {
         let mut cells: Vec<_> = self
             .cells
             .iter()
@@ -98,7 +100,7 @@ impl ChartData<'_> {
     }
 
     /// Returns the measured methods of some families, each with its style.
-    fn methods_with_styles(&self, families: &[MethodFamily]) -> Vec<Shown<'_>> {
+    fn methods_with_styles(&self, families: &[MethodFamily]) -> Vec<StyledMethod<'_>> {
         let measured = |name: &str| {
             let of = |scene: &&str| !self.cells_of(scene, name).is_empty();
             self.scenes.iter().any(of)
@@ -113,33 +115,36 @@ impl ChartData<'_> {
     }
 }
 
-impl<'a> MethodFacts<'a> {
+impl<'a> ChartedMethod<'a> {
     /// Returns the facts about the method with this name; an unknown name counts as a peer library.
     pub fn from_name(name: &'a str) -> Self {
         let family = match Method::from_name(name) {
-            Some(method @ Method::ThisProject(..)) if method.is_piece_variant() => {
-                MethodFamily::Model
+            Some(method @ Method::ThisProject(..)) if method.is_default_with_other_pieces() => {
+                MethodFamily::OtherPieces
             }
-            Some(Method::ThisProject(..)) => MethodFamily::Ours,
+            Some(Method::ThisProject(..)) => MethodFamily::ThisProject,
             Some(Method::Rival(_)) => MethodFamily::Rival,
             Some(Method::Peer(_) | Method::Script(_)) | None => MethodFamily::Peer,
         };
-        MethodFacts { name, family }
+        ChartedMethod { name, family }
     }
 }
 
 impl MethodFamily {
     /// The families of methods that the charts compare.
-    const COMPARED_FAMILIES: [MethodFamily; 3] =
-        [MethodFamily::Ours, MethodFamily::Rival, MethodFamily::Peer];
+    const COMPARED_FAMILIES: [MethodFamily; 3] = [
+        MethodFamily::ThisProject,
+        MethodFamily::Rival,
+        MethodFamily::Peer,
+    ];
 
     /// Returns the heading of the family in the legend.
-    pub(in crate::show) fn title(self) -> &'static str {
+    pub(in crate::show) fn legend_heading(self) -> &'static str {
         match self {
-            MethodFamily::Ours => "this project",
+            MethodFamily::ThisProject => "this project",
             MethodFamily::Rival => "published rivals",
             MethodFamily::Peer => "peer libraries",
-            MethodFamily::Model => "models",
+            MethodFamily::OtherPieces => "models",
         }
     }
 }

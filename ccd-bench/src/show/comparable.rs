@@ -3,7 +3,7 @@
 //! A slow method is stopped after a few rows, which may be the easy ones. Its time is then estimated as that of a
 //! reference that was asked more, times the median ratio of both over the rows that both were asked.
 
-use crate::run::measured::{Cell, Trial};
+use crate::run::measured::{MeasurementCell, Trial};
 use rigid_ccd::batch::median;
 use std::collections::HashMap;
 
@@ -31,7 +31,7 @@ impl<'a> ReferenceTimes<'a> {
 
     /// Returns the median ratio of a method's times to those of the reference, over the rows that both ran on; `None`
     /// without such rows.
-    fn median_time_ratio(&self, cell: &Cell) -> Option<f64> {
+    fn median_time_ratio(&self, cell: &MeasurementCell) -> Option<f64> {
         let of_cell = |trial: &&Trial| {
             trial.method == cell.method
                 && trial.scene == cell.scene
@@ -47,8 +47,8 @@ impl<'a> ReferenceTimes<'a> {
 
     /// Returns the cells with every median replaced by a comparable one: the reference's median times the median ratio.
     /// A cell keeps its own where the reference was not asked.
-    pub fn comparable_cells(&self, cells: &[Cell]) -> Vec<Cell> {
-        let at = |cell: &&Cell| cell.method == self.name;
+    pub fn comparable_cells(&self, cells: &[MeasurementCell]) -> Vec<MeasurementCell> {
+        let at = |cell: &&MeasurementCell| cell.method == self.name;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))
             .map(|cell| {
                 (
@@ -60,7 +60,7 @@ impl<'a> ReferenceTimes<'a> {
         let moved = cells.iter().map(|cell| {
             let here = (cell.scene.as_str(), cell.tolerance.to_bits());
             let median_us = medians.get(&here).zip(self.median_time_ratio(cell));
-            Cell {
+            MeasurementCell {
                 median_us: median_us.map_or(cell.median_us, |(time, ratio)| time * ratio),
                 ..cell.clone()
             }

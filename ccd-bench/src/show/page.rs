@@ -23,7 +23,7 @@ pub fn page_html(
         ("view_place", ccd_view::VIEW_HTML.to_owned()),
         ("view_style", ccd_view::VIEW_CSS.to_owned()),
         ("views", ccd_view::views_json(&views.meshes, &views.groups)?),
-        ("view_scripts", ccd_view::scripts()),
+        ("view_scripts", ccd_view::view_scripts()),
     ];
     Ok(fill_template(include_str!("page/page.html"), &parts))
 }

@@ -2,7 +2,7 @@
 
 use crate::method::PAPER_TOLERANCE;
 use crate::run::evaluation::Evaluation;
-use crate::show::chart::{ChartData, MethodFacts, MethodFamily};
+use crate::show::chart::{ChartData, ChartedMethod, MethodFamily};
 use crate::show::comparable::ReferenceTimes;
 use crate::show::page;
 use crate::show::tables::{self, TextTable};
@@ -28,10 +28,10 @@ const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 pub fn write_report(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable, PathBuf)> {
     let (cells, trials) = (evaluated.journal.cells(), evaluated.journal.trials());
     let methods = tables::methods(cells).into_iter();
-    let methods: Vec<MethodFacts<'_>> = methods.map(MethodFacts::from_name).collect();
+    let methods: Vec<ChartedMethod<'_>> = methods.map(ChartedMethod::from_name).collect();
     let scenes = evaluated.scenes.iter().map(|scene| scene.name.as_str());
     let scenes: Vec<&str> = scenes.collect();
-    let is_other = |method: &&MethodFacts<'_>| {
+    let is_other = |method: &&ChartedMethod<'_>| {
         matches!(method.family, MethodFamily::Rival | MethodFamily::Peer)
             || method.name == PAPER_METHOD
     };

@@ -5,7 +5,7 @@ pub(crate) mod tests;
 
 use crate::method::Method;
 use crate::run::contest::Verdict;
-use crate::run::measured::{Cell, Trial};
+use crate::run::measured::{MeasurementCell, Trial};
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
 use rigid_ccd::batch::median;
@@ -61,10 +61,10 @@ impl fmt::Display for TextTable {
 }
 
 /// A count in a table of measurements: its name, and the function that returns it.
-type Count = (&'static str, fn(&Cell) -> usize);
+type CountColumn = (&'static str, fn(&MeasurementCell) -> usize);
 
 /// The counts that are summed over all cells of a method.
-const COUNTS: [Count; 8] = [
+const COUNT_COLUMNS: [CountColumn; 8] = [
     ("queries", |cell| cell.rows),
     ("late", |cell| cell.late),
     ("missed", |cell| cell.missed),
@@ -77,22 +77,22 @@ const COUNTS: [Count; 8] = [
 
 /// Returns a table that counts how often each method was late, missed a contact, or reported a false one, over all
 /// scenes and tolerances. Methods that answer no query are left out.
-pub fn safety_table(cells: &[Cell], trials: &[Trial]) -> TextTable {
+pub fn safety_table(cells: &[MeasurementCell], trials: &[Trial]) -> TextTable {
     let not_judged = Verdict::NotJudged.to_string();
     let answers = |method: &str| {
         let judged = |t: &Trial| t.method == method && t.verdict != not_judged;
         trials.iter().any(judged)
     };
     let title = "Answers compared with the truth, all scenes and tolerances";
-    let names = COUNTS.map(|(name, _)| name);
+    let names = COUNT_COLUMNS.map(|(name, _)| name);
     let mut table = TextTable::new(title, ["method"].into_iter().chain(names));
     for method in methods(cells).into_iter().filter(|m| answers(m)) {
-        let sum = |(_, count): Count| {
+        let sum = |(_, count): CountColumn| {
             let of = cells.iter().filter(|cell| cell.method == method);
             of.map(count).sum::<usize>().to_string()
         };
         let mut row = vec![method.to_owned()];
-        row.extend(COUNTS.map(sum));
+        row.extend(COUNT_COLUMNS.map(sum));
         table.rows.push(row);
     }
     table
@@ -179,7 +179,7 @@ fn format_three_digits(value: f64) -> String {
 
 /// Returns the names of the methods in a table: first those that this program runs, in their usual order, then all
 /// others.
-pub fn methods(cells: &[Cell]) -> Vec<&str> {
+pub fn methods(cells: &[MeasurementCell]) -> Vec<&str> {
     let order: Vec<String> = Method::built_in_methods()
         .iter()
         .map(ToString::to_string)

@@ -20,7 +20,7 @@ pub struct Views {
 }
 
 /// The maximum number of views of a scene: first of motions with a contact, then of other motions.
-const MAX_VIEWS: [usize; 2] = [6, 2];
+const MAX_VIEWS_PER_SCENE: [usize; 2] = [6, 2];
 
 impl Views {
     /// Creates views of the first motions with a contact in each scene, and of the first other motions.
@@ -42,7 +42,7 @@ impl Views {
     fn views_of_scene(&mut self, scene: &Scene) -> Result<Vec<View>> {
         let bodies = scene.bodies();
         let asked = QueryContext {
-            claim: TimeMeaning::FirstContact,
+            time_meaning: TimeMeaning::FirstContact,
             margin: Settings::DEFAULT.margin,
             clearance: None,
         };
@@ -54,7 +54,7 @@ impl Views {
         for query in &scene.queries {
             let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;
             let kind = usize::from(!matches!(answer.outcome, Outcome::Contact { .. }));
-            if found[kind].len() < MAX_VIEWS[kind] {
+            if found[kind].len() < MAX_VIEWS_PER_SCENE[kind] {
                 let course = Movements::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
                 let row = ResultRow::new(&course, answer, 0.0, bodies.clearance_comparison(None));
@@ -64,7 +64,7 @@ impl Views {
                 }
                 found[kind].push(view);
             }
-            if found.each_ref().map(Vec::len) == MAX_VIEWS {
+            if found.each_ref().map(Vec::len) == MAX_VIEWS_PER_SCENE {
                 break;
             }
         }

@@ -37,7 +37,7 @@ fn family(name: &'static str, make: fn(f64) -> Result<FamilyStep>) -> Family {
         name,
         parameter: "",
         parameter_values: Vec::new(),
-        make,
+        make_step: make,
     }
 }
 
@@ -55,7 +55,7 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_MOTION, expected)
 }
 
 /// The half length and the half width of a rod.

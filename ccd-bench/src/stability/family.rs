@@ -17,7 +17,7 @@ pub struct Family {
     /// The values of the parameter, the easiest first.
     pub parameter_values: Vec<f64>,
     /// The function that makes the scene for one value of the parameter.
-    pub make: fn(f64) -> Result<FamilyStep>,
+    pub make_step: fn(f64) -> Result<FamilyStep>,
 }
 
 /// The scene of a family for one value of its parameter: two meshes, and queries with known answers.
@@ -47,7 +47,7 @@ pub struct ExactCase {
 
 impl Family {
     /// Returns the same family with the given description and values of its parameter.
-    pub(super) fn with_values(self, parameter: &'static str, values: Vec<f64>) -> Self {
+    pub(super) fn with_parameter_values(self, parameter: &'static str, values: Vec<f64>) -> Self {
         Family {
             parameter,
             parameter_values: values,
@@ -85,7 +85,7 @@ pub(super) fn contact_at(time: f64, slack: f64) -> Truth {
 }
 
 impl BodyMotion {
-    pub(super) const STILL: BodyMotion = BodyMotion {
+    pub(super) const STILL_MOTION: BodyMotion = BodyMotion {
         at: DVec3::ZERO,
         orientation: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
@@ -97,13 +97,13 @@ impl BodyMotion {
     pub(super) const FALLING_MOTION: BodyMotion = BodyMotion {
         at: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
-        ..BodyMotion::STILL
+        ..BodyMotion::STILL_MOTION
     };
 
     /// The motion of a slab that rests at z = −1, so that its top is at 0.
-    pub(super) const SLAB_BELOW: BodyMotion = BodyMotion {
+    pub(super) const SLAB_MOTION: BodyMotion = BodyMotion {
         at: DVec3::NEG_Z,
-        ..BodyMotion::STILL
+        ..BodyMotion::STILL_MOTION
     };
 
     /// Returns the motion of a body that rests at a position.
@@ -116,7 +116,7 @@ impl BodyMotion {
         BodyMotion {
             at,
             velocity,
-            ..BodyMotion::STILL
+            ..BodyMotion::STILL_MOTION
         }
     }
 

@@ -55,12 +55,13 @@ pub(super) fn cone(sides: u32, radius: f64) -> Result<TriangleMesh, MeshError> {
 }
 
 /// The width of a comb's tooth, as a share of the distance from one tooth to the next.
-pub(super) const TOOTH_SHARE: f64 = 0.4;
+pub(super) const TOOTH_WIDTH_SHARE: f64 = 0.4;
 
 /// Returns a comb of depth 1 along y: a bar from z = 0 to 1 below teeth that reach to z = 2. The first tooth
 /// begins at x = 0, and the steps from tooth to tooth add up to 1.
 pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
-    let border = |k: u32| (f64::from(k / 2) + TOOTH_SHARE * f64::from(k % 2)) / f64::from(teeth);
+    let border =
+        |k: u32| (f64::from(k / 2) + TOOTH_WIDTH_SHARE * f64::from(k % 2)) / f64::from(teeth);
     let borders: Vec<f64> = (0..2 * teeth).map(border).collect();
     extrude_cells(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
         level == 0 || column % 2 == 0
@@ -223,7 +224,7 @@ pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
 }
 
 /// Returns `count` open horizontal squares at even steps in height, the highest at z = 0 and all above z = −0.5.
-pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
+pub(super) fn evenly_stacked_squares(count: u32) -> Result<TriangleMesh, MeshError> {
     let step = 0.5 / f64::from(count);
     stacked_squares(&sheet(1)?, (0..count).map(|k| -step * f64::from(k)))
 }

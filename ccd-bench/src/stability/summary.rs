@@ -4,8 +4,10 @@ use super::family::Family;
 use super::findings::Findings;
 use super::survey::step_name;
 use crate::run::contest::Verdict;
-use crate::run::measured::{Cell, Trial};
-use crate::show::chart::{COST_GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
+use crate::run::measured::{MeasurementCell, Trial};
+use crate::show::chart::{
+    COST_GROWTH_TEXTS, HeatCell, HeatMap, HeatMapTexts, HeatRow, SOLVED_RANGE_TEXTS,
+};
 use crate::show::tables::TextTable;
 use ccd_core::order::greater;
 use clap::ValueEnum;
@@ -58,10 +60,10 @@ pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
 
 /// Returns the heat map of the share of each family that each method solves before its first wrong answer.
 pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
-    make_heat_map(findings, SOLVED_RANGE, |family, method| {
+    make_heat_map(findings, SOLVED_RANGE_TEXTS, |family, method| {
         let reach = findings.solved_range(family, method)?;
         let worst = reach.first_worst_step;
-        Some(HeatCell::solved_range(
+        Some(HeatCell::solved_range_cell(
             worst.map_or(Verdict::Right, |limit| limit.verdict),
             reach.solved_fraction,
             worst.map_or(String::new(), |limit| {
@@ -73,16 +75,16 @@ pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
 
 /// Returns the heat map of cost growth: the most steps of a method in a family, relative to its steps at the easiest
 /// value.
-pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
+pub fn cost_growth_map(findings: &Findings<'_>) -> HeatMap {
     // A query takes no step if the bounds of the whole bodies are enough.
-    let cost = |cell: &Cell| {
+    let cost = |cell: &MeasurementCell| {
         let key = (cell.scene.clone(), cell.method.clone());
         (key, 1.0 + cell.mean_steps)
     };
     let cells = findings.journal.cells().iter();
     let costs: HashMap<(String, String), f64> =
         cells.filter(|cell| cell.cut_off == 0).map(cost).collect();
-    make_heat_map(findings, COST_GROWTH, |family, method| {
+    make_heat_map(findings, COST_GROWTH_TEXTS, |family, method| {
         let costs = family.parameter_values.iter().filter_map(|&value| {
             let key = (step_name(family, value), method.to_owned());
             costs.get(&key).copied()
@@ -93,14 +95,14 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
         };
         let most = costs.iter().copied().fold(0.0, greater);
         // Some methods count no steps.
-        (most > 1.0).then_some(HeatCell::cost_growth(most / easiest))
+        (most > 1.0).then_some(HeatCell::cost_growth_cell(most / easiest))
     })
 }
 
 /// Makes a heat map with a row per family and a column per method, whose cells the function `cell` computes.
 fn make_heat_map(
     findings: &Findings<'_>,
-    kind: &'static HeatMapKind,
+    kind: &'static HeatMapTexts,
     cell: impl Fn(&Family, &str) -> Option<HeatCell>,
 ) -> HeatMap {
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();
@@ -110,7 +112,7 @@ fn make_heat_map(
         cells: methods.iter().map(|method| cell(family, method)).collect(),
     };
     HeatMap {
-        kind,
+        texts: kind,
         rows: findings.families.iter().map(row).collect(),
         methods,
     }

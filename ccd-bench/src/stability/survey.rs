@@ -3,7 +3,7 @@
 
 use super::family::{Family, FamilyStep};
 use super::judge::judge;
-use crate::method::guarded::{GuardSettings, GuardedMethod, Programs, QueryOutcome};
+use crate::method::guarded::{GuardSettings, GuardedMethod, MethodPrograms, QueryOutcome};
 use crate::method::rival::are_screw_motions;
 use crate::method::solver::TimedReply;
 use crate::method::{Method, MotionKind};
@@ -12,7 +12,7 @@ use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
-use rigid_ccd::command::{Progress, Total};
+use rigid_ccd::command::{Progress, TotalWork};
 use std::io;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
@@ -28,7 +28,7 @@ pub struct Survey {
     /// True to use all parameter values of a family; false to use only the easiest, the middle and the hardest value.
     pub full: bool,
     /// The programs that run the methods.
-    pub programs: Programs,
+    pub programs: MethodPrograms,
     /// The folder that contains the journal, from which an interrupted survey is resumed.
     pub folder: PathBuf,
 }
@@ -40,7 +40,7 @@ const QUERY_TIME_LIMIT: Duration = Duration::from_secs(3);
 const PREPARATION_TIME_LIMIT: Duration = Duration::from_secs(20);
 
 /// The number of consecutive steps at which a method must exceed a time limit before its harder steps are skipped.
-const STOPS_BEFORE_SKIPPING: usize = 2;
+const TIMEOUTS_BEFORE_SKIPPING: usize = 2;
 
 /// Returns the name of a step in the tables: the family and the parameter value.
 pub(super) fn step_name(family: &Family, value: f64) -> String {
@@ -59,7 +59,7 @@ impl Survey {
         let journal = Mutex::new(Journal::open(&self.folder, &stamp())?);
         let steps = self.families.iter().map(|f| self.selected_values(f).len());
         let steps: usize = steps.sum();
-        let progress = Progress::new(Total::Steps(steps * self.methods.len()));
+        let progress = Progress::new(TotalWork::Steps(steps * self.methods.len()));
         let families = self.families.par_iter();
         families.try_for_each(|family| self.run_family_queries(family, &journal, &progress))?;
         drop(progress);
@@ -86,7 +86,7 @@ impl Survey {
         let mut stopped = vec![0; self.methods.len()];
         for value in self.selected_values(family) {
             let name = step_name(family, value);
-            let step = (family.make)(value).with_context(|| name.clone())?;
+            let step = (family.make_step)(value).with_context(|| name.clone())?;
             let ready = PreparedStep {
                 step: &step,
                 name: &name,
@@ -97,7 +97,7 @@ impl Survey {
                 progress.step();
                 let locked = || journal.lock().unwrap_or_else(PoisonError::into_inner);
                 let known = locked().has_cell(&name, &method.to_string(), step.tolerance);
-                if *stopped >= STOPS_BEFORE_SKIPPING || known {
+                if *stopped >= TIMEOUTS_BEFORE_SKIPPING || known {
                     continue;
                 }
                 let trials = ready.run_queries(method, &self.programs);
@@ -124,7 +124,7 @@ struct PreparedStep<'s> {
 
 impl PreparedStep<'_> {
     /// Runs a method on all queries of the step; stops after the first query that exceeds the time limit.
-    fn run_queries(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
+    fn run_queries(&self, method: Method, programs: &MethodPrograms) -> io::Result<Vec<Trial>> {
         let step = self.step;
         let setting = GuardSettings {
             margin: step.margin,
@@ -152,7 +152,7 @@ impl PreparedStep<'_> {
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
             if method.motion_kind() == MotionKind::Screw && !are_screw_motions(&case.query) {
-                let refused = Judgement::without_error(Verdict::Refused);
+                let refused = Judgement::without_time_error(Verdict::Refused);
                 let note = "bodies move along screws only".to_owned();
                 trials.push(trial(row, &QueryOutcome::Crashed, (refused, note)));
                 continue;
@@ -183,7 +183,7 @@ impl PreparedStep<'_> {
 
 /// Judges a method that could not be started or that ended before its first query.
 fn judge_failed_start(error: io::Error) -> io::Result<Judgement> {
-    Ok(Judgement::without_error(match error.kind() {
+    Ok(Judgement::without_time_error(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
         io::ErrorKind::TimedOut => Verdict::CutOff,
         io::ErrorKind::Other => Verdict::Crashed,

@@ -153,10 +153,10 @@ impl Neg for IntervalVector {
 /// 0.79 for the nearest k. Then come Taylor's polynomials about 0, with Lagrange's remainder
 /// |r|ⁿ⁺¹/(n+1)!: r²¹/21! for the sine, r²²/22! for the cosine, below 2e-22.
 pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
-    let quarters = (x.mid() * std::f64::consts::FRAC_2_PI).round();
+    let quarters = (x.midpoint() * std::f64::consts::FRAC_2_PI).round();
     let rest = x - point_interval(quarters) * Interval::FRAC_PI_2;
     // The first comparison is false for an unbounded interval.
-    if !(rest.mag() <= LARGEST_POLYNOMIAL_ARGUMENT && quarters.abs() <= MAX_QUARTER_TURNS) {
+    if !(rest.magnitude() <= LARGEST_POLYNOMIAL_ARGUMENT && quarters.abs() <= MAX_QUARTER_TURNS) {
         return (SINE_RANGE, SINE_RANGE);
     }
     let (sine, cosine) = taylor_sin_cos(rest);

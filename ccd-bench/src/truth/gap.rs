@@ -3,7 +3,7 @@
 use super::DistanceBounds;
 use super::rounding::FORTY_ROUNDINGS_ERROR;
 use super::search::{Pair, Search};
-use super::snapshot::{Snapshot, Span};
+use super::snapshot::{Snapshot, TimeSpan};
 use super::triangle::{gap, nearest_or_common_points, separating_axis_candidates};
 use ccd_core::order::{greater, lesser};
 
@@ -14,10 +14,10 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
         lower: f64::INFINITY,
         upper: f64::INFINITY,
     };
-    let Some(roots) = search.roots() else {
+    let Some(roots) = search.root_pair() else {
         return bracket;
     };
-    let snapshot = search.snapshot(Span {
+    let snapshot = search.snapshot(TimeSpan {
         start: time,
         end: time,
     });
@@ -26,14 +26,14 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
         if bound >= bracket.upper {
             continue;
         }
-        if search.budget == 0 {
+        if search.remaining_budget == 0 {
             // The remaining pairs may be nearer.
             return DistanceBounds {
                 lower: 0.0,
                 ..bracket
             };
         }
-        search.budget -= 1;
+        search.remaining_budget -= 1;
         if let Some(split) = search.split(pair) {
             let mut parts = split
                 .child_pairs
@@ -72,7 +72,7 @@ fn triangle_distance_bounds(
             upper: f64::INFINITY,
         };
     };
-    let placed = snapshot.triangle_at_instant(a);
+    let placed = snapshot.triangle_of_a_at_middle(a);
     let (p, q) = nearest_or_common_points(&placed, b);
     let directions = separating_axis_candidates(&placed, b).chain([(p - q).normalize()]);
     let gaps = directions

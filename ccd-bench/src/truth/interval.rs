@@ -62,20 +62,20 @@ impl Interval {
     }
 
     /// Returns a float near the middle; 0 if a bound is infinite.
-    pub(super) fn mid(self) -> f64 {
+    pub(super) fn midpoint(self) -> f64 {
         let mid = self.inf.midpoint(self.sup);
         if mid.is_finite() { mid } else { 0.0 }
     }
 
     /// Returns an upper bound of the distance of any number in the interval from the rounded middle `mid`.
-    pub(super) fn rad(self) -> f64 {
-        let mid = self.mid();
+    pub(super) fn radius(self) -> f64 {
+        let mid = self.midpoint();
         let ([_, below], [_, above]) = (sum_bounds(mid, -self.inf), sum_bounds(self.sup, -mid));
         nan_propagating_max(below, above)
     }
 
     /// Returns the least upper bound of the numbers' absolute values.
-    pub(super) fn mag(self) -> f64 {
+    pub(super) fn magnitude(self) -> f64 {
         greater(self.inf.abs(), self.sup.abs())
     }
 
@@ -83,7 +83,7 @@ impl Interval {
     pub(super) fn abs(self) -> Self {
         // At most one of the two is positive: the bound nearer to 0, if the interval does not contain 0.
         let least = greater(greater(self.inf, -self.sup), 0.0);
-        Interval::new(least, self.mag())
+        Interval::new(least, self.magnitude())
     }
 
     /// Returns the interval of the numbers' squares. They grow with the absolute value, and none is negative, not even
@@ -110,18 +110,18 @@ impl Interval {
 
     /// Returns the interval of products with `factor`, which must contain no negative number.
     fn times_nonnegative(self, factor: Self) -> Self {
-        self.scaled_between(product_bounds, [factor.inf, factor.sup])
+        self.scaled_by_range(product_bounds, [factor.inf, factor.sup])
     }
 
     /// Returns the interval of quotients by `divisor`, which must contain only positive numbers.
     fn divided_by_positive(self, divisor: Self) -> Self {
-        self.scaled_between(quotient_bounds, [divisor.sup, divisor.inf])
+        self.scaled_by_range(quotient_bounds, [divisor.sup, divisor.inf])
     }
 
     /// Returns the interval scaled by a range of nonnegative factors, from the weakest scaling `least` to the strongest
     /// `most`. The lower bound is scaled by `least`, or by `most` if it is negative; the upper bound by `most`, or by
     /// `least` if it is negative.
-    fn scaled_between(
+    fn scaled_by_range(
         self,
         scaled: impl Fn(f64, f64) -> [f64; 2],
         [least, most]: [f64; 2],
@@ -273,7 +273,7 @@ fn root(x: f64) -> [f64; 2] {
 /// Dekker's product is exact: xy is the rounded product and an error, without a fused operation. The
 /// halves have 26 bits, so their products are exact. w less the rounded product is exact by Sterbenz.
 fn product_residual(w: f64, x: f64, y: f64) -> f64 {
-    if !(SAFE_FACTORS.contains(&x.abs()) && SAFE_FACTORS.contains(&y.abs())) {
+    if !(SAFE_FACTOR_RANGE.contains(&x.abs()) && SAFE_FACTOR_RANGE.contains(&y.abs())) {
         return f64::NAN;
     }
     let ([x_high, x_low], [y_high, y_low]) = (split_float(x), split_float(y));
@@ -284,7 +284,7 @@ fn product_residual(w: f64, x: f64, y: f64) -> f64 {
 
 /// The range of factors for which no part of Dekker's product overflows or underflows. The lowest bit of the least
 /// product is at 1e-280 2⁻¹⁰⁴, above the least float.
-const SAFE_FACTORS: RangeInclusive<f64> = 1e-140..=1e140;
+const SAFE_FACTOR_RANGE: RangeInclusive<f64> = 1e-140..=1e140;
 
 /// Splits a float into a sum of two floats of at most 26 bits each, as Veltkamp does.
 fn split_float(x: f64) -> [f64; 2] {

@@ -14,14 +14,14 @@ impl IntervalMaps {
         let b = b.map(IntervalVector::from);
         (0..3).any(|i| {
             let next = (i + 1) % 3;
-            pierces([&a[i], &a[next]], &b) || pierces([&b[i], &b[next]], &a)
+            certainly_pierces([&a[i], &a[next]], &b) || certainly_pierces([&b[i], &b[next]], &a)
         })
     }
 }
 
 /// Returns true if a segment certainly passes through a triangle. It checks five signs, each of which must be certain:
 /// the ends lie on both sides of the triangle's plane, and the line passes all its edges on the same side.
-fn pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVector; 3]) -> bool {
+fn certainly_pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
     let [before, after] = [from, to].map(|end| sign(normal.dot(&(*end - *a))));
     if before.is_none() || after != before.map(Ordering::reverse) {

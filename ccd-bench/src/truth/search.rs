@@ -1,8 +1,8 @@
 //! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
 //! from the pairs of nodes that could not be excluded over the whole.
 
-use super::snapshot::{BoxSeparation, IntervalMaps, Snapshot, Span};
-use super::surface::{Content, Node, Surface, Triangle};
+use super::snapshot::{BoxSeparation, IntervalMaps, Snapshot, TimeSpan};
+use super::surface::{Node, NodeContent, Surface, Triangle};
 use super::track::EnclosedMotion;
 use super::triangle::{gap, nearest, separating_axis_candidates};
 use super::{Referee, Truth};
@@ -17,15 +17,15 @@ pub(super) type Pair = [u32; 2];
 pub(super) struct Search<'a> {
     surfaces: [&'a Surface; 2],
     pub(super) motions: [EnclosedMotion; 2],
-    farthest_distances: [f64; 2],
+    max_distances_from_origin: [f64; 2],
     duration: f64,
     /// The number of pairs of nodes that may still be tested.
-    pub(super) budget: u64,
+    pub(super) remaining_budget: u64,
 }
 
 /// The number of tested pairs of nodes after which a query is left undecided. It would take minutes, while a hard query
 /// takes a second.
-const BUDGET: u64 = 30_000_000;
+const MAX_TESTED_PAIRS: u64 = 30_000_000;
 /// The shortest interval of time that is halved, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
 const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
 /// The largest number of times that the step is doubled in the search for a proven contact after an undecided time. The
@@ -64,35 +64,35 @@ impl<'a> Search<'a> {
                 EnclosedMotion::new(&query.a, referee.a),
                 EnclosedMotion::new(&query.b, referee.b),
             ],
-            farthest_distances: surfaces.map(Surface::farthest_distance),
+            max_distances_from_origin: surfaces.map(Surface::max_distance_from_origin),
             duration: query.duration,
-            budget: BUDGET,
+            remaining_budget: MAX_TESTED_PAIRS,
         }
     }
 
     /// Returns the pair of both trees' roots; `None` if a body has no triangles.
-    pub(super) fn roots(&self) -> Option<Pair> {
+    pub(super) fn root_pair(&self) -> Option<Pair> {
         let [a, b] = self.surfaces;
         Some([a.root()?, b.root()?])
     }
 
     pub(super) fn run(mut self) -> Truth {
-        let Some(roots) = self.roots() else {
+        let Some(roots) = self.root_pair() else {
             return Truth::Free;
         };
         if !(self.duration >= 0.0 && self.duration.is_finite()) {
             return Truth::Undecided { lo: 0.0 };
         }
-        match self.test_touch_at(roots, 0.0, TouchCriterion::NotApart) {
-            Touch::NotTouching => self.bisect_time(roots),
-            Touch::Touching => Truth::ContactAtStart,
-            Touch::BudgetSpent => Truth::Undecided { lo: 0.0 },
+        match self.decide_touch_at(roots, 0.0, TouchCriterion::NotApart) {
+            TouchDecision::NotTouching => self.bisect_time(roots),
+            TouchDecision::Touching => Truth::ContactAtStart,
+            TouchDecision::BudgetSpent => Truth::Undecided { lo: 0.0 },
         }
     }
 
     /// Brackets the first contact by halving intervals of time, the earlier half first.
     fn bisect_time(&mut self, roots: Pair) -> Truth {
-        let whole = Span {
+        let whole = TimeSpan {
             start: 0.0,
             end: self.duration,
         };
@@ -135,9 +135,9 @@ impl<'a> Search<'a> {
         }
     }
 
-    pub(super) fn snapshot(&self, span: Span) -> Snapshot {
+    pub(super) fn snapshot(&self, span: TimeSpan) -> Snapshot {
         let [a, b] = &self.motions;
-        Snapshot::new([a, b], self.farthest_distances, span)
+        Snapshot::new([a, b], self.max_distances_from_origin, span)
     }
 
     /// Returns the pairs of nodes that may meet within the interval; nodes larger than their displacement are split
@@ -149,10 +149,10 @@ impl<'a> Search<'a> {
         }
         let mut stack = pairs.to_vec();
         while let Some(pair) = stack.pop() {
-            if self.budget == 0 {
+            if self.remaining_budget == 0 {
                 return RemainingPairs::BudgetSpent;
             }
-            self.budget -= 1;
+            self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
             let BoxSeparation::Near { travel } = snapshot.box_separation(a, b) else {
                 continue;
@@ -166,7 +166,7 @@ impl<'a> Search<'a> {
                 }
                 Some(_) => left.push(pair),
                 None if greater(a.size, b.size) < MAX_SIZE_FOR_BOX_TEST * travel => left.push(pair),
-                None if self.triangles_apart(snapshot, pair) => {}
+                None if self.are_triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),
             }
         }
@@ -174,7 +174,7 @@ impl<'a> Search<'a> {
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the interval.
-    fn triangles_apart(&self, snapshot: &Snapshot, pair: Pair) -> bool {
+    fn are_triangles_apart(&self, snapshot: &Snapshot, pair: Pair) -> bool {
         let Some([a, b]) = self.triangles(pair) else {
             return false;
         };
@@ -184,7 +184,7 @@ impl<'a> Search<'a> {
             // Also false for NaN: `min` drops it, so the direction itself is tested.
             n.is_finite() && least > snapshot.slack()
         };
-        let placed = snapshot.triangle_at_instant(a);
+        let placed = snapshot.triangle_of_a_at_middle(a);
         let mut normals = separating_axis_candidates(&placed, b);
         if normals.by_ref().take(FACE_NORMAL_COUNT).any(apart) {
             return true;
@@ -214,7 +214,9 @@ impl<'a> Search<'a> {
             // is slow.
             let wider = doubling % DOUBLINGS_PER_FULL_TEST == DOUBLINGS_PER_FULL_TEST - 1
                 && (times_met == 0 || doubling == times_met);
-            if wider && self.test_touch_at(roots, time, TouchCriterion::Piercing) == Touch::Touching
+            if wider
+                && self.decide_touch_at(roots, time, TouchCriterion::Piercing)
+                    == TouchDecision::Touching
             {
                 return Some(time);
             }
@@ -229,14 +231,14 @@ impl<'a> Search<'a> {
     fn certainly_meet_at(&mut self, pairs: &[Pair], time: f64) -> bool {
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
-        self.budget = self.budget.saturating_sub(pairs.len() as u64);
+        self.remaining_budget = self.remaining_budget.saturating_sub(pairs.len() as u64);
         let mut triangles = pairs.iter().filter_map(|&pair| self.triangles(pair));
         triangles.any(|[a, b]| instant.certainly_meet(a, b))
     }
 
     /// Tests whether the surfaces touch at a time, by the evidence that `proof` requires.
-    fn test_touch_at(&mut self, roots: Pair, time: f64, proof: TouchCriterion) -> Touch {
-        let span = Span {
+    fn decide_touch_at(&mut self, roots: Pair, time: f64, proof: TouchCriterion) -> TouchDecision {
+        let span = TimeSpan {
             start: time,
             end: time,
         };
@@ -245,10 +247,10 @@ impl<'a> Search<'a> {
         let instant = IntervalMaps::new(a, b, time);
         let mut stack = vec![roots];
         while let Some(pair) = stack.pop() {
-            if self.budget == 0 {
-                return Touch::BudgetSpent;
+            if self.remaining_budget == 0 {
+                return TouchDecision::BudgetSpent;
             }
-            self.budget -= 1;
+            self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
             if snapshot.box_separation(a, b) == BoxSeparation::Apart {
                 continue;
@@ -258,15 +260,15 @@ impl<'a> Search<'a> {
             }) = self.split(pair)
             {
                 stack.extend(parts);
-            } else if !self.triangles_apart(&snapshot, pair) {
+            } else if !self.are_triangles_apart(&snapshot, pair) {
                 let triangles = self.triangles(pair);
                 let meet = |[a, b]: [&Triangle; 2]| instant.certainly_meet(a, b);
                 if proof == TouchCriterion::NotApart || triangles.is_some_and(meet) {
-                    return Touch::Touching;
+                    return TouchDecision::Touching;
                 }
             }
         }
-        Touch::NotTouching
+        TouchDecision::NotTouching
     }
 
     pub(super) fn nodes(&self, [a, b]: Pair) -> [&'a Node; 2] {
@@ -276,7 +278,7 @@ impl<'a> Search<'a> {
     pub(super) fn triangles(&self, pair: Pair) -> Option<[&'a Triangle; 2]> {
         let [a, b] = self.nodes(pair).map(|node| node.content);
         match [a, b] {
-            [Content::Triangle(a), Content::Triangle(b)] => {
+            [NodeContent::Triangle(a), NodeContent::Triangle(b)] => {
                 Some([self.surfaces[0].triangle(a), self.surfaces[1].triangle(b)])
             }
             _ => None,
@@ -295,12 +297,14 @@ impl<'a> Search<'a> {
             child_pairs: parts.map(|part| [a, part]),
         };
         match (node_a.content, node_b.content) {
-            (Content::Children(parts), Content::Children(_)) if node_a.size >= node_b.size => {
+            (NodeContent::Children(parts), NodeContent::Children(_))
+                if node_a.size >= node_b.size =>
+            {
                 Some(of_a(parts))
             }
-            (_, Content::Children(parts)) => Some(of_b(parts)),
-            (Content::Children(parts), Content::Triangle(_)) => Some(of_a(parts)),
-            (Content::Triangle(_), Content::Triangle(_)) => None,
+            (_, NodeContent::Children(parts)) => Some(of_b(parts)),
+            (NodeContent::Children(parts), NodeContent::Triangle(_)) => Some(of_a(parts)),
+            (NodeContent::Triangle(_), NodeContent::Triangle(_)) => None,
         }
     }
 }
@@ -322,7 +326,7 @@ enum TouchCriterion {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Touch {
+enum TouchDecision {
     Touching,
     NotTouching,
     BudgetSpent,
@@ -342,26 +346,26 @@ struct UndecidedTimes {
 impl UndecidedTimes {
     /// Skips some time after an undecided interval; the skipped time doubles with every undecided interval. Surfaces
     /// that slide on each other all the time are left after about as many steps as the duration has halvings.
-    fn skip_after(&mut self, span: Span, shortest: f64) {
+    fn skip_after(&mut self, span: TimeSpan, shortest: f64) {
         let ahead = shortest * 2.0_f64.powi(self.undecided_count.min(1000) as i32);
         self.skipped_until = span.end + ahead;
         self.undecided_count = self.undecided_count.saturating_add(1);
     }
 }
 
-impl Span {
+impl TimeSpan {
     /// Returns the part of the interval after `start`; `None` if it is empty.
     fn clipped_from(self, start: f64) -> Option<Self> {
         let start = greater(self.start, start);
-        (start < self.end).then_some(Span { start, ..self })
+        (start < self.end).then_some(TimeSpan { start, ..self })
     }
 
     fn split_at(self, middle: f64) -> [Self; 2] {
-        let early = Span {
+        let early = TimeSpan {
             end: middle,
             ..self
         };
-        let late = Span {
+        let late = TimeSpan {
             start: middle,
             ..self
         };

@@ -21,7 +21,7 @@ use ccd_core::order::greater;
 
 /// An interval of time within the duration of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
+pub(super) struct TimeSpan {
     pub(super) start: f64,
     pub(super) end: f64,
 }
@@ -31,21 +31,21 @@ pub(super) struct Span {
 #[derive(Clone, Debug)]
 pub(super) struct Snapshot {
     /// The map from A's body frame to the common frame, at the middle time.
-    placement: Affine,
+    placement: AffineMap,
     /// The map from a point of A to its velocity, relative to B's centre.
-    velocity_map_a: Affine,
+    velocity_map_a: AffineMap,
     /// The map from a point of B to its velocity, relative to B's centre.
-    velocity_map_b: Affine,
+    velocity_map_b: AffineMap,
     /// Half the length of the interval.
     half_duration: f64,
     /// The computed gap above which bodies are certainly apart: it bounds the rounding, and the motion's deviation from
     /// a straight line.
-    slack: f64,
+    gap_error_bound: f64,
     /// The part of `slack` that bounds the motion's deviation from a straight line.
-    motion_slack: f64,
+    linearization_error_bound: f64,
     /// The bounds on the extents of two boxes along B's axes; the next field has those along A's axes.
-    extents_along_b: Extents,
-    extents_along_a: Extents,
+    extent_matrices_along_b: ExtentMatrices,
+    extent_matrices_along_a: ExtentMatrices,
     /// The vector from B's centre of rotation to A's centre of rotation; the next field is its rate of change.
     centre_offset: DVec3,
     centre_offset_rate: DVec3,
@@ -56,7 +56,7 @@ pub(super) struct Snapshot {
 /// Two matrices that bound the half extents of two boxes along the axes of a frame over the interval: `a halfₐ + b
 /// half_b`.
 #[derive(Clone, Copy, Debug)]
-struct Extents {
+struct ExtentMatrices {
     a: DMat3,
     b: DMat3,
 }
@@ -74,32 +74,32 @@ impl Snapshot {
     pub(super) fn new(
         [a, b]: [&EnclosedMotion; 2],
         [size_a, size_b]: [f64; 2],
-        span: Span,
+        span: TimeSpan,
     ) -> Self {
         let time = span.start.midpoint(span.end);
         let half = greater(time - span.start, span.end - time) * ROUND_UP_FACTOR;
         let exactly = IntervalMaps::new(a, b, time);
-        let placement = Affine::new(&exactly.placement, size_a);
-        let rate_a = Affine::new(&exactly.rate_a, size_a);
-        let rate_b = Affine::new(&exactly.rate_b, size_b);
+        let placement = AffineMap::new(&exactly.placement, size_a);
+        let rate_a = AffineMap::new(&exactly.velocity_map_a, size_a);
+        let rate_b = AffineMap::new(&exactly.velocity_map_b, size_b);
         let motion_slack =
             0.5 * half * half * (a.max_acceleration + b.max_acceleration) * ROUND_UP_FACTOR;
         let errors = placement.error + half * (rate_a.error + rate_b.error);
         let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
-        let centre = |v: &IntervalVector| DVec3::from_array(v.0.map(Interval::mid));
+        let centre = |v: &IntervalVector| DVec3::from_array(v.0.map(Interval::midpoint));
         let (r, w_a, w_b) = (placement.matrix, rate_a.matrix * half, rate_b.matrix * half);
         let back = r.transpose();
         Snapshot {
             half_duration: half,
-            motion_slack,
-            slack: motion_slack * ROUND_UP_FACTOR
+            linearization_error_bound: motion_slack,
+            gap_error_bound: motion_slack * ROUND_UP_FACTOR
                 + errors * ROUND_UP_FACTOR
-                + GAP_ROUNDINGS * UNIT_ROUNDOFF * sizes,
-            extents_along_b: Extents {
+                + GAP_ROUNDING_COUNT * UNIT_ROUNDOFF * sizes,
+            extent_matrices_along_b: ExtentMatrices {
                 a: larger_of_sum_and_difference(r, w_a),
                 b: larger_of_sum_and_difference(DMat3::IDENTITY, w_b),
             },
-            extents_along_a: Extents {
+            extent_matrices_along_a: ExtentMatrices {
                 a: larger_of_sum_and_difference(back * r, back * w_a),
                 b: larger_of_sum_and_difference(back, back * w_b),
             },
@@ -108,7 +108,7 @@ impl Snapshot {
             velocity_map_b: rate_b,
             centre_offset: centre(&exactly.centre_offset),
             centre_offset_rate: centre(&exactly.velocity),
-            radius_sum: a.reach + b.reach,
+            radius_sum: a.max_distance_from_centre + b.max_distance_from_centre,
         }
     }
 
@@ -122,7 +122,8 @@ impl Snapshot {
         let s = (-d.dot(w) / w.length_squared()).clamp(-1.0, 1.0);
         let nearest = if s.is_nan() { d } else { d + s * w };
         nearest.length() * (1.0 - FORTY_ROUNDINGS_ERROR)
-            > (self.radius_sum + self.slack - self.motion_slack) * ROUND_UP_FACTOR
+            > (self.radius_sum + self.gap_error_bound - self.linearization_error_bound)
+                * ROUND_UP_FACTOR
                 + FORTY_ROUNDINGS_ERROR * (d.length() + w.length())
     }
 
@@ -131,18 +132,23 @@ impl Snapshot {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half_duration
             * (self.velocity_map_a.apply(a.centre) - self.velocity_map_b.apply(b.centre));
-        let gaps_b = self.extents_along_b.axis_gaps(apart, moved, a, b);
-        if gaps_b.max_element() > self.slack {
+        let gaps_b = self
+            .extent_matrices_along_b
+            .axis_gap_lower_bounds(apart, moved, a, b);
+        if gaps_b.max_element() > self.gap_error_bound {
             return BoxSeparation::Apart;
         }
-        let gaps_a =
-            self.extents_along_a
-                .axis_gaps(self.rotate_back(apart), self.rotate_back(moved), a, b);
-        if gaps_a.max_element() > self.slack {
+        let gaps_a = self.extent_matrices_along_a.axis_gap_lower_bounds(
+            self.rotate_to_a_frame(apart),
+            self.rotate_to_a_frame(moved),
+            a,
+            b,
+        );
+        if gaps_a.max_element() > self.gap_error_bound {
             return BoxSeparation::Apart;
         }
         BoxSeparation::Near {
-            travel: moved.length() + self.motion_slack,
+            travel: moved.length() + self.linearization_error_bound,
         }
     }
 
@@ -150,13 +156,16 @@ impl Snapshot {
     pub(super) fn box_distance_lower_bound(&self, a: &Node, b: &Node) -> f64 {
         let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
-        let gaps_b = self.extents_along_b.axis_gaps(apart, none, a, b).max(none);
+        let gaps_b = self
+            .extent_matrices_along_b
+            .axis_gap_lower_bounds(apart, none, a, b)
+            .max(none);
         let gaps_a = self
-            .extents_along_a
-            .axis_gaps(self.rotate_back(apart), none, a, b)
+            .extent_matrices_along_a
+            .axis_gap_lower_bounds(self.rotate_to_a_frame(apart), none, a, b)
             .max(none);
         let distance = greater(gaps_b.length(), gaps_a.length());
-        distance * (1.0 - FORTY_ROUNDINGS_ERROR) - 2.0 * self.slack
+        distance * (1.0 - FORTY_ROUNDINGS_ERROR) - 2.0 * self.gap_error_bound
     }
 
     /// Returns the corners of two triangles in the common frame, at both ends of the interval.
@@ -171,23 +180,23 @@ impl Snapshot {
     }
 
     /// Returns the corners of A's triangle in the common frame at the middle time.
-    pub(super) fn triangle_at_instant(&self, a: &Triangle) -> Triangle {
+    pub(super) fn triangle_of_a_at_middle(&self, a: &Triangle) -> Triangle {
         a.map(|p| self.placement.apply(p))
     }
 
     /// Returns the computed gap along a unit direction above which bodies are certainly apart.
     pub(super) fn slack(&self) -> f64 {
-        self.slack
+        self.gap_error_bound
     }
 
-    fn rotate_back(&self, v: DVec3) -> DVec3 {
+    fn rotate_to_a_frame(&self, v: DVec3) -> DVec3 {
         self.placement.matrix.transpose() * v
     }
 }
 
-impl Extents {
+impl ExtentMatrices {
     /// Returns, for each axis, a lower bound of the gap of two boxes over the whole interval.
-    fn axis_gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
+    fn axis_gap_lower_bounds(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
         apart.abs() - moved.abs() - self.a * a.half_extents - self.b * b.half_extents
     }
 }
@@ -204,7 +213,7 @@ fn larger_of_sum_and_difference(m: DMat3, w: DMat3) -> DMat3 {
 
 /// The map `p ↦ matrix p + offset` in floats, with a bound of its error.
 #[derive(Clone, Copy, Debug)]
-struct Affine {
+struct AffineMap {
     matrix: DMat3,
     offset: DVec3,
     /// An upper bound of the error of a body point's image, as a length.
@@ -213,27 +222,29 @@ struct Affine {
     size: f64,
 }
 
-impl Affine {
+impl AffineMap {
     /// Converts a map from intervals to floats, and bounds the error and the length of the images. Each coordinate of
     /// an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at most 4u(|m||p| + |o|), plus √3
     /// rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(IntervalMatrix, IntervalVector), farthest: f64) -> Self {
         let rows = matrix
             .0
-            .map(|row| DVec3::from_array(row.map(Interval::mid)));
+            .map(|row| DVec3::from_array(row.map(Interval::midpoint)));
         let entries = matrix.0.iter().flatten();
-        let width = entries.fold(0.0, |width, entry| nan_propagating_max(width, entry.rad()));
+        let width = entries.fold(0.0, |width, entry| {
+            nan_propagating_max(width, entry.radius())
+        });
         let offset_width = offset
             .0
             .iter()
-            .fold(0.0, |w, x| nan_propagating_max(w, x.rad()));
-        let offset = DVec3::from_array(offset.0.map(Interval::mid));
+            .fold(0.0, |w, x| nan_propagating_max(w, x.radius()));
+        let offset = DVec3::from_array(offset.0.map(Interval::midpoint));
         let row = rows.iter().fold(0.0, |longest: f64, row| {
             nan_propagating_max(longest, row.length())
         });
         let coordinate = row * farthest + offset.length();
         let widths = width * SQRT_3 * farthest + offset_width;
-        Affine {
+        AffineMap {
             matrix: DMat3::from_cols(rows[0], rows[1], rows[2]).transpose(),
             offset,
             error: SQRT_3 * (widths + 5.0 * UNIT_ROUNDOFF * coordinate) * ROUND_UP_FACTOR,
@@ -249,8 +260,8 @@ impl Affine {
 /// The affine maps of a snapshot, whose entries are intervals.
 pub(super) struct IntervalMaps {
     pub(super) placement: (IntervalMatrix, IntervalVector),
-    rate_a: (IntervalMatrix, IntervalVector),
-    rate_b: (IntervalMatrix, IntervalVector),
+    velocity_map_a: (IntervalMatrix, IntervalVector),
+    velocity_map_b: (IntervalMatrix, IntervalVector),
     centre_offset: IntervalVector,
     velocity: IntervalVector,
 }
@@ -270,8 +281,8 @@ impl IntervalMaps {
         let drift = velocity - &swirl_a * &a.centre + &swirl_b * &b.centre;
         IntervalMaps {
             placement: (rotation, offset),
-            rate_a: (swirl_a, drift),
-            rate_b: (swirl_b, IntervalVector([point_interval(0.0); 3])),
+            velocity_map_a: (swirl_a, drift),
+            velocity_map_b: (swirl_b, IntervalVector([point_interval(0.0); 3])),
             centre_offset: centres,
             velocity,
         }
@@ -282,6 +293,6 @@ impl IntervalMaps {
 /// are the sum of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its difference
 /// (1); n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each side, and twice
 /// as many along A's axes, which are rounded themselves. The total is doubled.
-const GAP_ROUNDINGS: f64 = 96.0;
+const GAP_ROUNDING_COUNT: f64 = 96.0;
 /// The square root of 3, rounded up.
 const SQRT_3: f64 = 1.732_050_807_568_878;

@@ -23,12 +23,12 @@ pub(super) struct Node {
     pub(super) half_extents: DVec3,
     /// Half the diagonal of the box.
     pub(super) size: f64,
-    pub(super) content: Content,
+    pub(super) content: NodeContent,
 }
 
 /// The contents of a node: two child nodes, or one triangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Content {
+pub(super) enum NodeContent {
     /// The box of an inner node contains the boxes of these two nodes.
     Children([u32; 2]),
     /// The box of a leaf contains the triangle with this index.
@@ -85,7 +85,7 @@ impl Surface {
     }
 
     /// Returns an upper bound of the distance of the body's points from the origin.
-    pub(super) fn farthest_distance(&self) -> f64 {
+    pub(super) fn max_distance_from_origin(&self) -> f64 {
         let far = self
             .corners()
             .map(DVec3::length)
@@ -100,7 +100,7 @@ impl Surface {
         let node = self.bounding_node(order);
         self.nodes.push(node);
         if let [triangle] = order {
-            self.nodes[index].content = Content::Triangle(*triangle);
+            self.nodes[index].content = NodeContent::Triangle(*triangle);
         } else {
             let middle = order.len() / 2;
             let axis = node.half_extents.max_position();
@@ -108,7 +108,7 @@ impl Surface {
             order.select_nth_unstable_by(middle, |i, j| key(i).total_cmp(&key(j)));
             let (left, right) = order.split_at_mut(middle);
             let children = [self.add_subtree(left), self.add_subtree(right)];
-            self.nodes[index].content = Content::Children(children);
+            self.nodes[index].content = NodeContent::Children(children);
         }
         index as u32
     }
@@ -126,7 +126,7 @@ impl Surface {
             centre,
             half_extents: half,
             size: half.length(),
-            content: Content::Triangle(0),
+            content: NodeContent::Triangle(0),
         }
     }
 }

@@ -15,14 +15,14 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 pub struct TruthRow {
     /// The name of the query in the table of motions.
     pub id: String,
-    /// The kind of the exact answer, one of [`STATUSES`].
+    /// The kind of the exact answer, one of [`TRUTH_STATUSES`].
     pub status: &'static str,
     lo: f64,
     hi: f64,
 }
 
 /// The values of the status column, one for each kind of exact answer.
-pub const STATUSES: [&str; 5] = ["hit", "free", "initial", "graze", "undecided"];
+pub const TRUTH_STATUSES: [&str; 5] = ["hit", "free", "initial", "graze", "undecided"];
 
 impl TruthRow {
     /// Returns the row for the exact answer of a query with this name and duration.

@@ -23,7 +23,7 @@ pub(super) struct EnclosedMotion {
     /// The position c₀ of the centre at the start, in the world frame.
     start_centre: IntervalVector,
     /// An upper bound of the distance of the body's points from the centre c.
-    pub(super) reach: f64,
+    pub(super) max_distance_from_centre: f64,
     /// An upper bound |ω|²ρ of the acceleration of the point that is farthest from the axis, at distance ρ.
     pub(super) max_acceleration: f64,
 }
@@ -47,7 +47,7 @@ impl EnclosedMotion {
             spin_floats: motion.spin(),
             start_centre: IntervalVector::from(start.translation()) + &orientation * &centre,
             orientation,
-            reach: 0.0,
+            max_distance_from_centre: 0.0,
             max_acceleration: 0.0,
         };
         // The axis is fixed in the body's frame. The distance from it is convex there, so it is
@@ -56,7 +56,10 @@ impl EnclosedMotion {
         let rate = motion.spin().length();
         for corner in surface.corners() {
             let arm = corner - motion.centre();
-            track.reach = nan_propagating_max(track.reach, arm.length() * ROUND_UP_FACTOR);
+            track.max_distance_from_centre = nan_propagating_max(
+                track.max_distance_from_centre,
+                arm.length() * ROUND_UP_FACTOR,
+            );
             // The sum covers the rounding of the cross product, which is relative to its factors.
             let speed = axis.cross(arm).length() + FORTY_ROUNDINGS_ERROR * rate * arm.length();
             track.max_acceleration =

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Runs `ccd-bench chart` on one scene with two methods, for a tenth of a second.
-fn chart(folder: &Path) -> CommandCall {
+fn chart_call(folder: &Path) -> CommandCall {
     let options = [
         "chart",
         "--scenes",
@@ -24,7 +24,7 @@ fn chart(folder: &Path) -> CommandCall {
 fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let scene = Scene::new("chart");
     let folder = scene.directory.join("report");
-    let output = chart(&folder).output();
+    let output = chart_call(&folder).output();
     assert!(output.status.success(), "{}", stderr(&output));
     let output_text = String::from_utf8(output.stdout).unwrap();
     assert!(output_text.starts_with("Answers compared"), "{output_text}");
@@ -35,7 +35,7 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let place = |part: &str| page.find(part).unwrap();
     assert!(place(r#"<section id="scenes">"#) < place(r#"<section id="charts">"#));
     assert!(page.contains("Time against error"));
-    assert_eq!(first_view(&page), "contact");
+    assert_eq!(first_view_name_suffix(&page), "contact");
     let table = fs::read(folder.join("chart.csv")).unwrap();
     let rows = parse(&table);
     assert_eq!(rows.len(), 4);
@@ -58,12 +58,12 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     }
     let tables = fs::read_to_string(folder.join("tables.md")).unwrap();
     assert!(tables.contains("\n| knot216 | "), "{tables}");
-    assert!(chart(&folder).output().status.success());
+    assert!(chart_call(&folder).output().status.success());
     assert_eq!(fs::read(folder.join("chart.csv")).unwrap(), table);
 }
 
 /// Returns the text in brackets in the name of the first view of a chart page.
-fn first_view(page: &str) -> String {
+fn first_view_name_suffix(page: &str) -> String {
     let (_, views) = page.split_once(r#"id="views">"#).unwrap();
     let (views, _) = views.split_once("</script>").unwrap();
     let views: serde_json::Value = serde_json::from_str(views).unwrap();

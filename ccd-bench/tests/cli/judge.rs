@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Recorded failures: the folder, the method, the tolerance, and the verdict recorded in `failures/README.md`.
-const FAILURES: [(&str, &str, &str, &str); 11] = [
+const RECORDED_FAILURES: [(&str, &str, &str, &str); 11] = [
     (
         "fast-vmarch-published-late",
         "fast vmarch published",
@@ -30,7 +30,7 @@ const FAILURES: [(&str, &str, &str, &str); 11] = [
 ];
 
 /// The folders and tolerances of recorded failures of Python methods; only the default method is run on them here.
-const PYTHON_FAILURES: [(&str, &str); 5] = [
+const RECORDED_PYTHON_FAILURES: [(&str, &str); 5] = [
     ("coal-steps-late", "1e-2"),
     ("fcl-ca-late", "1e-3"),
     ("fcl-ca-early", "1e-6"),
@@ -43,7 +43,7 @@ fn verdict(folder: &str, method: &str, tolerance: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("failures")
         .join(folder);
-    let output = Command::new(crate::PROGRAM)
+    let output = Command::new(crate::PROGRAM_PATH)
         .args(["judge", "--method", method, "--tolerance", tolerance])
         .args(["--patience", "60"])
         .arg("--a")
@@ -67,15 +67,15 @@ fn verdict(folder: &str, method: &str, tolerance: &str) -> String {
 
 #[test]
 fn kept_failures_are_still_failures_and_the_default_is_right() {
-    let of_rust = FAILURES.map(|(folder, _, tolerance, _)| (folder, tolerance));
-    for (folder, tolerance) in of_rust.into_iter().chain(PYTHON_FAILURES) {
+    let of_rust = RECORDED_FAILURES.map(|(folder, _, tolerance, _)| (folder, tolerance));
+    for (folder, tolerance) in of_rust.into_iter().chain(RECORDED_PYTHON_FAILURES) {
         assert_eq!(
             verdict(folder, "best-first direct", tolerance),
             "right",
             "{folder}"
         );
     }
-    for (folder, method, tolerance, recorded) in FAILURES {
+    for (folder, method, tolerance, recorded) in RECORDED_FAILURES {
         assert_eq!(verdict(folder, method, tolerance), recorded, "{folder}");
     }
 }
@@ -84,5 +84,8 @@ fn kept_failures_are_still_failures_and_the_default_is_right() {
 fn every_recorded_failure_is_run() {
     let kept = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("failures")).unwrap();
     let folders = kept.filter(|entry| entry.as_ref().unwrap().path().is_dir());
-    assert_eq!(folders.count(), FAILURES.len() + PYTHON_FAILURES.len());
+    assert_eq!(
+        folders.count(),
+        RECORDED_FAILURES.len() + RECORDED_PYTHON_FAILURES.len()
+    );
 }

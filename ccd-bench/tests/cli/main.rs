@@ -11,9 +11,9 @@ mod truth;
 use command::{CommandCall, stderr};
 
 /// The path of the `ccd-bench` program that the tests run.
-const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd-bench");
+const PROGRAM_PATH: &str = env!("CARGO_BIN_EXE_ccd-bench");
 
-const TETRAHEDRON: &str =
+const TETRAHEDRON_OBJ: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 #[test]

@@ -3,7 +3,7 @@
 use ccd_bench::method::Method;
 use ccd_bench::method::guarded::{GuardSettings, GuardedMethod, QueryOutcome};
 use ccd_bench::method::peer::PeerKind;
-use ccd_bench::method::solver::{Claim, TimedReply};
+use ccd_bench::method::solver::{ContactClaim, TimedReply};
 use ccd_bench::scene::model::cuboid;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
@@ -37,7 +37,7 @@ fn guarded_peer(kind: PeerKind) -> GuardedMethod {
 }
 
 fn guarded_method(setting: GuardSettings) -> GuardedMethod {
-    GuardedMethod::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
+    GuardedMethod::with_program(crate::PROGRAM_PATH.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
 /// Returns a guarded method whose program is replaced by a script of this folder.
@@ -54,7 +54,7 @@ fn assert_answered(outcome: QueryOutcome) {
     let QueryOutcome::Answered(TimedReply { reply, micros }) = outcome else {
         panic!("{outcome:?}");
     };
-    let Claim::Contact { time } = reply.claim else {
+    let ContactClaim::Contact { time } = reply.claim else {
         panic!("{reply:?}");
     };
     assert!((-2.6e-4..=1e-6).contains(&(time - 0.5)), "{time}");
@@ -93,7 +93,7 @@ fn a_margin_is_kept_or_refused() {
                 let Ok(QueryOutcome::Answered(TimedReply { reply, .. })) = outcome else {
                     panic!("{method}: {outcome:?}");
                 };
-                let Claim::Contact { time } = reply.claim else {
+                let ContactClaim::Contact { time } = reply.claim else {
                     panic!("{method}: {reply:?}");
                 };
                 // The gap of 2 closes to 0.5 at speed 4.
@@ -167,7 +167,7 @@ fn a_tolerance_is_passed_on() {
     else {
         panic!("no answer");
     };
-    let Claim::Contact { time } = reply.claim else {
+    let ContactClaim::Contact { time } = reply.claim else {
         panic!("{reply:?}");
     };
     assert!((-2.6e-7..=1e-12).contains(&(time - 0.5)), "{time}");

@@ -10,7 +10,7 @@ fn run_survey(folder: &Path, methods: &str) -> Output {
 }
 
 fn run_stability(folder: &Path, options: &[&str]) -> Output {
-    let mut command = Command::new(crate::PROGRAM);
+    let mut command = Command::new(crate::PROGRAM_PATH);
     command.arg("stability").args(options);
     command.arg("--out").arg(folder);
     command.output().unwrap()

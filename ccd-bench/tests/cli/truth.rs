@@ -1,18 +1,18 @@
 //! Tests that `ccd-bench truth` writes a bracket of the first contact for each row of motions, and reports bad rows.
 
-use crate::TETRAHEDRON;
+use crate::TETRAHEDRON_OBJ;
 use crate::command::{CommandCall, Scene, parse, stderr};
 
-const MOTIONS: &str = "id,a_px,a_py,a_pz,a_vx,duration\n\
+const MOTIONS_CSV: &str = "id,a_px,a_py,a_pz,a_vx,duration\n\
                        hit,3,-.2,-.3,-4,1\nfree,3,-.2,-.3,-4,.1\ninitial,.1,-.2,-.3,0,1\n";
 
 #[test]
 fn brackets_hold_the_exact_first_contact() {
     let scene = Scene::new("truth");
-    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let mesh = mesh.to_str().unwrap();
     let truth = scene.directory.join("truth.csv");
-    let motions = scene.file("motions.csv", MOTIONS);
+    let motions = scene.file("motions.csv", MOTIONS_CSV);
     let options = ["--motions", motions.to_str().unwrap()];
     let run = CommandCall::with_args(&["truth", "--a", mesh, "--b", mesh])
         .args(&options)
@@ -41,7 +41,7 @@ fn brackets_hold_the_exact_first_contact() {
 #[test]
 fn good_rows_are_judged_and_bad_ones_reported() {
     let scene = Scene::new("truth-bad");
-    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let mesh = mesh.to_str().unwrap();
     let run = CommandCall::with_args(&[
         "truth",
@@ -72,9 +72,9 @@ fn good_rows_are_judged_and_bad_ones_reported() {
 #[test]
 fn impossible_requests_are_refused() {
     let scene = Scene::new("truth-refused");
-    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let mesh = mesh.to_str().unwrap();
-    let motions = scene.file("motions.csv", MOTIONS);
+    let motions = scene.file("motions.csv", MOTIONS_CSV);
     let motions = motions.to_str().unwrap();
     let nowhere = scene.directory.join("none").join("truth.csv");
     let run = |a: &str, out: &str| {
@@ -86,5 +86,5 @@ fn impossible_requests_are_refused() {
     assert_eq!(run("missing.obj", "-").status.code(), Some(2));
     assert_eq!(run(mesh, motions).status.code(), Some(2));
     assert_eq!(run(mesh, nowhere.to_str().unwrap()).status.code(), Some(1));
-    assert_eq!(std::fs::read_to_string(motions).unwrap(), MOTIONS);
+    assert_eq!(std::fs::read_to_string(motions).unwrap(), MOTIONS_CSV);
 }

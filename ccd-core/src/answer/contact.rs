@@ -1,6 +1,6 @@
 //! The contact of two bodies: a checked pair of nearest points, or the proof of an overlap.
 
-use crate::body::excess::Excess;
+use crate::body::excess::ExcessSum;
 use crate::body::feature::Feature;
 use crate::math::order::lesser;
 use glam::DVec3;
@@ -44,7 +44,7 @@ pub struct Contact {
 
 impl Contact {
     /// Adds the excess of the bodies to the upper bound, so that it holds for the shapes within them.
-    pub(crate) fn to_shapes(self, excess: Excess) -> Self {
+    pub(crate) fn widened_by_excess(self, excess: ExcessSum) -> Self {
         let Separation { lower, upper, .. } = self.separation;
         self.with_bounds(lower, excess.upper_bound_of_shapes(upper))
     }

@@ -49,7 +49,7 @@ impl<V> AdjacencyLists<V> {
     }
 
     /// Returns the approximate memory use in bytes.
-    pub(super) fn bytes(&self) -> usize {
+    pub(super) fn memory_usage(&self) -> usize {
         size_of_val(self.values.as_slice()) + size_of_val(self.ends.as_slice())
     }
 }

@@ -38,18 +38,18 @@ impl Body {
 
 /// The distance by which two bodies together may exceed their shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Excess(f64);
+pub(crate) struct ExcessSum(f64);
 
-impl Excess {
+impl ExcessSum {
     pub(crate) fn sum_of_bodies(a: &Body, b: &Body) -> Self {
-        Excess(match (a.excess, b.excess) {
+        ExcessSum(match (a.excess, b.excess) {
             (0.0, other) | (other, 0.0) => other,
             (one, other) => (one + other).next_up(),
         })
     }
 
     /// Returns an upper bound of the distance of two shapes whose enclosing bodies overlap.
-    pub(crate) fn distance_of_overlap(self) -> f64 {
+    pub(crate) fn upper_bound_of_overlap(self) -> f64 {
         self.0
     }
 

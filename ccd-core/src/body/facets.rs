@@ -7,10 +7,10 @@ use super::polytope::{Face, FacetOrigin};
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
     pub(crate) origins: &'a [FacetOrigin],
-    /// The end of each facet's corners in `corners`; the first facet starts at `first_corner`.
+    /// The end of each facet's corners in `corners`; the first facet starts at `corners_start`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
-    pub(crate) first_corner: u32,
+    pub(crate) corners_start: u32,
     pub(crate) faces: &'a [Face],
 }
 
@@ -20,7 +20,7 @@ impl<'a> Facets<'a> {
         origins: &[],
         ends: &[],
         corners: &[],
-        first_corner: 0,
+        corners_start: 0,
         faces: &[],
     };
 
@@ -43,7 +43,7 @@ impl<'a> Facets<'a> {
     /// Returns the indices of the corners of facet `k` among the piece's points.
     pub(crate) fn get(&self, k: usize) -> &'a [u32] {
         let start = if k == 0 {
-            self.first_corner
+            self.corners_start
         } else {
             self.ends[k - 1]
         };
@@ -63,7 +63,7 @@ pub(crate) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Cl
 }
 
 /// Returns the triangles of a fan about the first corner of a polygon.
-pub fn fan_of<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + Clone {
+pub fn fan_triangles<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + Clone {
     (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])
 }
 

@@ -1,6 +1,6 @@
 //! Finds the side of a flat piece that faces out of the solid.
 
-use super::tree::ray::crossings;
+use super::tree::ray::count_crossings;
 use super::{Body, Volume};
 use crate::math::order::greater;
 use crate::rounding::UNIT_ROUNDOFF_F64;
@@ -29,7 +29,7 @@ impl Body {
     /// Returns on which side of a flat piece the solid is; computed at the first call and cached.
     ///
     /// # Guarantee
-    /// [`Facing::Out`] and [`Facing::Neither`] of a solid's flat piece hold, exactly, at the four
+    /// [`Facing::OutwardNormal`] and [`Facing::NoOutwardSide`] of a solid's flat piece hold, exactly, at the four
     /// examined points of the piece. They hold for its whole part that no other face passes
     /// through.
     pub(crate) fn facing(&self, piece: u32) -> Facing {
@@ -48,13 +48,13 @@ impl Body {
     /// Returns a point inside the solid, near the middle of a piece; `None` if there is none.
     pub(crate) fn point_inside(&self, piece: u32) -> Option<DVec3> {
         if !self.pieces().get(piece as usize).is_flat() {
-            return Some(self.centroid(piece));
+            return Some(self.mean_of_points(piece));
         }
         self.cached_facing(piece)?.inside_point
     }
 
     /// Returns the mean of a piece's points.
-    pub(crate) fn centroid(&self, piece: u32) -> DVec3 {
+    pub(crate) fn mean_of_points(&self, piece: u32) -> DVec3 {
         let points = self.pieces().get(piece as usize).points;
         points.iter().sum::<DVec3>() / points.len() as f64
     }
@@ -70,7 +70,7 @@ impl Body {
     }
 
     fn compute_facing(&self, piece: u32) -> CachedFacing {
-        let triangle = self.pieces().first_triangle(piece as usize);
+        let triangle = self.pieces().first_mesh_triangle(piece as usize);
         let normal = triangle.and_then(crate::math::vector::normal);
         let (Some(triangle), Some(normal)) = (triangle, normal) else {
             return CachedFacing {
@@ -106,7 +106,7 @@ impl Body {
     fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
         // A mean is rounded in units of the coordinates.
         let slack = 4.0 * UNIT_ROUNDOFF_F64 * at.abs().element_sum();
-        let Some(found) = crossings(self.tree(), self.pieces(), at, slack) else {
+        let Some(found) = count_crossings(self.tree(), self.pieces(), at, slack) else {
             return Facing::Unclear;
         };
         let (ahead, behind) = (found.sum_ahead, found.sum_ahead + found.sum_at_start);
@@ -125,7 +125,7 @@ impl Body {
 
     /// Returns whether the winding number of the body's surface about a point is certainly not 0.
     fn has_nonzero_winding(&self, point: DVec3) -> bool {
-        crossings(self.tree(), self.pieces(), point, 0.0)
+        count_crossings(self.tree(), self.pieces(), point, 0.0)
             .is_some_and(|found| found.triangles_at_start == 0 && found.sum_ahead != 0)
     }
 }

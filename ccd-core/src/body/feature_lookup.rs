@@ -25,7 +25,7 @@ pub(crate) enum MeshFeature {
 /// virtual facet may be within the surface, and so may a chord of two coplanar faces.
 pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &ConvexCombination) -> MeshFeature {
     let (facets, support) = (piece.facets, point.point_indices());
-    if !facets.is_empty() && !is_on_mesh(piece) {
+    if !facets.is_empty() && !has_mesh_faces(piece) {
         return MeshFeature::NoFeature;
     }
     if let [v] = *support {
@@ -61,7 +61,7 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &ConvexCombination) ->
 }
 
 /// Returns whether any face of the mesh is on the piece.
-fn is_on_mesh(piece: &Piece<'_>) -> bool {
+fn has_mesh_faces(piece: &Piece<'_>) -> bool {
     match FacetsByCorner::for_piece(piece) {
         Some(by_corner) => by_corner.is_on_mesh,
         None => piece.mesh_triangles().next().is_some(),
@@ -102,7 +102,7 @@ pub(crate) fn prepare_facets_by_corner(piece: &Piece<'_>) {
 
 /// Returns the number of the piece's mesh face on which a point lies, up to rounding; `None` if it is on none.
 pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
-    if !is_on_mesh(piece) {
+    if !has_mesh_faces(piece) {
         return None;
     }
     let way = |p: &DVec3| p.distance(point);
@@ -114,13 +114,13 @@ pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     let off = piece
         .mesh_triangles()
         .filter(|&(_, triangle)| near(triangle))
-        .map(|(id, triangle)| (distance_from_triangle(triangle, point), id));
+        .map(|(id, triangle)| (distance_bound_from_triangle(triangle, point), id));
     let (off, face) = off.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (off <= reach).then_some(face)
 }
 
 /// Returns the larger of a point's distance from a triangle's plane and its distances beyond the triangle's edges.
-fn distance_from_triangle([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+fn distance_bound_from_triangle([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;
     };

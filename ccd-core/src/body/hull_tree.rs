@@ -96,7 +96,7 @@ impl HullTree {
     ///
     /// # Panics
     /// When there is no such node.
-    pub fn class_of(&self, node: u32, point: &ConvexCombination) -> FacetClass {
+    pub fn facet_class_at(&self, node: u32, point: &ConvexCombination) -> FacetClass {
         let at = node as usize;
         let support = point.point_indices();
         if support.is_empty() || !self.hulls.has_uniform_radius[at] {
@@ -154,7 +154,7 @@ impl HullTree {
 
     /// Returns the approximate memory use in bytes.
     pub(crate) fn memory_usage(&self) -> usize {
-        self.hulls.bytes()
+        self.hulls.memory_usage()
     }
 }
 
@@ -169,11 +169,11 @@ impl Hulls {
         self.facets_by_point.list(at)
     }
 
-    fn bytes(&self) -> usize {
-        self.pieces.bytes()
+    fn memory_usage(&self) -> usize {
+        self.pieces.memory_usage()
             + self.classes.len()
             + 25 * self.half_diagonals.len()
-            + self.facets_by_point.bytes()
+            + self.facets_by_point.memory_usage()
     }
 }
 

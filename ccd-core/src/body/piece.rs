@@ -1,6 +1,6 @@
 //! The convex pieces of bodies: the shapes between which oracles compute distances.
 
-use super::facets::{Facets, fan_of};
+use super::facets::{Facets, fan_triangles};
 use super::polytope::FacetOrigin;
 use super::side_table::SideTable;
 use super::support::Support;
@@ -104,7 +104,7 @@ impl<'a> Piece<'a> {
             };
             let at = |v: u32| self.points[v as usize];
             id.into_iter()
-                .flat_map(move |id| fan_of(corners).map(move |fan| (id, fan.map(at))))
+                .flat_map(move |id| fan_triangles(corners).map(move |fan| (id, fan.map(at))))
         });
         let faces = self.facets.faces.iter();
         fans.chain(faces.map(|face| (face.id, face.corners)))

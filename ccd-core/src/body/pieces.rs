@@ -34,7 +34,7 @@ pub struct Pieces {
 
 /// The largest number of points that all pieces of a body may have together. Indices have 32 bits: a quarter of their
 /// range is for points, the rest leaves room for nodes.
-const MAX_POINTS: usize = u32::MAX as usize / 4;
+const MAX_BODY_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
 enum PieceShapes {
@@ -67,19 +67,19 @@ impl Pieces {
     ///
     /// # Errors
     /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`],
-    /// [`InputError::FaceIds`], [`InputError::TooManyPieces`].
+    /// [`InputError::FaceIdCountMismatch`], [`InputError::TooManyPieces`].
     pub fn triangles(
         vertices: &[DVec3],
         faces: &[[u32; 3]],
         face_ids: &[u32],
     ) -> Result<Self, InputError> {
         if faces.len() != face_ids.len() {
-            return Err(InputError::FaceIds {
+            return Err(InputError::FaceIdCountMismatch {
                 faces: faces.len(),
                 ids: face_ids.len(),
             });
         }
-        if faces.len() >= MAX_POINTS / 3 {
+        if faces.len() >= MAX_BODY_POINTS / 3 {
             return Err(InputError::TooManyPieces {
                 pieces: faces.len(),
             });
@@ -112,11 +112,11 @@ impl Pieces {
         if self.len() == 0 {
             return Err(InputError::NoPieces);
         }
-        if self.points.len() >= MAX_POINTS {
+        if self.points.len() >= MAX_BODY_POINTS {
             return Err(InputError::TooManyPieces { pieces: self.len() });
         }
         for piece in 0..self.len() {
-            self.check_surface(piece)?;
+            self.check_facets_and_faces(piece)?;
         }
         for piece in 0..self.len() {
             let points = &self.points[self.point_range(piece)];
@@ -137,7 +137,7 @@ impl Pieces {
     }
 
     /// Checks that a piece's facets have valid corners, and that its mesh faces have finite coordinates.
-    fn check_surface(&self, piece: usize) -> Result<(), InputError> {
+    fn check_facets_and_faces(&self, piece: usize) -> Result<(), InputError> {
         let facets = self.facets(piece);
         let count = self.point_range(piece).len();
         let exists = |&corner: &u32| (corner as usize) < count;
@@ -196,7 +196,7 @@ impl Pieces {
     }
 
     /// Returns the approximate memory use in bytes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_usage(&self) -> usize {
         let others = match &self.shape {
             PieceShapes::Triangles { face_ids } => size_of_val(face_ids.as_slice()),
             PieceShapes::Polytopes(polytopes) => polytopes.bytes(),
@@ -212,7 +212,7 @@ impl Pieces {
     }
 
     /// Returns the corners of the first mesh triangle on a piece, or of the piece if it is a triangle.
-    pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
+    pub(crate) fn first_mesh_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
         if self.are_all_triangles() {
             Some(self.triangle(index))
         } else {
@@ -309,7 +309,7 @@ impl Polytopes {
     fn facets_of(&self, piece: usize) -> Facets<'_> {
         let facets = range_from_ends(&self.facet_ends, piece);
         Facets {
-            first_corner: match facets.start {
+            corners_start: match facets.start {
                 0 => 0,
                 start => self.corner_ends[start - 1],
             },

@@ -1,6 +1,6 @@
 //! Cylinders and cones, enclosed in convex polytopes.
 
-use super::facets::fan_of;
+use super::facets::fan_triangles;
 use super::pieces::Pieces;
 use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::{Body, Volume};
@@ -166,7 +166,7 @@ impl Enclosure {
     pub fn triangles(&self) -> (Vec<[u32; 3]>, Vec<u32>) {
         let facets = (0..).zip(&self.polytope.facets);
         let fans = facets.flat_map(|(number, Facet { corners, .. })| {
-            fan_of(corners).map(move |fan| (fan, number))
+            fan_triangles(corners).map(move |fan| (fan, number))
         });
         if self.is_flat {
             Default::default()

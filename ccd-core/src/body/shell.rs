@@ -12,7 +12,7 @@ pub(crate) type ExtremePoints = [DVec3; 6];
 ///
 /// # Complexity
 /// Approximately linear in the number of points.
-pub(crate) fn shells(pieces: &Pieces) -> Vec<ExtremePoints> {
+pub(crate) fn part_extreme_points(pieces: &Pieces) -> Vec<ExtremePoints> {
     let points = pieces.points();
     let (mut parts, distinct) = join_points_by_number(pieces);
     let mut count = distinct.len();

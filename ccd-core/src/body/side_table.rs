@@ -16,7 +16,7 @@ struct Column {
     /// The column's entries: a `Vec<OnceLock<T>>` for some type `T`.
     entries: Box<dyn Any + Send + Sync>,
     /// The rest of the linked list: the columns for other types of values.
-    next: SideTable,
+    other_columns: SideTable,
 }
 
 impl SideTable {
@@ -29,7 +29,7 @@ impl SideTable {
             if let Some(entries) = column.entries.downcast_ref::<Vec<OnceLock<T>>>() {
                 return &entries[index];
             }
-            side_table = &column.next;
+            side_table = &column.other_columns;
         }
     }
 }
@@ -39,7 +39,7 @@ impl Column {
         let entries: Vec<OnceLock<T>> = (0..len).map(|_| OnceLock::new()).collect();
         Column {
             entries: Box::new(entries),
-            next: SideTable::default(),
+            other_columns: SideTable::default(),
         }
     }
 }

@@ -68,9 +68,9 @@ impl Support {
         }
     }
 
-    /// Like `Support::extremal`, but may start at `corner`, a point that is likely to be nearly extremal.
+    /// Like [`Support::extremal_point`], but may start at `corner`, a point that is likely to be nearly extremal.
     #[inline]
-    pub(crate) fn extremal_point_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
+    pub(crate) fn extremal_point_with_hint(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {
             (Support::Climb(table), Some(corner)) => table.extremal_point_from(corner, direction),
             _ => self.extremal_point(direction),

@@ -1,9 +1,9 @@
 //! Describes a body's surface around one of its points by vectors to nearby corners.
 
 use super::Body;
-use super::facets::fan_of;
+use super::facets::fan_triangles;
 use super::piece::Piece;
-use super::tree::point_query::{is_farther_than, pieces_near};
+use super::tree::point_query::{is_triangle_certainly_farther, pieces_near};
 use glam::DVec3;
 
 impl Body {
@@ -17,11 +17,11 @@ impl Body {
         for k in pieces_near(self.tree(), at, reach) {
             let piece = self.pieces().get(k as usize);
             let mut is_near = false;
-            for_each_face(&piece, |face| {
+            for_each_face_or_facet(&piece, |face| {
                 let near = match *face {
-                    [a] => !is_farther_than([a; 3], at, reach),
-                    [a, b] => !is_farther_than([a, b, b], at, reach),
-                    [a, b, c] => !is_farther_than([a, b, c], at, reach),
+                    [a] => !is_triangle_certainly_farther([a; 3], at, reach),
+                    [a, b] => !is_triangle_certainly_farther([a, b, b], at, reach),
+                    [a, b, c] => !is_triangle_certainly_farther([a, b, c], at, reach),
                     // The box of the piece is near.
                     _ => true,
                 };
@@ -39,7 +39,7 @@ impl Body {
 
 /// Calls `look` with the corners of each mesh triangle on a piece. If there are none, calls it with the triangles of
 /// the piece's facets, or with all points at once if no facets are known.
-fn for_each_face(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
+fn for_each_face_or_facet(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
     let mut is_on_mesh = false;
     for (_, triangle) in piece.mesh_triangles() {
         is_on_mesh = true;
@@ -49,7 +49,7 @@ fn for_each_face(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
         return;
     }
     for corners in piece.facets.iter() {
-        for fan in fan_of(corners) {
+        for fan in fan_triangles(corners) {
             look(&fan.map(|v| piece.points[v as usize]));
         }
     }

@@ -60,7 +60,7 @@ fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
 }
 
 /// Creates a tetrahedron twice: as a body of one piece, and as a body of four triangles.
-fn tetrahedron() -> [Body; 2] {
+fn tetrahedron_as_piece_and_as_triangles() -> [Body; 2] {
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
     let triangles = Pieces::triangles(&points, &faces, &[0, 1, 2, 3]).unwrap();
@@ -81,7 +81,7 @@ fn tetrahedron() -> [Body; 2] {
 
 #[test]
 fn a_surface_is_taken_against_many_triangles_only() {
-    let [one, triangles] = tetrahedron();
+    let [one, triangles] = tetrahedron_as_piece_and_as_triangles();
     let both = one.clone().with_surface(triangles.clone()).unwrap();
     assert_eq!(both.query_body_against(&triangles).pieces().len(), 4);
     assert_eq!(both.query_body_against(&one).pieces().len(), 1);
@@ -99,7 +99,7 @@ fn a_surface_is_taken_against_many_triangles_only() {
 
 #[test]
 fn invalid_surfaces_are_refused() {
-    let [one, triangles] = tetrahedron();
+    let [one, triangles] = tetrahedron_as_piece_and_as_triangles();
     let open = Body::new(triangles.pieces(), Volume::Surface).unwrap();
     let refused = [
         one.clone().with_surface(open),

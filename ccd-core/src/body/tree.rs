@@ -9,7 +9,7 @@ mod slab;
 mod waiting;
 mod whole;
 
-pub(crate) use build::Layout;
+pub(crate) use build::TreeLayout;
 pub(crate) use group::{
     BoxGroup, GroupHeader, LANES, Node, NodeChildren, StoredTriangleGroup, TriangleGroup,
     round_up_to_f32, unit_normal,
@@ -101,7 +101,7 @@ impl Tree {
     }
 
     /// Returns the largest distance of any point of the body from its origin, rounding radii included.
-    pub(crate) fn span(&self) -> f64 {
+    pub(crate) fn max_distance_from_origin(&self) -> f64 {
         self.span
     }
 
@@ -136,7 +136,7 @@ impl Tree {
         self.nodes[0].is_near(point, 0.0)
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_usage(&self) -> usize {
         size_of_val(self.nodes.as_slice())
             + size_of_val(self.box_groups.as_slice())
             + size_of_val(self.triangle_groups.as_slice())

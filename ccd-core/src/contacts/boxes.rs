@@ -29,13 +29,13 @@ enum FaceBoxContent {
 }
 
 /// The pairs of near faces found so far, with the remaining budget of the search.
-pub(super) struct NearFacePairs {
+pub(super) struct NearFacePairSearch {
     pub(super) pairs: Vec<[u32; 2]>,
-    pub(super) budget: u64,
+    pub(super) remaining_budget: u64,
     pub(super) reach: f64,
 }
 
-impl NearFacePairs {
+impl NearFacePairSearch {
     /// Adds the pairs of a face of A and a face of B below two roots whose boxes are no farther apart than `reach`.
     /// Returns `None` if the budget is spent.
     pub(super) fn add_pairs_below(
@@ -49,7 +49,7 @@ impl NearFacePairs {
             if a.is_farther_apart(b, self.reach) {
                 continue;
             }
-            self.budget = self.budget.checked_sub(1)?;
+            self.remaining_budget = self.remaining_budget.checked_sub(1)?;
             match (a.content, b.content) {
                 (FaceBoxContent::Face(face_a), FaceBoxContent::Face(face_b)) => {
                     self.pairs.push([face_a, face_b]);
@@ -75,7 +75,7 @@ impl FaceTrees {
     /// Builds a single box tree over all faces of a surface, for searches by a point.
     pub(super) fn over_all_faces(skin: &NearSurface<'_>) -> Self {
         let mut trees = FaceTrees::default();
-        trees.add_faces(skin, skin.all_faces());
+        trees.add_faces(skin, skin.face_indices());
         trees
     }
 

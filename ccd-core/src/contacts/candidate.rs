@@ -4,14 +4,14 @@ use glam::DVec3;
 
 /// The nearest points of a face of A and a face of B, in A's frame, with the indices of both faces.
 #[derive(Clone, Copy)]
-pub(super) struct Candidate {
+pub(super) struct ContactCandidate {
     pub(super) points: [DVec3; 2],
     pub(super) faces: [u32; 2],
     /// The sum of both faces' rounding radii. The radii of faces that share an edge or a corner may differ.
     pub(super) radii: f64,
 }
 
-impl Candidate {
+impl ContactCandidate {
     pub(super) fn distance(&self) -> f64 {
         self.points[0].distance(self.points[1])
     }

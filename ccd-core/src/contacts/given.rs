@@ -10,7 +10,7 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
-use crate::rounding::{RESTING_DECREASE, is_direction_uncertain};
+use crate::rounding::{APPROACH_DECREASE, is_direction_uncertain};
 
 /// Translates the contacts of an outcome from triangulated surfaces to the bodies that the caller gave. The normal, the
 /// nearest points and the bounds of a contact are those of the pieces that it names.
@@ -81,7 +81,7 @@ fn with_common_normal(
     // Overlapping pieces have no direction between them. Either direction may prove that they touch: an oracle that
     // computes their nearest points up to rounding need not return a direction. Written so that NaN counts as an
     // overlap.
-    if !(greater(lower, gap) >= -RESTING_DECREASE * problem.rounding) {
+    if !(greater(lower, gap) >= -APPROACH_DECREASE * problem.rounding) {
         return contact;
     }
     Contact {

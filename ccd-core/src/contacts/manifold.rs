@@ -1,6 +1,6 @@
 //! Collects all pairs of features in contact, and chooses the pairs to report.
 
-use super::candidate::Candidate;
+use super::candidate::ContactCandidate;
 use super::closest::{TrianglePart, nearest_point_on_triangle, nearest_points_on_crossing_edges};
 use super::feature_pair::FeaturePair;
 use super::measure::measure_feature_pair;
@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct ContactManifold<'a> {
     problem: &'a Problem<'a>,
     near_surfaces: [&'a NearSurface<'a>; 2],
-    found_pairs: HashMap<[SurfacePart; 2], Candidate>,
+    found_pairs: HashMap<[SurfacePart; 2], ContactCandidate>,
 }
 
 impl<'a> ContactManifold<'a> {
@@ -37,21 +37,25 @@ impl<'a> ContactManifold<'a> {
     pub(super) fn add_face_contacts(&mut self, faces: [u32; 2]) {
         let [a, b] = self.near_surfaces;
         let rounding = self.problem.rounding;
-        for v in a.corners_of(faces[0]) {
+        for v in a.unhidden_corners_of(faces[0]) {
             let (part, foot) = nearest_point_on_triangle(a.at(v), b.triangle(faces[1]), rounding);
             let spots = [SurfacePart::Corner(v), surface_part(b, faces[1], part)];
-            self.add_pair(spots, [a.at(v), foot], faces);
+            self.add_pair_if_near(spots, [a.at(v), foot], faces);
         }
-        for v in b.corners_of(faces[1]) {
+        for v in b.unhidden_corners_of(faces[1]) {
             let (part, foot) = nearest_point_on_triangle(b.at(v), a.triangle(faces[0]), rounding);
             let spots = [surface_part(a, faces[0], part), SurfacePart::Corner(v)];
-            self.add_pair(spots, [foot, b.at(v)], faces);
+            self.add_pair_if_near(spots, [foot, b.at(v)], faces);
         }
-        for e in a.edges_of(faces[0]) {
-            for f in b.edges_of(faces[1]) {
+        for e in a.unhidden_edges_of(faces[0]) {
+            for f in b.unhidden_edges_of(faces[1]) {
                 let ends = [e.map(|end| a.at(end)), f.map(|end| b.at(end))];
                 if let Some(points) = nearest_points_on_crossing_edges(ends[0], ends[1], rounding) {
-                    self.add_pair([SurfacePart::Edge(e), SurfacePart::Edge(f)], points, faces);
+                    self.add_pair_if_near(
+                        [SurfacePart::Edge(e), SurfacePart::Edge(f)],
+                        points,
+                        faces,
+                    );
                 }
             }
         }
@@ -59,7 +63,7 @@ impl<'a> ContactManifold<'a> {
 
     /// Adds a pair of features if it is within margin and tolerance, up to rounding. If the pair is known already, the
     /// nearer points are kept.
-    fn add_pair(&mut self, spots: [SurfacePart; 2], points: [DVec3; 2], faces: [u32; 2]) {
+    fn add_pair_if_near(&mut self, spots: [SurfacePart; 2], points: [DVec3; 2], faces: [u32; 2]) {
         let radius = |k: usize| self.near_surfaces[k].face(faces[k]).radius;
         let Problem {
             margin,
@@ -67,7 +71,7 @@ impl<'a> ContactManifold<'a> {
             rounding,
             ..
         } = self.problem;
-        let candidate = Candidate {
+        let candidate = ContactCandidate {
             points,
             faces,
             radii: radius(0) + radius(1),
@@ -82,7 +86,7 @@ impl<'a> ContactManifold<'a> {
         let covered = self.implied_pairs();
         let mut told = HashMap::new();
         for (mut spots, mut candidate) in sorted_pairs(&self.found_pairs) {
-            if covered.contains(&spots) || self.is_due_to_cut(spots, &candidate) {
+            if covered.contains(&spots) || self.is_due_to_triangulation(spots, &candidate) {
                 continue;
             }
             for (k, skin) in self.near_surfaces.iter().enumerate() {
@@ -116,7 +120,11 @@ impl<'a> ContactManifold<'a> {
     /// Returns whether a contact exists only because a flat part of a surface is cut into triangles. Its point is on an
     /// edge or corner within a plane, and another triangle of that plane comes nearer elsewhere. That nearer point
     /// makes a pair of its own.
-    fn is_due_to_cut(&self, spots: [SurfacePart; 2], candidate: &Candidate) -> bool {
+    fn is_due_to_triangulation(
+        &self,
+        spots: [SurfacePart; 2],
+        candidate: &ContactCandidate,
+    ) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
             let (skin, from) = (self.near_surfaces[k], candidate.points[1 - k]);
@@ -155,9 +163,9 @@ fn surface_part(skin: &NearSurface<'_>, face: u32, part: TrianglePart) -> Surfac
 }
 
 fn insert_if_nearer(
-    pairs: &mut HashMap<[SurfacePart; 2], Candidate>,
+    pairs: &mut HashMap<[SurfacePart; 2], ContactCandidate>,
     spots: [SurfacePart; 2],
-    candidate: Candidate,
+    candidate: ContactCandidate,
 ) {
     let kept = pairs.entry(spots).or_insert(candidate);
     if candidate.gap() < kept.gap() {
@@ -167,8 +175,8 @@ fn insert_if_nearer(
 
 /// Returns the pairs sorted by their features, so that their order does not depend on the hash map.
 fn sorted_pairs(
-    pairs: &HashMap<[SurfacePart; 2], Candidate>,
-) -> Vec<([SurfacePart; 2], Candidate)> {
+    pairs: &HashMap<[SurfacePart; 2], ContactCandidate>,
+) -> Vec<([SurfacePart; 2], ContactCandidate)> {
     let mut list: Vec<_> = pairs.iter().map(|(&spots, &it)| (spots, it)).collect();
     list.sort_unstable_by_key(|&(spots, _)| spots);
     list

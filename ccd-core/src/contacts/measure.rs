@@ -1,6 +1,6 @@
 //! Bounds the distance of two features from below by a gap along an axis, and from above by two points.
 
-use super::candidate::Candidate;
+use super::candidate::ContactCandidate;
 use super::feature_pair::FeaturePair;
 use super::skin::{NearSurface, SurfacePart};
 use crate::answer::Separation;
@@ -26,7 +26,7 @@ pub(super) fn measure_feature_pair(
     problem: &Problem<'_>,
     skins: [&NearSurface<'_>; 2],
     a_to_world: &Frame,
-    (spots, candidate): &(SurfaceParts, Candidate),
+    (spots, candidate): &(SurfaceParts, ContactCandidate),
     common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
 ) -> FeaturePair {
     let face = |k: usize| skins[k].face(candidate.faces[k]);
@@ -102,13 +102,13 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
 fn outward_direction(
     skins: [&NearSurface<'_>; 2],
     spots: &[SurfacePart; 2],
-    candidate: &Candidate,
+    candidate: &ContactCandidate,
 ) -> DVec3 {
     let out = |k: usize| {
         let out = skins[k].outward_direction(spots[k], candidate.faces[k]);
         unit(out).unwrap_or(DVec3::ZERO)
     };
-    let middle = |k: usize| skins[k].centroid(skins[k].face(candidate.faces[k]).piece);
+    let middle = |k: usize| skins[k].mean_of_points(skins[k].face(candidate.faces[k]).piece);
     match out(0) - out(1) {
         DVec3::ZERO => middle(1) - middle(0),
         towards => towards,

@@ -1,6 +1,6 @@
 //! Finds the pieces of two bodies that are near each other, and their near faces, with bounding volume trees.
 
-use super::boxes::{FaceTrees, NearFacePairs};
+use super::boxes::{FaceTrees, NearFacePairSearch};
 use super::skin::NearSurface;
 use crate::body::tree::{NodeChildren, NodeId, NodeOrTriangle, Tree};
 use crate::math::order::{greater, lesser};
@@ -19,9 +19,9 @@ pub(super) fn near_face_pairs(
     reach: f64,
 ) -> Option<Vec<[u32; 2]>> {
     let mut trees = <[FaceTrees; 2]>::default();
-    let mut near = NearFacePairs {
+    let mut near = NearFacePairSearch {
         pairs: Vec::new(),
-        budget: problem.budget,
+        remaining_budget: problem.budget,
         reach,
     };
     for pieces in near_piece_pairs(problem, b_to_a, reach)? {
@@ -43,7 +43,7 @@ fn near_piece_pairs(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option
             BoundingVolume::new(&problem.a, at_a, &Frame::IDENTITY),
             BoundingVolume::new(&problem.b, at_b, b_to_a),
         ];
-        if certainly_apart(&extents, reach) {
+        if are_certainly_apart(&extents, reach) {
             continue;
         }
         // As in a schedule, a pair counts when it is split, or examined, not when it is created.
@@ -53,19 +53,19 @@ fn near_piece_pairs(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option
         }
         match (a.piece(at_a), b.piece(at_b)) {
             (Some(piece_a), Some(piece_b)) => near.push([piece_a, piece_b]),
-            (None, Some(_)) => stack.extend(children_of(a, at_a).map(|at| [at, at_b])),
-            (Some(_), None) => stack.extend(children_of(b, at_b).map(|at| [at_a, at])),
+            (None, Some(_)) => stack.extend(child_ids(a, at_a).map(|at| [at, at_b])),
+            (Some(_), None) => stack.extend(child_ids(b, at_b).map(|at| [at_a, at])),
             (None, None) if extents[0].radius >= extents[1].radius => {
-                stack.extend(children_of(a, at_a).map(|at| [at, at_b]));
+                stack.extend(child_ids(a, at_a).map(|at| [at, at_b]));
             }
-            (None, None) => stack.extend(children_of(b, at_b).map(|at| [at_a, at])),
+            (None, None) => stack.extend(child_ids(b, at_b).map(|at| [at_a, at])),
         }
     }
     Some(near)
 }
 
 /// Returns the ids of a node's children; empty for a triangle or a node with a single piece.
-fn children_of(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
+fn child_ids(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     let members = match tree.get(at) {
         NodeOrTriangle::Triangle(_) => return 0..0,
         NodeOrTriangle::Node(node) => match node.children {
@@ -83,10 +83,10 @@ struct BoundingVolume {
     radius: f64,
     /// The candidates for a separating axis: the axes of the box, or the normal of the triangle.
     axes: [DVec3; 3],
-    shape: Shape,
+    shape: BoxOrTriangle,
 }
 
-enum Shape {
+enum BoxOrTriangle {
     /// A box, given by half its extent along each of `axes`.
     Box([f64; 3]),
     Triangle([DVec3; 3]),
@@ -103,7 +103,7 @@ impl BoundingVolume {
                     centre: to_a.point(node.centre),
                     radius,
                     axes: node.axes.map(|axis| to_a.rotation * axis.as_dvec3()),
-                    shape: Shape::Box(node.half.map(|half| f64::from(half) + more)),
+                    shape: BoxOrTriangle::Box(node.half.map(|half| f64::from(half) + more)),
                 }
             }
             NodeOrTriangle::Triangle(piece) => {
@@ -115,7 +115,7 @@ impl BoundingVolume {
                     centre,
                     radius: corners.map(arm).into_iter().fold(0.0, greater),
                     axes: [normal(corners).unwrap_or(DVec3::ZERO); 3],
-                    shape: Shape::Triangle(corners),
+                    shape: BoxOrTriangle::Triangle(corners),
                 }
             }
         }
@@ -124,12 +124,12 @@ impl BoundingVolume {
     /// Returns the interval of the volume's projection on a direction.
     fn projection_on(&self, n: DVec3) -> [f64; 2] {
         match &self.shape {
-            Shape::Box(half) => {
+            BoxOrTriangle::Box(half) => {
                 let reach = |k: usize| half[k] * self.axes[k].dot(n).abs();
                 let (middle, reach) = (self.centre.dot(n), reach(0) + reach(1) + reach(2));
                 [middle - reach, middle + reach]
             }
-            Shape::Triangle(corners) => {
+            BoxOrTriangle::Triangle(corners) => {
                 let [a, b, c] = corners.map(|corner| corner.dot(n));
                 [lesser(lesser(a, b), c), greater(greater(a, b), c)]
             }
@@ -139,7 +139,7 @@ impl BoundingVolume {
 
 /// Returns whether two nodes are certainly farther apart than `reach`. It tries their balls, the axes of both nodes,
 /// and the vector between their centres. Written so that NaN counts as near.
-fn certainly_apart([a, b]: &[BoundingVolume; 2], reach: f64) -> bool {
+fn are_certainly_apart([a, b]: &[BoundingVolume; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);
     if distance > a.radius + b.radius + reach {

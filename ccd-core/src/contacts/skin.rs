@@ -18,7 +18,7 @@ pub(super) struct NearSurface<'a> {
     corners: Vec<Corner>,
     faces: Vec<Face>,
     /// The index of the corner with a given position and mesh number.
-    corner_index: HashMap<(PointBits, Option<u32>), u32>,
+    corner_indices: HashMap<(PointBits, Option<u32>), u32>,
     /// The edges between two coplanar faces, each mapped to these two faces. Points on such an edge belong to the first
     /// of the faces.
     coplanar_edges: HashMap<[u32; 2], [u32; 2]>,
@@ -67,7 +67,7 @@ impl<'a> NearSurface<'a> {
             body_to_a: to_a,
             corners: Vec::new(),
             faces: Vec::new(),
-            corner_index: HashMap::new(),
+            corner_indices: HashMap::new(),
             coplanar_edges: HashMap::new(),
             is_hidden: Vec::new(),
             faces_around: HashMap::new(),
@@ -85,7 +85,7 @@ impl<'a> NearSurface<'a> {
 
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
-    pub(super) fn find_cut_edges(&mut self, rounding: f64) {
+    pub(super) fn find_coplanar_edges(&mut self, rounding: f64) {
         self.propagate_mesh_numbers();
         self.compute_corner_normals();
         let mut sides: HashMap<[u32; 2], EdgeFaces> = HashMap::new();
@@ -171,7 +171,7 @@ impl<'a> NearSurface<'a> {
         }
     }
 
-    pub(super) fn all_faces(&self) -> Range<u32> {
+    pub(super) fn face_indices(&self) -> Range<u32> {
         0..self.faces.len() as u32
     }
 
@@ -195,8 +195,8 @@ impl<'a> NearSurface<'a> {
     }
 
     /// Returns the middle of a piece's points.
-    pub(super) fn centroid(&self, piece: u32) -> DVec3 {
-        self.body_to_a.point(self.body.centroid(piece))
+    pub(super) fn mean_of_points(&self, piece: u32) -> DVec3 {
+        self.body_to_a.point(self.body.mean_of_points(piece))
     }
 
     /// Returns the edges and corners on the boundary of an edge or face.
@@ -252,7 +252,7 @@ impl<'a> NearSurface<'a> {
     }
 
     /// Returns the distinct corners of a face that are not hidden.
-    pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
+    pub(super) fn unhidden_corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
         let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
         let shown = |corner: &u32| !self.is_hidden[*corner as usize];
@@ -260,7 +260,7 @@ impl<'a> NearSurface<'a> {
     }
 
     /// Returns the edges of a face, except those between coplanar faces.
-    pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
+    pub(super) fn unhidden_edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
         triangle_edges(self.face(face).corners)
             .filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
     }

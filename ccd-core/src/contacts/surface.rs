@@ -30,15 +30,15 @@ impl<'a> Surface<'a> {
         let reach = ADJACENCY_DISTANCE * rounding;
         let mut normals = CommonNormals::default();
         normals.reset(LEVEL_HEIGHT * rounding);
-        surfaces[0].offsets_around(points[0], reach, |way| normals.add_offset_of_a(way));
-        surfaces[1].offsets_around(points[1], reach, |way| normals.add_offset_of_b(way));
+        surfaces[0].for_each_offset_around(points[0], reach, |way| normals.add_offset_of_a(way));
+        surfaces[1].for_each_offset_around(points[1], reach, |way| normals.add_offset_of_b(way));
         normals.sort_offsets();
         normals
     }
 
     /// Calls `add` with the vectors from a point to the corners of the faces around it, and to points of the solid
     /// below these faces.
-    fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+    fn for_each_offset_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for face in self.tree.faces_near(at, reach) {
             let (_, nearest) = nearest_point_on_triangle(at, self.near_surface.triangle(face), 0.0);
             // Written so that NaN is near.

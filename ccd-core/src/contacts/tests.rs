@@ -24,10 +24,17 @@ fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> 
         tolerance,
         ..Settings::DEFAULT
     };
-    still(a, b, pose, &config).contacts_at(0.25).unwrap()
+    problem_of_still_bodies(a, b, pose, &config)
+        .contacts_at(0.25)
+        .unwrap()
 }
 
-fn still<'a>(a: &'a Body, b: &'a Body, pose: Pose, config: &'a Settings) -> Problem<'a> {
+fn problem_of_still_bodies<'a>(
+    a: &'a Body,
+    b: &'a Body,
+    pose: Pose,
+    config: &'a Settings,
+) -> Problem<'a> {
     let moving = |body, pose| MovingBody::from((body, Motion::still(pose)));
     Problem::about(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
 }
@@ -66,7 +73,7 @@ fn cuboids(half: DVec3) -> [Body; 2] {
     [Mesh::cuboid(half).body(Volume::Solid), solid]
 }
 
-fn check_bounds(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
+fn check_separations(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
     for pair in pairs {
         let Separation { lower, upper, .. } = pair.separation;
         assert!(
@@ -94,7 +101,7 @@ fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
                         "{x} {y} {gap}: {:?}",
                         feature_names(&pairs)
                     );
-                    check_bounds(&pairs, gap, -DVec3::Z);
+                    check_separations(&pairs, gap, -DVec3::Z);
                     let vertices: Vec<u32> =
                         pairs.iter().map(|pair| vertex(pair.feature_a)).collect();
                     assert!((0..4).all(|v| vertices.contains(&v)), "{vertices:?}");
@@ -122,7 +129,7 @@ fn a_cube_over_the_side_of_a_slab_has_two_corners_and_two_crossings() {
                 "{:?}",
                 feature_names(&pairs)
             );
-            check_bounds(&pairs, 5e-4, -DVec3::Z);
+            check_separations(&pairs, 5e-4, -DVec3::Z);
         }
     }
 }
@@ -140,7 +147,7 @@ fn flush_squares_cross_along_their_outlines() {
             "{:?}",
             feature_names(&pairs)
         );
-        check_bounds(&pairs, 5e-4, -DVec3::Z);
+        check_separations(&pairs, 5e-4, -DVec3::Z);
     }
     let bars = [DVec3::new(2.0, 0.5, 0.2), DVec3::new(0.5, 2.0, 0.2)];
     let [a, b] = bars.map(|half| Mesh::cuboid(half).body(Volume::Solid));
@@ -151,7 +158,7 @@ fn flush_squares_cross_along_their_outlines() {
         "{:?}",
         feature_names(&pairs)
     );
-    check_bounds(&pairs, 0.0, -DVec3::Z);
+    check_separations(&pairs, 0.0, -DVec3::Z);
 }
 
 /// Tests that two equal squares on each other report only the pairs of their corners, not those of the edges and faces.
@@ -160,14 +167,14 @@ fn equal_faces_meet_in_their_corners() {
     for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
         let pairs = contacts(&a, &b, at(0.0, 0.0, 2.0005), 1e-3);
         assert_eq!(feature_names(&pairs), ["v0 v4", "v1 v5", "v2 v6", "v3 v7"]);
-        check_bounds(&pairs, 5e-4, -DVec3::Z);
+        check_separations(&pairs, 5e-4, -DVec3::Z);
         // One face is shifted along one side, and its corners are within edges.
         let pairs = contacts(&a, &b, at(0.7, 0.0, 2.0005), 1e-3);
         assert_eq!(
             feature_names(&pairs),
             ["e0-1 v5", "e2-3 v7", "v0 e4-5", "v2 e6-7"]
         );
-        check_bounds(&pairs, 5e-4, -DVec3::Z);
+        check_separations(&pairs, 5e-4, -DVec3::Z);
     }
 }
 
@@ -177,7 +184,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     let ball = Body::sphere(0.5).unwrap();
     let pairs = contacts(&ball, &slab, at(0.3, 0.1, 1.5005), 1e-3);
     assert_eq!(feature_names(&pairs), ["v0 f5"]);
-    check_bounds(&pairs, 5e-4, -DVec3::Z);
+    check_separations(&pairs, 5e-4, -DVec3::Z);
     let pairs = contacts(
         &ball,
         &Body::sphere(0.7).unwrap(),
@@ -185,21 +192,21 @@ fn balls_and_capsules_touch_with_their_surfaces() {
         1e-3,
     );
     assert_eq!(feature_names(&pairs), ["v0 v0"]);
-    check_bounds(&pairs, 5e-4, -DVec3::Y);
+    check_separations(&pairs, 5e-4, -DVec3::Y);
 
     let capsule = Body::capsule(0.25, 1.0).unwrap();
     let lying = with_rotation(at(0.0, 0.0, 1.2505), DVec3::X, std::f64::consts::FRAC_PI_2);
     let pairs = contacts(&capsule, &slab, lying, 1e-3);
     assert_eq!(feature_names(&pairs), ["v0 f5", "v1 f5"]);
-    check_bounds(&pairs, 5e-4, -DVec3::Z);
+    check_separations(&pairs, 5e-4, -DVec3::Z);
     // The edges cross each other, or are side by side.
     let across = with_rotation(at(0.5005, 0.0, 0.0), DVec3::X, 1.0);
     let pairs = contacts(&capsule, &capsule, across, 1e-3);
     assert_eq!(feature_names(&pairs), ["e0-1 e0-1"]);
-    check_bounds(&pairs, 5e-4, -DVec3::X);
+    check_separations(&pairs, 5e-4, -DVec3::X);
     let pairs = contacts(&capsule, &capsule, at(0.5005, 0.0, 0.5), 1e-3);
     assert_eq!(feature_names(&pairs), ["e0-1 v1", "v0 e0-1"]);
-    check_bounds(&pairs, 5e-4, -DVec3::X);
+    check_separations(&pairs, 5e-4, -DVec3::X);
 }
 
 /// Tests that a corner without a mesh number is named by its piece, or by its point if the piece has no facets.
@@ -225,7 +232,7 @@ fn features_without_a_number_are_named_by_their_piece() {
         let pairs = contacts(&body, &slab, at(0.3, 0.1, 1.5005), 1e-3);
         assert_eq!(pairs.len(), 4, "{:?}", feature_names(&pairs));
         assert!(feature_names(&pairs).iter().all(|it| it.starts_with(name)));
-        check_bounds(&pairs, 5e-4, -DVec3::Z);
+        check_separations(&pairs, 5e-4, -DVec3::Z);
     }
 }
 
@@ -238,10 +245,10 @@ fn a_margin_is_reached_across() {
         ..Settings::DEFAULT
     };
     for (height, count) in [(0.2505, 4), (0.2515, 0)] {
-        let problem = still(&cube, &cube, at(0.0, 0.0, 1.0 + height), &config);
+        let problem = problem_of_still_bodies(&cube, &cube, at(0.0, 0.0, 1.0 + height), &config);
         let pairs = problem.contacts_at(0.5).unwrap();
         assert_eq!(pairs.len(), count, "{:?}", feature_names(&pairs));
-        check_bounds(&pairs, height, -DVec3::Z);
+        check_separations(&pairs, height, -DVec3::Z);
     }
 }
 
@@ -268,7 +275,7 @@ fn no_pair_of_random_soups_is_missed() {
         let place = point_in_ball(rng, size);
         let pose = Pose::new(place, rotation(rng)).unwrap();
         let tolerance = size * magnitude(rng, -2.5, -0.5);
-        compare(&a, &b, pose, tolerance, &mut found, round);
+        compare_with_brute_force(&a, &b, pose, tolerance, &mut found, round);
     }
     assert!(found.iter().all(|&count| count > 120), "{found:?}");
 }
@@ -297,7 +304,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
             5e-4 - lowest,
         );
         let tolerance = [1e-3, 1e-2, 0.1][rng.random_range(0..3)];
-        compare(
+        compare_with_brute_force(
             &a,
             &b,
             Pose::new(place, turn).unwrap(),
@@ -311,13 +318,20 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
 
 /// Compares the contacts of two meshes with a brute-force search, by features and distances, and counts them in
 /// `found`.
-fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
+fn compare_with_brute_force(
+    a: &Mesh,
+    b: &Mesh,
+    pose: Pose,
+    tolerance: f64,
+    found: &mut [usize; 3],
+    round: usize,
+) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
     let config = Settings {
         tolerance,
         ..Settings::DEFAULT
     };
-    let problem = still(&body_a, &body_b, pose, &config);
+    let problem = problem_of_still_bodies(&body_a, &body_b, pose, &config);
     let pairs = problem.contacts_at(0.0).unwrap();
     let placed = a.at_pose(&pose);
     let expected = twin::contacts(&placed, b, tolerance, problem.rounding);
@@ -398,7 +412,7 @@ fn fine_plates_face_to_face_are_no_trouble() {
 #[test]
 fn times_beyond_the_duration_and_budgets_are_refused() {
     let cube = Mesh::cuboid(DVec3::ONE).body(Volume::Solid);
-    let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &Settings::DEFAULT);
+    let problem = problem_of_still_bodies(&cube, &cube, at(0.0, 0.0, 2.0), &Settings::DEFAULT);
     let (place, settings) = (Pose::at([0.0, 0.0, 2.0]).unwrap(), Settings::DEFAULT);
     let query = Query::new((&cube, place), (&cube, Pose::IDENTITY), 1.0, &settings).unwrap();
     for time in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
@@ -415,7 +429,7 @@ fn times_beyond_the_duration_and_budgets_are_refused() {
             budget,
             ..Settings::DEFAULT
         };
-        let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &config);
+        let problem = problem_of_still_bodies(&cube, &cube, at(0.0, 0.0, 2.0), &config);
         assert_eq!(
             problem.contacts_at(0.5),
             Err(ContactsError::TooManyPairs { budget })

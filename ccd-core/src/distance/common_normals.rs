@@ -81,7 +81,7 @@ impl CommonNormals {
         let towards = unit(towards)?;
         let mut best = towards;
         for (k, offset) in self.offsets.iter().copied().enumerate() {
-            if self.violates(best, offset) {
+            if self.falls_along(best, offset) {
                 best = self.project_perpendicular(towards, offset, k)?;
             }
         }
@@ -95,10 +95,13 @@ impl CommonNormals {
         let mut best = unit_of_component(towards - level * level.dot(towards))?;
         let before = || self.offsets.iter().copied().take(count);
         for (k, offset) in before().enumerate() {
-            if self.violates(best, offset) {
+            if self.falls_along(best, offset) {
                 let line = unit(perpendicular_vector(level, offset))?;
                 best = unit_of_component(line * line.dot(towards))?;
-                if before().take(k).any(|offset| self.violates(best, offset)) {
+                if before()
+                    .take(k)
+                    .any(|offset| self.falls_along(best, offset))
+                {
                     return None;
                 }
             }
@@ -106,7 +109,7 @@ impl CommonNormals {
         Some(best)
     }
 
-    fn violates(&self, n: DVec3, offset: DVec3) -> bool {
+    fn falls_along(&self, n: DVec3, offset: DVec3) -> bool {
         // Written so that NaN counts as a violation.
         !(n.dot(offset) >= -self.slack)
     }

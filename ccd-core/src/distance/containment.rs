@@ -6,11 +6,11 @@ use crate::answer::{Limit, Outcome, Overlap};
 use crate::body::Body;
 use crate::body::shell::ExtremePoints;
 use crate::body::tree::point_query::is_far_from_surface;
-use crate::body::tree::ray::crossings;
+use crate::body::tree::ray::count_crossings;
 use crate::math::vector::{perpendicular_vector, unit_or_any};
 use crate::motion::pose::Frame;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::INSIDE_DISTANCE;
+use crate::rounding::CERTAIN_SIDE_DISTANCE;
 use beside::points_beside_edges;
 use glam::DVec3;
 
@@ -41,8 +41,11 @@ pub(crate) fn containment_at_start(
     if !(problem.a.body.may_be_hollow() || problem.b.body.may_be_hollow()) {
         return None;
     }
-    let (a, b) = (PlacedBody::of(&problem.a), PlacedBody::of(&problem.b));
-    let reach = INSIDE_DISTANCE * problem.rounding;
+    let (a, b) = (
+        PlacedBody::at_start(&problem.a),
+        PlacedBody::at_start(&problem.b),
+    );
+    let reach = CERTAIN_SIDE_DISTANCE * problem.rounding;
     let mut look = |outer: &PlacedBody<'_>, inner: &PlacedBody<'_>, side: usize| {
         let search = Search {
             outer_body: outer,
@@ -51,7 +54,7 @@ pub(crate) fn containment_at_start(
         };
         if outer.body.may_be_hollow() {
             let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
-            search.test_body(pairs, pieces)
+            search.find_part_inside(pairs, pieces)
         } else {
             ContainmentResult::NotInside
         }
@@ -73,7 +76,7 @@ struct PlacedBody<'a> {
 }
 
 impl PlacedBody<'_> {
-    fn of<'a>(side: &BodyWithPath<'a>) -> PlacedBody<'a> {
+    fn at_start<'a>(side: &BodyWithPath<'a>) -> PlacedBody<'a> {
         PlacedBody {
             body: side.body,
             frame: side.path.frame(0.0),
@@ -106,7 +109,7 @@ impl ContainmentResult {
 impl Search<'_> {
     /// Tests whether a part or a piece of the inner body is inside the outer body; `touching` has the pairs of an inner
     /// and an outer piece that touch.
-    fn test_body(
+    fn find_part_inside(
         &self,
         touching: impl Iterator<Item = [u32; 2]> + Clone,
         pieces: &mut Vec<u32>,
@@ -116,9 +119,9 @@ impl Search<'_> {
         pieces.sort_unstable();
         pieces.dedup();
         let mut result = ContainmentResult::NotInside;
-        let parts = self.inner_body.body.shells().iter();
-        let of_parts = parts.map(|shell| self.test_part(shell, pieces));
-        let of_pieces = pieces.iter().map(|&piece| self.test_piece(piece));
+        let parts = self.inner_body.body.part_extreme_points().iter();
+        let of_parts = parts.map(|shell| self.classify_part(shell, pieces));
+        let of_pieces = pieces.iter().map(|&piece| self.classify_piece(piece));
         for one in of_parts.chain(of_pieces) {
             match one {
                 ContainmentResult::Inside(_) => return one,
@@ -130,13 +133,13 @@ impl Search<'_> {
         pieces.retain(|&piece| self.has_known_outline(piece) && !self.is_thick(piece));
         let thin = touching.filter(|[inner, _]| pieces.binary_search(inner).is_ok());
         let inside = thin
-            .map(|pair| self.test_edges(pair))
+            .map(|pair| self.classify_points_beside_edges(pair))
             .find(ContainmentResult::is_inside);
         inside.unwrap_or(result)
     }
 
     /// Tests whether a point, given in the inner body's frame, is inside the outer body.
-    fn test_point(&self, point: DVec3) -> ContainmentResult {
+    fn classify_point(&self, point: DVec3) -> ContainmentResult {
         let placed = self.inner_body.frame.point(point);
         let there = self.outer_body.frame.inverse_point(placed);
         match contains(self.outer_body.body, there, self.reach) {
@@ -147,16 +150,19 @@ impl Search<'_> {
     }
 
     /// Tests points one by one, until one is certainly inside or certainly outside.
-    fn test_points(&self, points: impl IntoIterator<Item = DVec3>) -> ContainmentResult {
-        let mut answers = points.into_iter().map(|p| self.test_point(p));
+    fn classify_first_decided_point(
+        &self,
+        points: impl IntoIterator<Item = DVec3>,
+    ) -> ContainmentResult {
+        let mut answers = points.into_iter().map(|p| self.classify_point(p));
         let told = answers.find(|result| !matches!(result, ContainmentResult::Undecided));
         told.unwrap_or(ContainmentResult::Undecided)
     }
 
     /// Tests whether an extreme point of a connected part of the inner body is inside the outer body. If all of them
     /// are on the outer surface, the touching pieces decide about the part.
-    fn test_part(&self, shell: &ExtremePoints, touching: &[u32]) -> ContainmentResult {
-        let result = self.test_points(*shell);
+    fn classify_part(&self, shell: &ExtremePoints, touching: &[u32]) -> ContainmentResult {
+        let result = self.classify_first_decided_point(*shell);
         let pieces = self.inner_body.body.pieces();
         let touches = |&piece: &u32| pieces.get(piece as usize).points.contains(&shell[0]);
         match result {
@@ -169,21 +175,21 @@ impl Search<'_> {
 
     /// Tests whether a piece that touches the other body has a point inside that body. The tested points are the
     /// piece's corners, which pieces that do not touch share, and a point of the solid behind or in the piece.
-    fn test_piece(&self, piece: u32) -> ContainmentResult {
+    fn classify_piece(&self, piece: u32) -> ContainmentResult {
         let body = self.inner_body.body;
         let corners = match body.pieces().get(piece as usize) {
             // A single piece shares no corner: the middle decides if it is thick.
             _ if body.pieces().len() == 1 && self.is_thick(piece) => &[],
             piece => piece.points,
         };
-        let mut inside = corners.iter().map(|&p| self.test_point(p));
+        let mut inside = corners.iter().map(|&p| self.classify_point(p));
         if let Some(result) = inside.find(ContainmentResult::is_inside) {
             return result;
         }
         match body.point_inside(piece) {
-            Some(point) => self.test_points([point]),
+            Some(point) => self.classify_first_decided_point([point]),
             // A point of a surface that is on the other's surface is not inside.
-            None => match self.test_point(body.centroid(piece)) {
+            None => match self.classify_point(body.mean_of_points(piece)) {
                 ContainmentResult::Undecided => ContainmentResult::NotInside,
                 result => result,
             },
@@ -199,7 +205,7 @@ impl Search<'_> {
     /// Returns whether the middle of a piece is inside the piece by more than rounding. A face through the middle would
     /// intersect the piece by more than that.
     fn is_thick(&self, piece: u32) -> bool {
-        let middle = self.inner_body.body.centroid(piece);
+        let middle = self.inner_body.body.mean_of_points(piece);
         let piece = self.inner_body.body.pieces().get(piece as usize);
         let is_above = |corners: &[u32]| {
             let [a, b, c] = [0, 1, 2].map(|k| piece.points[corners[k] as usize]);
@@ -213,7 +219,7 @@ impl Search<'_> {
 
     /// Tests whether a thin piece is inside the outer body next to an edge of `outer` that lies on the piece. Some of
     /// the tested points are next to faces.
-    fn test_edges(&self, [inner, outer]: [u32; 2]) -> ContainmentResult {
+    fn classify_points_beside_edges(&self, [inner, outer]: [u32; 2]) -> ContainmentResult {
         let piece = self.inner_body.body.pieces().get(inner as usize);
         let other = self.outer_body.body.pieces().get(outer as usize);
         let place = |p: DVec3| {
@@ -222,7 +228,7 @@ impl Search<'_> {
                 .inverse_point(self.outer_body.frame.point(p))
         };
         let points = points_beside_edges(&piece, &other, place, self.reach);
-        let mut result = points.map(|p| self.test_point(p));
+        let mut result = points.map(|p| self.classify_point(p));
         result
             .find(ContainmentResult::is_inside)
             .unwrap_or(ContainmentResult::NotInside)
@@ -238,7 +244,7 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !is_far_from_surface(body.tree(), body.pieces(), point, reach) {
         return None;
     }
-    let result = crossings(body.tree(), body.pieces(), point, 0.0)?;
+    let result = count_crossings(body.tree(), body.pieces(), point, 0.0)?;
     (result.triangles_at_start == 0).then_some(result.sum_ahead != 0)
 }
 

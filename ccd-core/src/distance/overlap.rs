@@ -6,7 +6,7 @@ use super::separation::CheckedClaim;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::perpendicular_vector;
 use crate::math::vector::unit_or_any;
-use crate::tuning::MAX_INNER_POLYTOPE_CORNERS;
+use crate::tuning::MAX_OVERLAP_POLYTOPE_CORNERS;
 use glam::DVec3;
 
 /// Whether two pieces intersect by more than rounding.
@@ -27,11 +27,11 @@ pub(crate) enum Intersection {
 /// Without rounding radii the claim alone decides nothing. Either the origin is in the hull of the differences of the
 /// pieces' points by more than `rounding`, or an axis proves that it is not. With rounding radii either the claim's
 /// witnesses prove an intersection, or its axis disproves one. If neither does, the pieces count as touching.
-pub(crate) fn intersects(
+pub(crate) fn decide_intersection(
     pair: &PiecePair<'_>,
     checked: &CheckedClaim,
     rounding: f64,
-    inner: &mut InnerPolytope,
+    inner: &mut OverlapPolytope,
 ) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
@@ -49,7 +49,7 @@ pub(crate) fn intersects(
         // The differences are in one plane, up to rounding.
         return Intersection::None;
     }
-    for _ in 0..MAX_INNER_POLYTOPE_CORNERS {
+    for _ in 0..MAX_OVERLAP_POLYTOPE_CORNERS {
         let Some(&face) = inner.shallowest_face() else {
             return Intersection::Undecided;
         };
@@ -80,7 +80,7 @@ fn minkowski_support_point(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
 /// Its faces form a closed surface even if their normals are rounded: the faces that a new corner sees are replaced
 /// by a cone to their rim. Once all faces are turned away from the origin, the surface winds about it.
 #[derive(Debug, Default)]
-pub(crate) struct InnerPolytope {
+pub(crate) struct OverlapPolytope {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
     /// The edges between a face that the last added corner is in front of, and a face that the corner is behind.
@@ -99,7 +99,7 @@ struct Face {
     height: f64,
 }
 
-impl InnerPolytope {
+impl OverlapPolytope {
     /// Replaces the polytope by a tetrahedron of four points of the Minkowski difference. Returns false if all
     /// differences are in one plane.
     fn start_with_tetrahedron(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {

@@ -77,7 +77,7 @@ pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
 fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
     let highest = match pair.a.support_map {
         Some(support) => {
-            let farthest = support.extremal_point_near(near[0], n);
+            let farthest = support.extremal_point_with_hint(near[0], n);
             n.dot(pair.a.points[farthest as usize] - from)
         }
         None => {
@@ -89,7 +89,7 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
     let origin_b = n.dot(pair.b_to_a.translation - from);
     let lowest = match pair.b.support_map {
         Some(support) => {
-            let farthest = support.extremal_point_near(near[1], -n_b);
+            let farthest = support.extremal_point_with_hint(near[1], -n_b);
             n_b.dot(pair.b.points[farthest as usize])
         }
         None => {

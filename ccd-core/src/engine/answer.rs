@@ -9,7 +9,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
-use crate::shortcuts::rounds::Rounds;
+use crate::shortcuts::rounds::PeriodicSearch;
 use crate::touching_plane::TouchingPlane;
 
 /// Runs a search that examines pairs in order of time, under the query's policy for contacts at the start.
@@ -62,7 +62,8 @@ fn answer_under_policy<O: DistanceOracle>(
                 seen.unwrap_or_else(|| search(&problem, oracle, meter))
             }
         };
-        let parting = problem_after_start_contact(problem, problem.start, &outcome, oracle, meter);
+        let parting =
+            problem_ignoring_start_contact(problem, problem.start, &outcome, oracle, meter);
         let (outcome, tolerance) = match parting {
             Some(problem) => {
                 let outcome = search(&problem, oracle, meter);
@@ -79,14 +80,14 @@ fn answer_under_policy<O: DistanceOracle>(
     .answer()
 }
 
-/// Runs a search in [`Rounds`] if the relative motion is periodic, and once over the whole time otherwise.
+/// Runs a search in [`PeriodicSearch`] if the relative motion is periodic, and once over the whole time otherwise.
 #[inline]
 pub(crate) fn search_in_rounds(
     problem: &Problem<'_>,
     meter: &mut Meter,
     mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
 ) -> Outcome {
-    match Rounds::for_problem(problem) {
+    match PeriodicSearch::for_problem(problem) {
         Some(rounds) => rounds.run(meter, search),
         None => search(problem, meter),
     }
@@ -94,7 +95,7 @@ pub(crate) fn search_in_rounds(
 
 /// Returns the problem in which the contact at the start is ignored, if the policy asks for that and the bodies touch;
 /// `None` otherwise.
-pub(crate) fn problem_after_start_contact<'a, O: DistanceOracle>(
+pub(crate) fn problem_ignoring_start_contact<'a, O: DistanceOracle>(
     problem: &Problem<'a>,
     start: StartPolicy,
     outcome: &Outcome,
@@ -118,7 +119,7 @@ pub(crate) fn problem_after_start_contact<'a, O: DistanceOracle>(
 
 /// The result of a search, with the achieved tolerance and the counted work.
 pub(crate) struct SearchResult<T> {
-    pub(crate) found: T,
+    pub(crate) result: T,
     pub(crate) tolerance: f64,
     pub(crate) stats: Stats,
 }
@@ -126,7 +127,7 @@ pub(crate) struct SearchResult<T> {
 impl SearchResult<Outcome> {
     pub(crate) fn answer(self) -> Answer {
         Answer {
-            outcome: self.found,
+            outcome: self.result,
             tolerance: self.tolerance,
             stats: self.stats,
         }
@@ -146,7 +147,7 @@ pub(crate) fn run_metered<O: DistanceOracle, T>(
     let (found, tolerance) = solve(oracle, &mut meter);
     *scratch = meter.scratch.take();
     SearchResult {
-        found,
+        result: found,
         tolerance,
         stats: Stats {
             effort: oracle.effort() - before,
@@ -172,10 +173,10 @@ pub(crate) fn achieved_tolerance(problem: &Problem<'_>, outcome: &Outcome) -> f6
 pub(crate) trait EngineSchedule<O: DistanceOracle> {
     /// Returns whether the schedule handles accelerations of the bodies' centres. Otherwise they count as deviations
     /// from a straight path.
-    fn takes_accelerations(&self) -> bool;
+    fn handles_accelerations(&self) -> bool;
 
     /// Answers a query about the first contact of moving bodies.
-    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer;
+    fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer;
 
     /// Returns the scratch memory that is kept between queries.
     fn scratch(&mut self) -> &mut Scratch;

@@ -9,7 +9,7 @@ use super::search::{AdvanceResult, Question, Search, WaitingItem};
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
-use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
+use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use std::ops::ControlFlow;
 
 /// The default schedule: a best-first search in order of time.
@@ -57,7 +57,7 @@ impl<O: DistanceOracle> Default for BestFirst<O> {
 }
 
 impl<O: DistanceOracle> EngineSchedule<O> for BestFirst<O> {
-    fn takes_accelerations(&self) -> bool {
+    fn handles_accelerations(&self) -> bool {
         true
     }
 
@@ -65,7 +65,7 @@ impl<O: DistanceOracle> EngineSchedule<O> for BestFirst<O> {
         &mut self.scratch
     }
 
-    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+    fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
             search_in_rounds(problem, meter, |problem, meter| {
@@ -84,7 +84,7 @@ impl<O: DistanceOracle> EngineSchedule<O> for BestFirst<O> {
 
 impl<O: DistanceOracle> BestFirst<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
-        if let Some(free) = free_by_bounding_volumes(problem) {
+        if let Some(free) = free_outcome_by_bounding_volumes(problem) {
             return free;
         }
         let mut search = Search::new(&mut self.queue, oracle, meter);
@@ -94,12 +94,12 @@ impl<O: DistanceOracle> BestFirst<O> {
 
 /// The search for the first contact. All pairs are proven apart until the clock of the next one.
 impl<O: DistanceOracle> Question<O> for ProvenFacts {
-    type Found = Outcome;
+    type Conclusion = Outcome;
 
     #[inline]
     fn on_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
         if s > 0.0 {
-            self.record_past_start(problem)
+            self.record_apart_at_start(problem)
                 .map_or(ControlFlow::Continue(()), ControlFlow::Break)
         } else {
             ControlFlow::Continue(())

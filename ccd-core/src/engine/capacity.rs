@@ -6,7 +6,7 @@
 const MAX_KEPT_BYTES: usize = 1 << 25;
 
 /// Empties a list for the next query, and gives back the memory beyond [`MAX_KEPT_BYTES`].
-pub(crate) fn empty<T>(list: &mut Vec<T>) {
+pub(crate) fn clear_and_shrink<T>(list: &mut Vec<T>) {
     list.clear();
     list.shrink_to(MAX_KEPT_BYTES / size_of::<T>());
 }

@@ -15,7 +15,7 @@ pub(crate) struct Meter {
     /// The time at which the deadline passes; `None` without a deadline. No clock is read then.
     deadline_at: Option<Instant>,
     /// The amount of work at which the clock and the stop flag are read next; `u64::MAX` without a deadline and a flag.
-    next_check: u64,
+    work_at_next_check: u64,
 }
 
 impl Meter {
@@ -27,7 +27,7 @@ impl Meter {
         Meter {
             stats: Stats::default(),
             scratch: None,
-            next_check: if deadline_at.is_some() || problem.stop.is_some() {
+            work_at_next_check: if deadline_at.is_some() || problem.stop_flag.is_some() {
                 0
             } else {
                 u64::MAX
@@ -49,7 +49,7 @@ impl Meter {
         if work > problem.budget {
             return Err(Limit::Budget);
         }
-        if work >= self.next_check {
+        if work >= self.work_at_next_check {
             self.check_limits(problem, work)
         } else {
             Ok(())
@@ -58,10 +58,10 @@ impl Meter {
 
     #[cold]
     fn check_limits(&mut self, problem: &Problem<'_>, work: u64) -> Result<(), Limit> {
-        self.next_check = work.saturating_add(WORK_BETWEEN_CLOCK_READS);
+        self.work_at_next_check = work.saturating_add(WORK_BETWEEN_CLOCK_READS);
         // The work of the other thread before the flag was set does not matter to this one.
         if problem
-            .stop
+            .stop_flag
             .is_some_and(|stop| stop.load(Ordering::Relaxed))
         {
             return Err(Limit::Stopped);

@@ -4,7 +4,7 @@ pub(crate) mod lists;
 
 use super::meter::Meter;
 use super::nodes::common::NodeContext;
-use super::nodes::expand::measure;
+use super::nodes::expand::measure_children;
 use super::nodes::siblings::{NextStep, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
@@ -14,7 +14,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::math::order::lesser;
 use crate::problem::Problem;
-use crate::rounding::SKIPPED_NEARER_SHARE;
+use crate::rounding::SKIPPED_PAIR_ALLOWANCE;
 use lists::SearchBuffers;
 use std::ops::ControlFlow;
 
@@ -39,7 +39,7 @@ pub(crate) struct NearestSearch<'p> {
 
 /// The reason why a search ended before it found the distance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum SearchEnd {
+pub(crate) enum EarlyEndReason {
     /// Two pieces that intersect, by their indices, and their contact.
     Overlap([u32; 2], Contact),
     /// The search was ended by a limit, such as the budget, or by an oracle that gave up.
@@ -77,7 +77,7 @@ impl<'p> NearestSearch<'p> {
         &mut self,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Option<SearchEnd> {
+    ) -> Option<EarlyEndReason> {
         self.run(oracle, meter).break_value()
     }
 
@@ -85,15 +85,15 @@ impl<'p> NearestSearch<'p> {
         &mut self,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> ControlFlow<SearchEnd> {
+    ) -> ControlFlow<EarlyEndReason> {
         let mut next = Some(NextStep::roots(self.problem));
         while let Some(pair) = next {
             if let Err(limit) = meter.count_visit(self.problem) {
-                return ControlFlow::Break(SearchEnd::Limit(limit));
+                return ControlFlow::Break(EarlyEndReason::Limit(limit));
             }
             match pair {
                 NextStep::Split(split) => {
-                    let expansion = measure(&self.node_context, &split, self.clock);
+                    let expansion = measure_children(&self.node_context, &split, self.clock);
                     self.enqueue(Siblings::new(&expansion, split, 0.0))?;
                 }
                 NextStep::MeasurePieces(a, b) => self.measure_pieces([a, b], oracle, meter)?,
@@ -103,7 +103,7 @@ impl<'p> NearestSearch<'p> {
         ControlFlow::Continue(())
     }
 
-    fn enqueue(&mut self, siblings: Siblings) -> ControlFlow<SearchEnd> {
+    fn enqueue(&mut self, siblings: Siblings) -> ControlFlow<EarlyEndReason> {
         let distance = siblings.clock();
         if !(distance < self.upper_bound()) {
             return ControlFlow::Continue(());
@@ -114,7 +114,7 @@ impl<'p> NearestSearch<'p> {
             .push(distance, Rank::Siblings, siblings)
         {
             Ok(()) => ControlFlow::Continue(()),
-            Err(QueueFull) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
+            Err(QueueFull) => ControlFlow::Break(EarlyEndReason::Limit(Limit::Budget)),
         }
     }
 
@@ -142,16 +142,16 @@ impl<'p> NearestSearch<'p> {
         ids: [u32; 2],
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> ControlFlow<SearchEnd> {
+    ) -> ControlFlow<EarlyEndReason> {
         let problem = self.problem;
         let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
         let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter) else {
-            return ControlFlow::Break(SearchEnd::Limit(Limit::OracleGaveUp));
+            return ControlFlow::Break(EarlyEndReason::Limit(Limit::OracleGaveUp));
         };
-        let inner = &mut meter.scratch_memory().inner_polytope;
-        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
+        let inner = &mut meter.scratch_memory().overlap_polytope;
+        match overlap::decide_intersection(&snapshot.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
-                return ControlFlow::Break(SearchEnd::Overlap(
+                return ControlFlow::Break(EarlyEndReason::Overlap(
                     ids,
                     contact(&snapshot, ids, &checked),
                 ));
@@ -181,7 +181,7 @@ impl<'p> NearestSearch<'p> {
     fn search_radius(&self) -> f64 {
         let upper = self.upper_bound();
         if upper <= self.problem.contact_distance() {
-            upper * (1.0 - SKIPPED_NEARER_SHARE)
+            upper * (1.0 - SKIPPED_PAIR_ALLOWANCE)
         } else {
             upper
         }

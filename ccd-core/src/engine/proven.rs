@@ -51,7 +51,7 @@ impl ProvenFacts {
     }
 
     /// Records that no pair is in contact at the start; returns the outcome if one body is inside the other.
-    pub(crate) fn record_past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
+    pub(crate) fn record_apart_at_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
         if std::mem::replace(&mut self.apart_at_start, true) {
             return None;
         }
@@ -64,8 +64,9 @@ impl ProvenFacts {
 
     /// Returns the outcome of a query whose pairs are all apart to the end.
     pub(crate) fn finish(&mut self, problem: &Problem<'_>) -> Outcome {
-        self.record_past_start(problem).unwrap_or(Outcome::Free {
-            proven_gap: problem.proven_gap(),
-        })
+        self.record_apart_at_start(problem)
+            .unwrap_or(Outcome::Free {
+                proven_gap: problem.proven_gap(),
+            })
     }
 }

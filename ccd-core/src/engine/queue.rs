@@ -1,6 +1,6 @@
 //! A priority queue of pairs, ordered by clock.
 
-use super::capacity::empty;
+use super::capacity::clear_and_shrink;
 use crate::math::order::greater;
 
 /// A priority queue of items by their clocks. Among equal clocks pairs of pieces come first, then the newest item, for
@@ -10,7 +10,7 @@ pub(crate) struct Queue<T> {
     items: Vec<T>,
     vacant_slots: Vec<u32>,
     /// The least key in the queue.
-    least: Key,
+    least_key: Key,
     /// A tournament tree: the keys of the items, then the least of every four keys of the level before, up to a single
     /// four. The steps are the same for every change, so that no branch is mispredicted. In a heap, each step down has
     /// an unpredictable branch.
@@ -36,7 +36,7 @@ impl<T> Default for Queue<T> {
         Queue {
             items: Vec::new(),
             vacant_slots: Vec::new(),
-            least: VACANT_KEY,
+            least_key: VACANT_KEY,
             levels: Vec::new(),
             depth: 0,
             serial: 0,
@@ -45,12 +45,12 @@ impl<T> Default for Queue<T> {
 }
 
 impl<T> Queue<T> {
-    /// Removes all items, and keeps [some of the memory](empty).
+    /// Removes all items, and keeps [some of the memory](clear_and_shrink).
     pub(crate) fn clear(&mut self) {
-        empty(&mut self.items);
-        empty(&mut self.vacant_slots);
-        self.least = VACANT_KEY;
-        self.levels.iter_mut().for_each(empty);
+        clear_and_shrink(&mut self.items);
+        clear_and_shrink(&mut self.vacant_slots);
+        self.least_key = VACANT_KEY;
+        self.levels.iter_mut().for_each(clear_and_shrink);
         self.depth = 0;
         self.serial = 0;
     }
@@ -61,8 +61,8 @@ impl<T> Queue<T> {
     }
 
     fn least_slot(&self) -> u32 {
-        assert!(self.least != VACANT_KEY, "no item waits");
-        slot(self.least)
+        assert!(self.least_key != VACANT_KEY, "no item waits");
+        slot(self.least_key)
     }
 
     fn newest_key(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
@@ -72,7 +72,7 @@ impl<T> Queue<T> {
 
     /// Sets the key of a slot, and updates the least keys on all levels above it.
     #[inline]
-    fn set(&mut self, place: u32, key: Key) {
+    fn set_key(&mut self, place: u32, key: Key) {
         let (mut at, mut least) = (place as usize, key);
         for level in &mut self.levels[..self.depth] {
             let four = &mut level[at / 4];
@@ -80,12 +80,12 @@ impl<T> Queue<T> {
             least = least_of(four);
             at /= 4;
         }
-        self.least = least;
+        self.least_key = least;
     }
 
     /// Adds a slot for the key of the last item.
     #[inline]
-    fn grow(&mut self) {
+    fn add_slot(&mut self) {
         let mut last = self.items.len() - 1;
         if last == 0 || last == 1 << (2 * self.depth) {
             self.deepen();
@@ -106,7 +106,7 @@ impl<T> Queue<T> {
         if self.levels.len() == self.depth {
             self.levels.push(Vec::new());
         }
-        self.levels[self.depth].push([self.least, VACANT_KEY, VACANT_KEY, VACANT_KEY]);
+        self.levels[self.depth].push([self.least_key, VACANT_KEY, VACANT_KEY, VACANT_KEY]);
         self.depth += 1;
     }
 }
@@ -121,34 +121,34 @@ impl<T> Worklist<T> for Queue<T> {
             }
             None if self.items.len() < MAX_ITEMS => {
                 self.items.push(item);
-                self.grow();
+                self.add_slot();
                 (self.items.len() - 1) as u32
             }
             None => return Err(QueueFull),
         };
         let key = self.newest_key(clock, rank, place);
-        self.set(place, key);
+        self.set_key(place, key);
         Ok(())
     }
 
     #[inline]
     fn next(&mut self) -> Option<(f64, &mut T)> {
-        let item = self.items.get_mut(slot(self.least) as usize)?;
-        Some((clock(self.least), item))
+        let item = self.items.get_mut(slot(self.least_key) as usize)?;
+        Some((clock(self.least_key), item))
     }
 
     #[inline]
     fn postpone(&mut self, clock: f64) {
         let place = self.least_slot();
-        let low = self.least as u64;
-        self.set(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
+        let low = self.least_key as u64;
+        self.set_key(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
     }
 
     #[inline]
     fn postpone_as_newest(&mut self, clock: f64, rank: Rank) {
         let place = self.least_slot();
         let key = self.newest_key(clock, rank, place);
-        self.set(place, key);
+        self.set_key(place, key);
     }
 
     #[inline]
@@ -160,10 +160,10 @@ impl<T> Worklist<T> for Queue<T> {
 
     #[inline]
     fn remove(&mut self) {
-        if self.least != VACANT_KEY {
-            let place = slot(self.least);
+        if self.least_key != VACANT_KEY {
+            let place = slot(self.least_key);
             self.vacant_slots.push(place);
-            self.set(place, VACANT_KEY);
+            self.set_key(place, VACANT_KEY);
         }
     }
 }

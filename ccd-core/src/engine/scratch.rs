@@ -2,7 +2,7 @@
 
 use super::nearest::lists::SearchBuffers;
 use crate::distance::common_normals::CommonNormals;
-use crate::distance::overlap::InnerPolytope;
+use crate::distance::overlap::OverlapPolytope;
 use crate::shortcuts::screw::Profiles;
 
 /// The scratch memory of a solver, created when first needed.
@@ -14,7 +14,7 @@ pub(crate) struct ScratchMemory {
     /// The lists of the search for the nearest pieces.
     pub(crate) nearest: SearchBuffers,
     /// The polytope of the test whether two pieces intersect.
-    pub(crate) inner_polytope: InnerPolytope,
+    pub(crate) overlap_polytope: OverlapPolytope,
     /// The common normals of the surfaces around two nearest points.
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.

@@ -9,7 +9,7 @@ use super::queue::{QueueFull, Rank, Worklist};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
-use crate::shortcuts::closer_look::TighterBounds;
+use crate::shortcuts::closer_look::BoundTightener;
 use std::ops::ControlFlow;
 
 /// A waiting item: the children of a split node, or a pair of pieces.
@@ -31,11 +31,11 @@ impl<C> WaitingItem<C> {
 /// The question that a search answers, which decides after each step whether the search goes on.
 pub(crate) trait Question<O: DistanceOracle> {
     /// The type of the result that ends a search, such as an outcome.
-    type Found;
+    type Conclusion;
 
     /// Decides from the clock of the next pair whether the search ends before the pair is examined.
     #[inline]
-    fn on_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
+    fn on_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Conclusion> {
         ControlFlow::Continue(())
     }
 
@@ -46,13 +46,13 @@ pub(crate) trait Question<O: DistanceOracle> {
         oracle: &mut O,
         meter: &mut Meter,
         advance: AdvanceResult,
-    ) -> ControlFlow<Self::Found, f64>;
+    ) -> ControlFlow<Self::Conclusion, f64>;
 
     /// Returns the result of a search that reaches a limit at clock `s`.
-    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
+    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Conclusion;
 
     /// Returns the result of a search whose pairs are all proven apart to the end.
-    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found;
+    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Conclusion;
 }
 
 /// The result of advancing a pair of pieces at a clock.
@@ -87,14 +87,14 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
         &mut self,
         problem: &Problem<'_>,
         question: &mut Q,
-    ) -> Q::Found {
+    ) -> Q::Conclusion {
         if self.push_roots(problem).is_err() {
             return question.on_limit(problem, 0.0, Limit::Budget);
         }
         let common = NodeContext::new(problem);
-        let mut look = TighterBounds::new(problem);
+        let mut look = BoundTightener::new(problem);
         loop {
-            if let ControlFlow::Break(found) = self.visit(&common, &mut look, question) {
+            if let ControlFlow::Break(found) = self.visit_next_pair(&common, &mut look, question) {
                 return found;
             }
         }
@@ -104,17 +104,17 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
     pub(crate) fn run_until<Q: Question<O>>(
         &mut self,
         problem: &Problem<'_>,
-        look: &mut TighterBounds,
+        look: &mut BoundTightener,
         question: &mut Q,
         until: f64,
-    ) -> ControlFlow<Q::Found, f64> {
+    ) -> ControlFlow<Q::Conclusion, f64> {
         let common = NodeContext::new(problem);
         loop {
             if let Some((s, _)) = self.worklist.next().filter(|&(s, _)| s >= until) {
                 question.on_clock(problem, s)?;
                 return ControlFlow::Continue(s);
             }
-            self.visit(&common, look, question)?;
+            self.visit_next_pair(&common, look, question)?;
         }
     }
 
@@ -129,12 +129,12 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
 
     /// Examines the next pair: proves it apart for longer, or splits it.
     #[inline(always)]
-    pub(crate) fn visit<Q: Question<O>>(
+    pub(crate) fn visit_next_pair<Q: Question<O>>(
         &mut self,
         common: &NodeContext<'_>,
-        look: &mut TighterBounds,
+        look: &mut BoundTightener,
         question: &mut Q,
-    ) -> ControlFlow<Q::Found> {
+    ) -> ControlFlow<Q::Conclusion> {
         let problem = common.problem;
         let Search {
             worklist: waiting,
@@ -230,7 +230,7 @@ fn continue_unless_full<O: DistanceOracle, Q: Question<O>>(
     problem: &Problem<'_>,
     question: &mut Q,
     s: f64,
-) -> ControlFlow<Q::Found> {
+) -> ControlFlow<Q::Conclusion> {
     match waits {
         Ok(()) => ControlFlow::Continue(()),
         Err(QueueFull) => ControlFlow::Break(question.on_limit(problem, s, Limit::Budget)),

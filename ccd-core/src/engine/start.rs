@@ -1,7 +1,7 @@
 //! Handles bodies in contact at the start: measures their distance, or proves that they overlap.
 
 use super::meter::Meter;
-use super::nearest::{NearestSearch, SearchEnd};
+use super::nearest::{EarlyEndReason, NearestSearch};
 use crate::answer::{Contact, Limit, Outcome, Overlap};
 use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
@@ -51,8 +51,8 @@ fn measure_at_start<O: DistanceOracle>(
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
     let mut nearest = NearestSearch::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
-        Some(SearchEnd::Overlap(_, contact)) => Some(overlap_outcome(contact)),
-        Some(SearchEnd::Limit(limit)) => Some(unresolved_outcome(limit)),
+        Some(EarlyEndReason::Overlap(_, contact)) => Some(overlap_outcome(contact)),
+        Some(EarlyEndReason::Limit(limit)) => Some(unresolved_outcome(limit)),
         None if nearest.undecided => Some(unresolved_outcome(Limit::Undecided)),
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 /// for a triangle without area.
 ///
 /// # Guarantee
-/// Exact, unless a coordinate is [too fine](first_too_fine_point).
+/// Exact, unless a coordinate is [too fine](first_point_below_exact_range).
 ///
 /// ```
 /// use ccd_core::{exact, glam::DVec3};
@@ -39,7 +39,7 @@ pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
 /// # Guarantee
 /// Like [`side`].
 #[inline]
-pub fn line_side_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
+pub fn side_of_line_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
     let [a, b, point] = [a, b, point].map(|p| coord2(p, axis));
     sign(orient2d(a, b, point))
 }
@@ -49,12 +49,12 @@ pub fn line_side_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Orderin
 /// # Guarantee
 /// Like [`side`].
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
-    (0..3).all(|axis| line_side_along(axis, [a, b], c).is_eq())
+    (0..3).all(|axis| side_of_line_along(axis, [a, b], c).is_eq())
 }
 
 /// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_NONZERO_COORDINATE) for exact
 /// predicates.
-pub fn first_too_fine_point(points: &[DVec3]) -> Option<usize> {
+pub fn first_point_below_exact_range(points: &[DVec3]) -> Option<usize> {
     let fine = |x: f64| x != 0.0 && x.abs() < LEAST_NONZERO_COORDINATE;
     points
         .iter()

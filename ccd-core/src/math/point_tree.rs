@@ -22,7 +22,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub struct PointTree {
     /// The origin of all stored coordinates.
-    base: DVec3,
+    origin: DVec3,
     /// The points in the order of the leaves, with their original indices.
     points: Vec<(DVec3, u32)>,
     /// The nodes in depth-first order: every node comes before its left subtree, and its left subtree before its right
@@ -50,7 +50,7 @@ impl PointTree {
     pub fn new(points: &[DVec3]) -> Self {
         let base = points.first().copied().unwrap_or(DVec3::ZERO);
         let mut tree = PointTree {
-            base,
+            origin: base,
             points: points.iter().map(|&p| p - base).zip(0..).collect(),
             nodes: Vec::with_capacity(4 * points.len() / LEAF_CAPACITY + 1),
             reach: 0.0,
@@ -106,7 +106,7 @@ impl PointTree {
     /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn for_each_not_behind(&self, plane: [DVec3; 3], mut visit: impl FnMut(u32)) {
         let [a, b, c] = plane;
-        let (u, v, foot) = (b - a, c - a, a - self.base);
+        let (u, v, foot) = (b - a, c - a, a - self.origin);
         let normal = u.cross(v);
         let reach = greater(self.reach, foot.abs().max_element());
         let least = normal.dot(foot) - height_rounding([u, v], reach);

@@ -29,7 +29,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
         if !(m[i][j].abs() > MIN_JACOBI_ANGLE * (m[j][j] - m[i][i]).abs()) {
             continue;
         }
-        let (s, c) = half_angle(2.0 * m[i][j], m[j][j] - m[i][i]);
+        let (s, c) = sin_cos_of_half_angle(2.0 * m[i][j], m[j][j] - m[i][i]);
         apply_jacobi_rotation(&mut m, i, j, s, c);
         let (x, y) = (axes.col(i), axes.col(j));
         *axes.col_mut(i) = x * c - y * s;
@@ -39,7 +39,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
 }
 
 /// Returns the sine and cosine of half the angle of the vector (x, y), from −π/2 to π/2.
-fn half_angle(y: f64, x: f64) -> (f64, f64) {
+fn sin_cos_of_half_angle(y: f64, x: f64) -> (f64, f64) {
     let square = x * x + y * y;
     // Squares of small numbers have lost their digits.
     if !SQUARED_LENGTH_RANGE.contains(&square) {

@@ -1,7 +1,7 @@
 //! Vectors in registers: eight in f32, one for every child of a group, or one in f64; and the choice of the
 //! instructions for them at run time.
 
-use crate::rounding::LEAST_AXIS_F32;
+use crate::rounding::LEAST_AXIS_LENGTH_F32;
 use crate::settings::Instructions;
 use fearless_simd::{
     ExtractToken, Level, Simd, SimdBase, SimdNarrow, SimdSplit, f32x4, f32x8, f64x4, mask32x8,
@@ -77,7 +77,9 @@ impl<L: Simd> Vec3x8<L> {
     pub(crate) fn reciprocal_length(self) -> f32x8<L> {
         let (zero, one) = (splat(self.level(), 0.0), splat(self.level(), 1.0));
         let length = self.length();
-        length.simd_gt(LEAST_AXIS_F32).select(one / length, zero)
+        length
+            .simd_gt(LEAST_AXIS_LENGTH_F32)
+            .select(one / length, zero)
     }
 }
 
@@ -129,7 +131,7 @@ pub(crate) fn load<L: Simd>(level: L, row: &[f32; 8]) -> f32x8<L> {
 
 /// Selects vectors of `a` where the mask is set, and vectors of `b` elsewhere.
 #[inline(always)]
-pub(crate) fn choose<L: Simd>(mask: mask32x8<L>, a: Vec3x8<L>, b: Vec3x8<L>) -> Vec3x8<L> {
+pub(crate) fn select_vectors<L: Simd>(mask: mask32x8<L>, a: Vec3x8<L>, b: Vec3x8<L>) -> Vec3x8<L> {
     Vec3x8 {
         x: mask.select(a.x, b.x),
         y: mask.select(a.y, b.y),

@@ -88,14 +88,14 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
 /// inverse factor.
 #[inline]
 fn scaled(v: DVec3) -> (DVec3, f64) {
-    let (scale, back) = scale_of(v.length_squared());
+    let (scale, back) = scale_and_inverse(v.length_squared());
     (v * scale, back)
 }
 
 /// Returns the power of two that scales a vector so that its square is in the normal range, and the inverse of that
 /// power. `square` is the computed square.
 #[inline]
-pub(crate) fn scale_of(square: f64) -> (f64, f64) {
+pub(crate) fn scale_and_inverse(square: f64) -> (f64, f64) {
     if square < *SQUARED_LENGTH_RANGE.start() {
         (EXTREME_VECTOR_SCALE, EXTREME_VECTOR_SCALE.recip())
     } else if square > *SQUARED_LENGTH_RANGE.end() {

@@ -76,7 +76,7 @@ impl Path {
     }
 
     /// Returns the part of the path between two times, in units in which that part takes the times from 0 to 1.
-    /// Positions are off by [`place_rounding`](crate::rounding::place_rounding) at most.
+    /// Positions are off by [`position_rounding`](crate::rounding::position_rounding) at most.
     pub(crate) fn subpath(&self, [from, to]: [f64; 2]) -> Self {
         let time = to - from;
         let (sin, cos) = sin_cos(self.rate * from);

@@ -22,7 +22,7 @@ pub(crate) struct Period {
     /// The length of the period, in units of the paths' time.
     pub(crate) length: f64,
     /// A bound of the change of any distance after one period; after `k` periods the bound is `k` times that. The
-    /// rounding of the rates comes in addition, see [`place_rounding`](crate::rounding::place_rounding).
+    /// rounding of the rates comes in addition, see [`position_rounding`](crate::rounding::position_rounding).
     pub(crate) max_distance_change: f64,
 }
 
@@ -36,7 +36,9 @@ pub(crate) struct PathWithRadius<'p> {
 impl Period {
     /// Returns the periods that fit twice into the whole time, in ascending order. After longer periods, distances
     /// change less.
-    pub(crate) fn all(bodies: [PathWithRadius<'_>; 2]) -> impl Iterator<Item = Period> {
+    pub(crate) fn all_fitting_twice(
+        bodies: [PathWithRadius<'_>; 2],
+    ) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;
         let [slow, fast] = if a.path.rate > b.path.rate {
             [b, a]
@@ -68,7 +70,7 @@ impl Period {
 /// An iterator over the continued fraction convergents of a number from 0 to 1, as numerators and denominators.
 struct Convergents {
     remainder: f64,
-    last: [f64; 2],
+    last_convergent: [f64; 2],
     previous_convergent: [f64; 2],
 }
 
@@ -76,7 +78,7 @@ impl Convergents {
     fn new(number: f64) -> Self {
         Convergents {
             remainder: number,
-            last: [1.0, 0.0],
+            last_convergent: [1.0, 0.0],
             previous_convergent: [0.0, 1.0],
         }
     }
@@ -90,9 +92,9 @@ impl Iterator for Convergents {
             return None;
         }
         let whole = self.remainder.floor();
-        let [last, before] = [self.last, self.previous_convergent];
+        let [last, before] = [self.last_convergent, self.previous_convergent];
         let next = [0, 1].map(|k| whole * last[k] + before[k]);
-        (self.last, self.previous_convergent) = (next, last);
+        (self.last_convergent, self.previous_convergent) = (next, last);
         self.remainder = (self.remainder - whole).recip();
         Some(next)
     }

@@ -1,7 +1,7 @@
 //! Rigid transforms: poses of bodies and frames.
 
 use crate::error::{InputError, check_finite};
-use crate::math::vector::scale_of;
+use crate::math::vector::scale_and_inverse;
 use glam::{DMat3, DQuat, DVec3};
 
 /// The position and orientation of a body in the world: `x ↦ rotation · x + translation`.
@@ -108,7 +108,7 @@ impl Pose {
 
 /// Normalises a finite quaternion of any length; `None` for zero.
 fn unit(rotation: DQuat) -> Option<DQuat> {
-    let (scale, _) = scale_of(rotation.length_squared());
+    let (scale, _) = scale_and_inverse(rotation.length_squared());
     let scaled = rotation * scale;
     let length = scaled.length();
     (length > 0.0).then(|| (scaled * length.recip()).normalize())

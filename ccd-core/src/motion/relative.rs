@@ -24,7 +24,7 @@ enum RelativeRotation {
         rotation: RotatingQuantity<[Row; 3]>,
         /// The vector between the centres of rotation at `s = 0`, in the seeing body's frame over time.
         offset: RotatingQuantity<Row>,
-        change: RotatingQuantity<Row>,
+        offset_rate: RotatingQuantity<Row>,
         acceleration: Option<RotatingQuantity<Row>>,
         spin: Row,
     },
@@ -44,7 +44,7 @@ enum RelativeRotation {
 #[derive(Clone, Copy, Debug)]
 struct RotatingQuantity<T> {
     rate: f64,
-    parts: [T; 3],
+    coefficients: [T; 3],
 }
 
 /// The relative motion of two bodies at an instant, in the seeing body's frame.
@@ -101,7 +101,7 @@ impl RelativePath {
             RelativeRotation::OneBodyTurns {
                 rotation,
                 offset,
-                change,
+                offset_rate: change,
                 acceleration,
                 spin,
             } => {
@@ -179,13 +179,13 @@ impl RelativeRotation {
         });
         let seen = |v: DVec3| RotatingQuantity {
             rate,
-            parts: inverse.map(|part| row(part * v)),
+            coefficients: inverse.map(|part| row(part * v)),
         };
         let [offset, change] = offset.map(seen);
         RelativeRotation::OneBodyTurns {
             rotation: RotatingQuantity::new(rate, rotation),
             offset,
-            change,
+            offset_rate: change,
             acceleration: acceleration.map(seen),
             spin: row(inverse[2] * other.spin),
         }
@@ -196,14 +196,14 @@ impl RotatingQuantity<[Row; 3]> {
     fn new(rate: f64, parts: [DMat3; 3]) -> Self {
         RotatingQuantity {
             rate,
-            parts: parts.map(padded_columns),
+            coefficients: parts.map(padded_columns),
         }
     }
 
     #[inline(always)]
     fn matrix<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedMatrix<L> {
-        let [p, q, k] = &self.parts;
-        let column = |j: usize| sum(level, [&p[j], &q[j], &k[j]], angle);
+        let [p, q, k] = &self.coefficients;
+        let column = |j: usize| rotating_sum(level, [&p[j], &q[j], &k[j]], angle);
         PackedMatrix::new([column(0), column(1), column(2)])
     }
 }
@@ -211,8 +211,8 @@ impl RotatingQuantity<[Row; 3]> {
 impl RotatingQuantity<Row> {
     #[inline(always)]
     fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedVector<L> {
-        let [p, q, k] = &self.parts;
-        sum(level, [p, q, k], angle)
+        let [p, q, k] = &self.coefficients;
+        rotating_sum(level, [p, q, k], angle)
     }
 }
 
@@ -233,7 +233,11 @@ fn displacement_and_velocity<L: Simd>(
 }
 
 #[inline(always)]
-fn sum<L: Simd>(level: L, [p, q, k]: [&Row; 3], (sin, cos): (f64, f64)) -> PackedVector<L> {
+fn rotating_sum<L: Simd>(
+    level: L,
+    [p, q, k]: [&Row; 3],
+    (sin, cos): (f64, f64),
+) -> PackedVector<L> {
     PackedVector::load(level, p) * cos
         + PackedVector::load(level, q) * sin
         + PackedVector::load(level, k)

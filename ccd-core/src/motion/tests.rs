@@ -9,7 +9,7 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
 /// Returns the largest distance between the images of points of about unit size under two poses.
-fn apart(a: &Pose, b: &Pose) -> f64 {
+fn pose_distance(a: &Pose, b: &Pose) -> f64 {
     let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let off = points.map(|p| a.transform_point(p).distance(b.transform_point(p)));
     off.into_iter().fold(0.0, greater)
@@ -24,8 +24,8 @@ fn between_passes_through_both_poses_and_never_turns_more_than_half() {
         let centre = point_in_ball(&mut rng, 3.0);
         let duration = magnitude(&mut rng, -3.0, 3.0);
         let motion = Motion::between(poses[0], poses[1], centre, duration).unwrap();
-        assert!(apart(&motion.pose(0.0), &poses[0]) < 1e-13);
-        assert!(apart(&motion.pose(duration), &poses[1]) < 1e-13);
+        assert!(pose_distance(&motion.pose(0.0), &poses[0]) < 1e-13);
+        assert!(pose_distance(&motion.pose(duration), &poses[1]) < 1e-13);
         assert!(motion.spin().length() * duration <= PI * (1.0 + 1e-15));
         // The centre moves on a straight line.
         let half = motion.pose(0.5 * duration).transform_point(centre);
@@ -43,7 +43,10 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
             let turn = DQuat::from_scaled_axis(axis * angle);
             let poses = [start, turn * start].map(|q| Pose::new(DVec3::ZERO, q).unwrap());
             let motion = Motion::between(poses[0], poses[1], DVec3::ZERO, 1.0).unwrap();
-            assert!(apart(&motion.pose(1.0), &poses[1]) < 1e-14, "{angle}");
+            assert!(
+                pose_distance(&motion.pose(1.0), &poses[1]) < 1e-14,
+                "{angle}"
+            );
             // The error of the turn is about the rounding of a unit quaternion, 2e-16.
             assert!((motion.spin().length() - angle).abs() < 2e-15, "{angle}");
         }
@@ -76,10 +79,10 @@ fn any_number_of_turns_is_a_motion() {
     let spin = 2.0 * PI * 6.0 * DVec3::Y;
     let motion = Motion::about(Pose::IDENTITY, DVec3::X, spin, DVec3::Z).unwrap();
     let end = Pose::at(DVec3::X).unwrap();
-    assert!(apart(&motion.pose(1.0), &end) < 1e-13);
-    assert!(apart(&motion.pose(0.5), &Pose::at(0.5 * DVec3::X).unwrap()) < 1e-13);
+    assert!(pose_distance(&motion.pose(1.0), &end) < 1e-13);
+    assert!(pose_distance(&motion.pose(0.5), &Pose::at(0.5 * DVec3::X).unwrap()) < 1e-13);
     // The orientation after another quarter of a turn is different.
-    assert!(apart(&motion.pose(1.0 / 24.0), &end) > 1.0);
+    assert!(pose_distance(&motion.pose(1.0 / 24.0), &end) > 1.0);
 }
 
 #[test]

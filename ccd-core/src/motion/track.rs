@@ -15,30 +15,30 @@ pub(crate) struct Track {
     linear_acceleration: f64,
     p: f64,
     q: f64,
-    omega: f64,
+    angular_speed: f64,
 }
 
 impl Track {
     #[inline]
-    pub(crate) fn height_at(&self, tau: f64, angle: Angle) -> f64 {
+    pub(crate) fn height_at(&self, tau: f64, angle: AngleSinCos) -> f64 {
         let linear_displacement = (self.linear_rate + 0.5 * self.linear_acceleration * tau) * tau;
         self.height + linear_displacement + angle.cos_minus_one * self.p + angle.sin * self.q
     }
 
     #[inline]
-    pub(crate) fn rate_at(&self, tau: f64, angle: Angle) -> f64 {
+    pub(crate) fn rate_at(&self, tau: f64, angle: AngleSinCos) -> f64 {
         self.linear_rate
             + self.linear_acceleration * tau
-            + self.omega * (angle.cos * self.q - angle.sin * self.p)
+            + self.angular_speed * (angle.cos * self.q - angle.sin * self.p)
     }
 
     /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `linear_rate` and
     /// `linear_acceleration`. `end` is the rotation at `horizon`.
-    pub(crate) fn least_rotational_height(&self, horizon: f64, end: Angle) -> f64 {
+    pub(crate) fn least_rotational_height(&self, horizon: f64, end: AngleSinCos) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
-        let turn = self.omega * horizon;
+        let turn = self.angular_speed * horizon;
         // Written so that NaN is a full turn.
-        let turned = if turn < TAU && !self.passes_trough(turn, end) {
+        let turned = if turn < TAU && !self.passes_lowest_point(turn, end) {
             lesser(0.0, end.cos_minus_one * self.p + end.sin * self.q)
         } else {
             -self.p - swing
@@ -48,7 +48,7 @@ impl Track {
     }
 
     /// Returns whether the point passes the lowest point of its circle before the end of a rotation by less than 2π.
-    fn passes_trough(&self, turn: f64, end: Angle) -> bool {
+    fn passes_lowest_point(&self, turn: f64, end: AngleSinCos) -> bool {
         // The lowest point is at the angle of (−p, −q). It is compared to the start and to the end of the turn.
         let (after_start, before_end) = (-self.q, self.q * end.cos - self.p * end.sin);
         if turn < PI {
@@ -61,7 +61,7 @@ impl Track {
     /// Returns an upper bound of the second derivative due to rotation.
     #[inline]
     pub(crate) fn second_derivative(&self) -> f64 {
-        self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
+        self.angular_speed * self.angular_speed * (self.p * self.p + self.q * self.q).sqrt()
     }
 }
 
@@ -131,21 +131,21 @@ impl AxisMotion {
             linear_acceleration: self.linear_acceleration,
             p: self.perpendicular_part.dot(arm),
             q: self.cross_product.dot(arm),
-            omega: self.omega,
+            angular_speed: self.omega,
         }
     }
 }
 
 /// The sine and cosine of an angle, and the cosine minus one without cancellation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Angle {
+pub(crate) struct AngleSinCos {
     sin: f64,
     cos: f64,
     cos_minus_one: f64,
 }
 
-impl Angle {
-    pub(crate) const ZERO: Angle = Angle {
+impl AngleSinCos {
+    pub(crate) const ZERO: AngleSinCos = AngleSinCos {
         sin: 0.0,
         cos: 1.0,
         cos_minus_one: 0.0,
@@ -155,7 +155,7 @@ impl Angle {
     pub(crate) fn new(theta: f64) -> Self {
         let (s, c) = (0.5 * theta).sin_cos();
         let cos_minus_one = -2.0 * s * s;
-        Angle {
+        AngleSinCos {
             sin: 2.0 * s * c,
             cos: 1.0 + cos_minus_one,
             cos_minus_one,
@@ -185,13 +185,13 @@ impl RotatingVector {
     }
 
     #[inline]
-    pub(crate) fn at(&self, angle: Angle) -> DVec3 {
+    pub(crate) fn at(&self, angle: AngleSinCos) -> DVec3 {
         self.start + self.perpendicular_part * angle.cos_minus_one + self.cross_product * angle.sin
     }
 
     /// Returns the derivative of the vector, per radian.
     #[inline]
-    pub(crate) fn derivative_at(&self, angle: Angle) -> DVec3 {
+    pub(crate) fn derivative_at(&self, angle: AngleSinCos) -> DVec3 {
         self.cross_product * angle.cos - self.perpendicular_part * angle.sin
     }
 

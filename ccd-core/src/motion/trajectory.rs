@@ -79,7 +79,7 @@ pub struct Stretch {
     /// `acceleration · t²/2`.
     pub acceleration: DVec3,
     /// A bound of the trajectory's deviation from the accelerated motion.
-    pub deviation: DeviationBound,
+    pub deviation_bound: DeviationBound,
 }
 
 impl Stretch {
@@ -88,7 +88,7 @@ impl Stretch {
         Stretch {
             motion,
             acceleration: DVec3::ZERO,
-            deviation: DeviationBound::NONE,
+            deviation_bound: DeviationBound::NONE,
         }
     }
 
@@ -229,7 +229,7 @@ pub trait SmoothTrajectory: Sync {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError>;
 
     /// Returns upper bounds of the magnitudes of the accelerations between two times.
-    fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds;
+    fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds;
 
     /// Returns the tangent motion at a time, with the acceleration of its centre and a bound of the acceleration's
     /// derivative between two times. The acceleration is `None` if it is unknown or its derivative is unbounded.
@@ -266,7 +266,7 @@ pub trait SmoothTrajectory: Sync {
 pub struct AccelerationBounds {
     /// A bound of the acceleration of the body's centre, the point whose velocity `tangent_motion` gives, in the
     /// scene's unit of length.
-    pub linear: f64,
+    pub linear_acceleration: f64,
     /// A bound of the angular acceleration in radians, which is the derivative of the angular velocity.
     pub angular_acceleration: f64,
 }
@@ -277,7 +277,7 @@ pub struct Acceleration {
     /// The acceleration vector, in the scene's unit of length per unit of time squared.
     pub vector: DVec3,
     /// A bound of the magnitude of the acceleration's derivative, in the scene's unit of length per unit of time cubed.
-    pub jerk: f64,
+    pub jerk_bound: f64,
 }
 
 impl Acceleration {
@@ -285,7 +285,7 @@ impl Acceleration {
     fn deviation_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = RETIMED_POSE_ERROR_F64 * (time * (time * length(self.vector)));
-        time * (time * (time * self.jerk)) / 6.0 * (1.0 + RETIMED_POSE_ERROR_F64) + rounding
+        time * (time * (time * self.jerk_bound)) / 6.0 * (1.0 + RETIMED_POSE_ERROR_F64) + rounding
     }
 }
 
@@ -298,7 +298,7 @@ impl AccelerationBounds {
             0.5 * (time * (time * acceleration)) * (1.0 + RETIMED_POSE_ERROR_F64)
         };
         DeviationBound {
-            shift: deviation(self.linear),
+            shift: deviation(self.linear_acceleration),
             turn: deviation(self.angular_acceleration),
         }
     }
@@ -314,18 +314,18 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
         let mut tangent = Stretch::exact(motion);
         // Bounds of a stretch of no length may be infinite.
         if half > 0.0 {
-            tangent.deviation = self.accelerations(from, to).deviation_after(half);
+            tangent.deviation_bound = self.acceleration_bounds(from, to).deviation_after(half);
             if let Some(acceleration) = acceleration
-                && acceleration.deviation_after(half) < tangent.deviation.shift
+                && acceleration.deviation_after(half) < tangent.deviation_bound.shift
             {
                 tangent.acceleration = acceleration.vector;
-                tangent.deviation.shift = acceleration.deviation_after(half);
+                tangent.deviation_bound.shift = acceleration.deviation_after(half);
             }
         }
         let stretch = tangent.with_start_at(-before)?;
         let rounding = stretch.rounding_of_moved_start(half) + self.rounding(from, to);
         Ok(Stretch {
-            deviation: stretch.deviation + rounding,
+            deviation_bound: stretch.deviation_bound + rounding,
             ..stretch
         })
     }
@@ -349,7 +349,7 @@ impl Trajectory for Motion {
         let stretch = Stretch::exact(*self).with_start_at(from)?;
         let stray = stretch.rounding_of_moved_start(from);
         Ok(Stretch {
-            deviation: stray,
+            deviation_bound: stray,
             ..stretch
         })
     }

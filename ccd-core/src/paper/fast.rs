@@ -75,7 +75,7 @@ impl<O: DistanceOracle> Default for Fast<O> {
 }
 
 impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
-    fn takes_accelerations(&self) -> bool {
+    fn handles_accelerations(&self) -> bool {
         false
     }
 
@@ -83,9 +83,9 @@ impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
         &mut self.scratch
     }
 
-    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+    fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let Some(hulls) = HullTreePair::from_problem(problem) else {
-            return self.best_first.solve(problem, oracle);
+            return self.best_first.answer_first_contact(problem, oracle);
         };
         self.axis_distances.invalidate();
         let mut scratch = self.scratch.take();
@@ -126,12 +126,12 @@ impl<O: DistanceOracle> Fast<O> {
             };
             let next = descent.step(s);
             let stats = &mut meter.stats;
-            stats.peak_front = stats.peak_front.max(self.front.peak());
+            stats.peak_front = stats.peak_front.max(self.front.peak_leaf_count());
             let next = match next {
                 ControlFlow::Continue(next) => next,
                 ControlFlow::Break(outcome) => return outcome,
             };
-            if let Some(outcome) = proven.record_past_start(problem) {
+            if let Some(outcome) = proven.record_apart_at_start(problem) {
                 return outcome;
             }
             if !(next > s) {

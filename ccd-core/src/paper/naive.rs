@@ -4,7 +4,7 @@ use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::EngineSchedule;
 use crate::engine::answer::answer;
-use crate::engine::capacity::empty;
+use crate::engine::capacity::clear_and_shrink;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Pair;
 use crate::engine::pieces::snapshot::Snapshot;
@@ -50,7 +50,7 @@ impl<O: DistanceOracle> Default for Naive<O> {
 }
 
 impl<O: DistanceOracle> EngineSchedule<O> for Naive<O> {
-    fn takes_accelerations(&self) -> bool {
+    fn handles_accelerations(&self) -> bool {
         false
     }
 
@@ -58,7 +58,7 @@ impl<O: DistanceOracle> EngineSchedule<O> for Naive<O> {
         &mut self.scratch
     }
 
-    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+    fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
             let outcome = self.search(problem, oracle, meter);
@@ -74,14 +74,14 @@ impl<O: DistanceOracle> Naive<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
         let (a, b) = (problem.a.body.pieces().len(), problem.b.body.pieces().len());
         let unresolved = |s: f64, reason| Outcome::unresolved(problem.time(s), reason);
-        empty(&mut self.pairs);
+        clear_and_shrink(&mut self.pairs);
         let all = a as u64 * b as u64;
         if all > problem.budget {
             return unresolved(0.0, Limit::Budget);
         }
         let pairs = (0..a as u32).flat_map(|i| (0..b as u32).map(move |j| Pair::new(i, j)));
         self.pairs.extend(pairs);
-        let reaches = [&problem.a, &problem.b].map(reaches);
+        let reaches = [&problem.a, &problem.b].map(piece_reaches);
         let mut proven = ProvenFacts::default();
         let mut s = 0.0;
         while s < 1.0 {
@@ -103,7 +103,7 @@ impl<O: DistanceOracle> Naive<O> {
                     ControlFlow::Break(outcome) => return outcome,
                 }
             }
-            if let Some(outcome) = proven.record_past_start(problem) {
+            if let Some(outcome) = proven.record_apart_at_start(problem) {
                 return outcome;
             }
             s = next;
@@ -113,7 +113,7 @@ impl<O: DistanceOracle> Naive<O> {
 }
 
 /// Returns for each piece the largest distance of its points from its body's axis of rotation.
-fn reaches(side: &BodyWithPath<'_>) -> Vec<f64> {
+fn piece_reaches(side: &BodyWithPath<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
     pieces
         .map(|piece| side.path.max_distance_from_axis(piece.points))

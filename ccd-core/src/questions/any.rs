@@ -13,7 +13,7 @@ use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::depth_first::DepthFirst;
-use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
+use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
@@ -60,7 +60,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
-        if let Some(free) = free_by_bounding_volumes(problem) {
+        if let Some(free) = free_outcome_by_bounding_volumes(problem) {
             return free;
         }
         let mut search = Search::new(&mut self.stack, oracle, meter);
@@ -72,7 +72,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 let unresolved = Outcome::unresolved(time, known.limit);
                 // Surfaces that are apart at the start do not exclude that one body is inside the other.
                 if time > problem.time(0.0) {
-                    any.proven.record_past_start(problem).unwrap_or(unresolved)
+                    any.proven
+                        .record_apart_at_start(problem)
+                        .unwrap_or(unresolved)
                 } else {
                     unresolved
                 }
@@ -116,7 +118,7 @@ impl AnyContactSearch {
 }
 
 impl<O: DistanceOracle> Question<O> for AnyContactSearch {
-    type Found = Outcome;
+    type Conclusion = Outcome;
 
     fn on_advance(
         &mut self,

@@ -21,8 +21,8 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::depth_first::DepthFirst;
 use crate::shortcuts::bounding_volumes::least_distance;
-use crate::shortcuts::closer_look::TighterBounds;
-use crate::shortcuts::rounds::Sample;
+use crate::shortcuts::closer_look::BoundTightener;
+use crate::shortcuts::rounds::RepresentativePeriod;
 use guess::initial_estimate;
 use ladder::LowerBoundAttempts;
 use nearing::LeastDistanceSearch;
@@ -69,8 +69,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Answer {
-        let answer = self.search_distances_below(problem, f64::INFINITY, oracle, found_or_overlap);
-        let found = answer.found;
+        let answer =
+            self.search_distances_below(problem, f64::INFINITY, oracle, outcome_or_overlap);
+        let found = answer.result;
         Answer {
             outcome: found.unwrap_or_else(|FartherThanCutoff { lower }| {
                 unresolved_outcome(lower, Limit::OracleGaveUp)
@@ -119,9 +120,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut scratch = self.scratch.take();
         let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
             let problem = problem.for_distances();
-            let found = match Sample::for_problem(&problem) {
+            let found = match RepresentativePeriod::for_problem(&problem) {
                 Some(sample) => {
-                    let found = self.search_least_distance(&sample.part, beyond, oracle, meter);
+                    let found =
+                        self.search_least_distance(&sample.period_problem, beyond, oracle, meter);
                     outcome_for_all_periods(&sample, found)
                 }
                 None => self.search_least_distance(&problem, beyond, oracle, meter),
@@ -170,12 +172,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
             ControlFlow::Break(found) => return Ok(found),
         };
         let mut nearing = LeastDistanceSearch {
-            best,
-            beyond,
+            nearest: best,
+            cutoff_distance: beyond,
             proven: ProvenFacts::default(),
             first_failure: None,
-            ladder: LowerBoundAttempts::new(least_distance(problem), problem.budget)
-                .with_early_start(problem.deadline.is_some() || problem.stop.is_some()),
+            lower_bound_attempts: LowerBoundAttempts::new(least_distance(problem), problem.budget)
+                .with_earlier_first_attempt(
+                    problem.deadline.is_some() || problem.stop_flag.is_some(),
+                ),
         };
         let mut search = Search::new(&mut self.stack, oracle, meter);
         if search.push_roots(problem).is_err() {
@@ -187,24 +191,26 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let below = problem.for_distances_below(upper);
             // Written so that NaN is the end.
             if !(upper > problem.tolerance && upper > below.contact_distance()) {
-                return nearing.found(problem, 0.0);
+                return nearing.least_distance_outcome(problem, 0.0);
             }
             let common = NodeContext::new(&below);
-            let mut look = TighterBounds::new(&below);
+            let mut look = BoundTightener::new(&below);
             while nearing.upper() == upper {
                 if let Some(rung) = nearing
-                    .ladder
+                    .lower_bound_attempts
                     .next_attempt_if_due(search.meter.stats.work(), upper)
                 {
                     if let ControlFlow::Break(found) =
-                        nearing.climb(problem, rung, search.oracle, search.meter)
+                        nearing.try_lower_bound(problem, rung, search.oracle, search.meter)
                     {
                         return Ok(found);
                     }
-                    look = TighterBounds::new(&below);
+                    look = BoundTightener::new(&below);
                     continue;
                 }
-                if let ControlFlow::Break(found) = search.visit(&common, &mut look, &mut nearing) {
+                if let ControlFlow::Break(found) =
+                    search.visit_next_pair(&common, &mut look, &mut nearing)
+                {
                     return nearing.final_outcome(problem, found, search.oracle, search.meter);
                 }
             }
@@ -214,7 +220,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
 /// Converts the outcome for one period of repeating motions to an outcome for the whole duration.
 fn outcome_for_all_periods(
-    sample: &Sample<'_>,
+    sample: &RepresentativePeriod<'_>,
     found: Result<Outcome, FartherThanCutoff>,
 ) -> Result<Outcome, FartherThanCutoff> {
     let found = found.map_err(|FartherThanCutoff { lower }| FartherThanCutoff {
@@ -238,7 +244,7 @@ fn outcome_for_all_periods(
 }
 
 /// Returns `found`, or the outcome that the bodies overlap if they overlap at the start.
-fn found_or_overlap<O: DistanceOracle>(
+fn outcome_or_overlap<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,

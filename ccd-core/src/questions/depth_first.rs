@@ -2,7 +2,7 @@
 //! first contact.
 
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::capacity::empty;
+use crate::engine::capacity::clear_and_shrink;
 use crate::engine::queue::{QueueFull, Rank, Worklist};
 use crate::engine::scratch::Scratch;
 use crate::engine::search::WaitingItem;
@@ -47,9 +47,9 @@ impl<T> Default for Stack<T> {
 }
 
 impl<T> Stack<T> {
-    /// Removes all items, and keeps [a part of the memory](empty) for the next search.
+    /// Removes all items, and keeps [a part of the memory](clear_and_shrink) for the next search.
     pub(crate) fn clear(&mut self) {
-        empty(&mut self.items);
+        clear_and_shrink(&mut self.items);
         self.peak = 0;
     }
 

@@ -4,7 +4,7 @@ use super::along::first::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::contacts::given::outcome_for_given_bodies;
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{achieved_tolerance, problem_after_start_contact};
+use crate::engine::answer::{achieved_tolerance, problem_ignoring_start_contact};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::ProvenFacts;
@@ -13,9 +13,9 @@ use crate::error::InputError;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::settings::StartPolicy;
-use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
-use crate::shortcuts::closer_look::TighterBounds;
-use crate::shortcuts::rounds::Rounds;
+use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
+use crate::shortcuts::closer_look::BoundTightener;
+use crate::shortcuts::rounds::PeriodicSearch;
 use std::ops::ControlFlow;
 
 /// A search for the first contact that can stop at any time and continue later.
@@ -43,10 +43,10 @@ use std::ops::ControlFlow;
 /// assert!(matches!(answer.outcome, Outcome::Contact { .. }));
 /// # Ok::<(), InputError>(())
 /// ```
-pub struct FirstContact<'a, O: DistanceOracle>(FirstContactKind<'a, O>);
+pub struct FirstContact<'a, O: DistanceOracle>(ResumableSearchKind<'a, O>);
 
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
-enum FirstContactKind<'a, O: DistanceOracle> {
+enum ResumableSearchKind<'a, O: DistanceOracle> {
     /// A search for bodies with constant velocities, which is done in steps.
     Stepped(SteppedSearch<'a, O>),
     /// A search for bodies on trajectories, which is done to its end in the first step.
@@ -64,10 +64,10 @@ struct SteppedSearch<'a, O: DistanceOracle> {
     current_problem: Problem<'a>,
     /// The progress over the periods of repeating motions, and the periods that are searched at present; `None` if the
     /// motions do not repeat.
-    part: Option<(Rounds<'a>, Problem<'a>)>,
+    rounds_and_problem: Option<(PeriodicSearch<'a>, Problem<'a>)>,
     /// The policy for a contact at the start, until it has been applied.
     start: StartPolicy,
-    memory: BestFirst<O>,
+    schedule: BestFirst<O>,
     meter: Meter,
     /// The state of the search; `None` before the first step.
     state: Option<SearchState>,
@@ -77,7 +77,7 @@ struct SteppedSearch<'a, O: DistanceOracle> {
 /// The state of a search between two steps, except for the waiting pairs.
 #[derive(Debug)]
 struct SearchState {
-    tighter_bounds: TighterBounds,
+    bound_tightener: BoundTightener,
     proven: ProvenFacts,
 }
 
@@ -96,8 +96,8 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContact(match query.problem.take() {
-            Some(problem) => FirstContactKind::Stepped(SteppedSearch::new(problem, memory)),
-            None => FirstContactKind::Immediate {
+            Some(problem) => ResumableSearchKind::Stepped(SteppedSearch::new(problem, memory)),
+            None => ResumableSearchKind::Immediate {
                 query,
                 schedule: memory,
                 answer: None,
@@ -106,10 +106,10 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     }
 
     /// Returns the schedule with its memory, for another search.
-    pub fn into_memory(self) -> BestFirst<O> {
+    pub fn into_schedule(self) -> BestFirst<O> {
         match self.0 {
-            FirstContactKind::Stepped(steps) => steps.into_memory(),
-            FirstContactKind::Immediate {
+            ResumableSearchKind::Stepped(steps) => steps.into_memory(),
+            ResumableSearchKind::Immediate {
                 schedule: memory, ..
             } => memory,
         }
@@ -126,8 +126,8 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
     pub fn advance(&mut self, oracle: &mut O, until: f64) -> Result<Progress, InputError> {
         match &mut self.0 {
-            FirstContactKind::Stepped(steps) => Ok(steps.advance(oracle, until)),
-            FirstContactKind::Immediate {
+            ResumableSearchKind::Stepped(steps) => Ok(steps.advance(oracle, until)),
+            ResumableSearchKind::Immediate {
                 query,
                 schedule: memory,
                 answer,
@@ -148,11 +148,11 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
         memory.queue.clear();
         let current = problem.reporting_start_contact();
         SteppedSearch {
-            part: first_round(&current),
+            rounds_and_problem: first_round(&current),
             current_problem: current,
             start: problem.start,
             problem,
-            memory,
+            schedule: memory,
             meter,
             state: None,
             answer: None,
@@ -160,9 +160,9 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
     }
 
     fn into_memory(mut self) -> BestFirst<O> {
-        self.memory.queue.clear();
-        self.memory.scratch = self.meter.scratch;
-        self.memory
+        self.schedule.queue.clear();
+        self.schedule.scratch = self.meter.scratch;
+        self.schedule
     }
 
     fn advance(&mut self, oracle: &mut O, until: f64) -> Progress {
@@ -201,20 +201,22 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                 ControlFlow::Break(outcome) => outcome,
             };
             let stats = &mut self.meter.stats;
-            stats.peak_front = stats.peak_front.max(self.memory.queue.peak_length());
-            self.memory.queue.clear();
+            stats.peak_front = stats.peak_front.max(self.schedule.queue.peak_length());
+            self.schedule.queue.clear();
             self.state = None;
-            let outcome = match &mut self.part {
+            let outcome = match &mut self.rounds_and_problem {
                 None => outcome,
-                Some((rounds, part)) => match rounds.process_outcome(&outcome, &mut self.meter) {
-                    ControlFlow::Break(outcome) => outcome,
-                    ControlFlow::Continue(()) => {
-                        *part = rounds.between_clocks();
-                        continue;
+                Some((rounds, part)) => {
+                    match rounds.start_next_round_or_finish(&outcome, &mut self.meter) {
+                        ControlFlow::Break(outcome) => outcome,
+                        ControlFlow::Continue(()) => {
+                            *part = rounds.between_clocks();
+                            continue;
+                        }
                     }
-                },
+                }
             };
-            let parting = problem_after_start_contact(
+            let parting = problem_ignoring_start_contact(
                 &self.current_problem,
                 self.start,
                 &outcome,
@@ -223,7 +225,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
             );
             match parting {
                 Some(parting) => {
-                    self.part = first_round(&parting);
+                    self.rounds_and_problem = first_round(&parting);
                     self.current_problem = parting;
                     self.start = StartPolicy::Report;
                 }
@@ -243,20 +245,20 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
     /// at present. Returns the time that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
-        let (problem, until) = match &self.part {
+        let (problem, until) = match &self.rounds_and_problem {
             Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
             None => (&self.current_problem, until.next_up()),
         };
         let clock = problem.clock(until);
         let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
-        let mut search = Search::new(&mut self.memory.queue, oracle, &mut self.meter);
+        let mut search = Search::new(&mut self.schedule.queue, oracle, &mut self.meter);
         let SearchState {
-            tighter_bounds: look,
+            bound_tightener: look,
             proven,
         } = match &mut self.state {
             Some(state) => state,
             state => {
-                if let Some(free) = free_by_bounding_volumes(problem) {
+                if let Some(free) = free_outcome_by_bounding_volumes(problem) {
                     return ControlFlow::Break(free);
                 }
                 let mut proven = ProvenFacts::default();
@@ -268,9 +270,9 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                         Limit::Budget,
                     ));
                 }
-                let look = TighterBounds::new(problem);
+                let look = BoundTightener::new(problem);
                 state.insert(SearchState {
-                    tighter_bounds: look,
+                    bound_tightener: look,
                     proven,
                 })
             }
@@ -280,8 +282,8 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
     }
 }
 
-fn first_round<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
-    let rounds = Rounds::for_problem(problem)?;
+fn first_round<'a>(problem: &Problem<'a>) -> Option<(PeriodicSearch<'a>, Problem<'a>)> {
+    let rounds = PeriodicSearch::for_problem(problem)?;
     let part = rounds.between_clocks();
     Some((rounds, part))
 }

@@ -14,7 +14,7 @@ use crate::motion::Motion;
 use crate::problem::Problem;
 use crate::query::MovingBody;
 use crate::settings::Settings;
-use crate::tests::double::{Double, Double3, place};
+use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, body, direction, magnitude, point_in_ball, rng, rotation, soup,
@@ -26,11 +26,11 @@ use glam::DVec3;
 /// The largest errors found of positions, gaps and distances, as shares of their bounds.
 #[derive(Debug, Default)]
 struct WorstErrorShares {
-    place: f64,
+    position: f64,
     gap: f64,
     distance: f64,
     /// The number of tested problems that are far from the body's or the world's origin, by a million units or more.
-    far: usize,
+    far_count: usize,
     turning_count: usize,
 }
 
@@ -49,7 +49,8 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         let world = direction(&mut rng) * far;
         let duration = magnitude(&mut rng, -3.0, 3.0);
         let motions = [(); 2].map(|()| motion(&mut rng, world, size, duration));
-        worst.far += usize::from(far > 1e5 || bodies[0].tree().span() > 1e5);
+        worst.far_count +=
+            usize::from(far > 1e5 || bodies[0].tree().max_distance_from_origin() > 1e5);
         worst.turning_count += usize::from(motions[0].spin().length() * duration > 100.0);
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
@@ -58,8 +59,11 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
             sample(&mut rng, &problem, &motions, duration, s, &mut worst);
         }
     }
-    assert!(worst.far > 500 && worst.turning_count > 500, "{worst:?}");
-    assert!(worst.place < 1.0, "{worst:?}");
+    assert!(
+        worst.far_count > 500 && worst.turning_count > 500,
+        "{worst:?}"
+    );
+    assert!(worst.position < 1.0, "{worst:?}");
     assert!(worst.gap < 1.0, "{worst:?}");
     assert!(worst.distance < 1.0, "{worst:?}");
 }
@@ -78,13 +82,13 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
         let motions = ends.map(|ends| between(&ends, duration));
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
-        let origin = Double3::from(ends[1].positions[0]);
+        let origin = DoubleDouble3::from(ends[1].positions[0]);
         for k in 0..2 {
             let s = rng.random_range(0.0..1.0);
             let side = [&problem.a, &problem.b][k];
             for &p in bodies[k].pieces().points() {
-                let exact = ends[k].place(Double::from(s), p) - origin;
-                let off = (Double3::from(side.path.frame(s).point(p)) - exact).length();
+                let exact = ends[k].place(DoubleDouble::from(s), p) - origin;
+                let off = (DoubleDouble3::from(side.path.frame(s).point(p)) - exact).length();
                 worst = greater(worst, off.get() / problem.rounding);
             }
         }
@@ -134,7 +138,7 @@ fn sample(
     worst: &mut WorstErrorShares,
 ) {
     let of = error_shares(rng, problem, motions, duration, s);
-    worst.place = greater(worst.place, of.place);
+    worst.position = greater(worst.position, of.place);
     worst.gap = greater(worst.gap, of.gap);
     worst.distance = greater(worst.distance, of.distance);
 }
@@ -159,13 +163,13 @@ fn error_shares(
     let mut shares = ErrorShares::default();
     let sides = [&problem.a, &problem.b];
     let frames = sides.map(|side| side.path.frame(s));
-    let origin = Double3::from(motions[1].start().translation());
+    let origin = DoubleDouble3::from(motions[1].start().translation());
     let pieces = sides.map(|side| {
         let all: &Pieces = side.body.pieces();
         let last = all.len() - 1;
         all.get(rng.random_range(0..=last))
     });
-    let exact: [Vec<Double3>; 2] = std::array::from_fn(|k| {
+    let exact: [Vec<DoubleDouble3>; 2] = std::array::from_fn(|k| {
         let points = pieces[k].points.iter();
         points
             .map(|&p| place(&motions[k], duration, s, p) - origin)
@@ -173,7 +177,7 @@ fn error_shares(
     });
     for k in 0..2 {
         for (&p, &exact) in pieces[k].points.iter().zip(&exact[k]) {
-            let off = (Double3::from(frames[k].point(p)) - exact).length();
+            let off = (DoubleDouble3::from(frames[k].point(p)) - exact).length();
             shares.place = greater(shares.place, share(off.get(), problem.rounding));
         }
     }
@@ -190,19 +194,26 @@ fn error_shares(
     };
     let checked = separation::check(&pair, &claim, problem.rounding);
     // A bound holds along any axis: the axis of this bound is the image of the claimed one in A's rounded frame.
-    let along = |column: DVec3, by: f64| Double3::from(column).scale(Double::from(by));
+    let along = |column: DVec3, by: f64| DoubleDouble3::from(column).scale(DoubleDouble::from(by));
     let (turn, n) = (frames[0].rotation, checked.axis);
     let axis = along(turn.x_axis, n.x) + along(turn.y_axis, n.y) + along(turn.z_axis, n.z);
     let axis = axis.unit();
-    let heights =
-        |points: &[Double3]| -> Vec<Double> { points.iter().map(|&p| axis.dot(p)).collect() };
-    let lowest = heights(&exact[1]).into_iter().reduce(Double::min).unwrap();
-    let highest = heights(&exact[0]).into_iter().reduce(Double::max).unwrap();
+    let heights = |points: &[DoubleDouble3]| -> Vec<DoubleDouble> {
+        points.iter().map(|&p| axis.dot(p)).collect()
+    };
+    let lowest = heights(&exact[1])
+        .into_iter()
+        .reduce(DoubleDouble::min)
+        .unwrap();
+    let highest = heights(&exact[0])
+        .into_iter()
+        .reduce(DoubleDouble::max)
+        .unwrap();
     let gap = (lowest - highest).get();
     let rounded = checked.lower + problem.rounding;
     shares.gap = share((rounded - gap).abs(), problem.rounding);
     let distance = (exact[1][j as usize] - exact[0][i as usize]).length();
-    let rounded = Double::from(checked.upper - problem.rounding);
+    let rounded = DoubleDouble::from(checked.upper - problem.rounding);
     let off = (rounded - distance).get().abs();
     shares.distance = share(off, problem.rounding);
     shares

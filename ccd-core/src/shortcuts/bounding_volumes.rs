@@ -5,7 +5,7 @@
 //! ends.
 
 use super::Shortcut;
-use super::placed::{ApproachRateBounds, PlacedNode, straight};
+use super::placed::{ApproachRateBounds, PlacedNode, centre_approach_rate};
 use crate::answer::Outcome;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
@@ -15,7 +15,7 @@ use crate::tuning::BOX_PROJECTION_COUNT;
 use glam::DVec3;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
-pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
+pub(crate) fn free_outcome_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
     let by_balls = problem.uses_shortcut(Shortcut::Balls) && balls_keep_apart(problem);
     let is_free = by_balls || problem.uses_shortcut(Shortcut::Boxes) && boxes_keep_apart(problem);
     is_free.then(|| Outcome::Free {
@@ -53,7 +53,7 @@ fn deviation_from_line(problem: &Problem<'_>) -> f64 {
 }
 
 /// Returns the clock at which the bounding balls are nearest to each other.
-pub(crate) fn nearest_clock(problem: &Problem<'_>) -> f64 {
+pub(crate) fn clock_of_nearest_balls(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
     least_length_parameter(b.centre - a.centre, b.velocity - a.velocity)
 }
@@ -146,10 +146,10 @@ fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3) 
     // Written so that NaN proves nothing. Most planes fail at the first two conditions, which cost the least: no bound
     // of the approach is below that of the centres, unless the bodies accelerate away from each other.
     let away = problem.a.path.acceleration - problem.b.path.acceleration;
-    let of_centres = straight(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
+    let of_centres = centre_approach_rate(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
     excess > 0.0
         && of_centres <= excess
-        && ApproachRateBounds::along(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
+        && ApproachRateBounds::along_axis(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
 }
 
 #[cfg(test)]

@@ -13,23 +13,23 @@ use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW}
 
 /// Computes tighter bounds for single pairs of nodes of a query, where splitting nodes would prove little.
 #[derive(Debug)]
-pub(crate) struct TighterBounds {
+pub(crate) struct BoundTightener {
     /// Whether the rounding of gaps in f32 is too large for the gap that the largest nodes have to keep.
     is_f32_coarse: bool,
     /// The number of splits in the search so far.
-    splits: u64,
+    split_count: u64,
     screw: Option<Screw>,
 }
 
-impl TighterBounds {
+impl BoundTightener {
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         let radius = |side: &BodyWithPath<'_>| f64::from(side.body.tree().radius());
         let rounding =
             f64::from(GAP_ERROR_PER_RADIUS_F32) * (radius(&problem.a) + radius(&problem.b));
-        TighterBounds {
+        BoundTightener {
             is_f32_coarse: problem.uses_shortcut(Shortcut::FlatNodes)
                 && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
-            splits: 0,
+            split_count: 0,
             screw: None,
         }
     }
@@ -60,14 +60,14 @@ impl TighterBounds {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits >= SPLITS_BEFORE_SCREW {
-            self.finish_along_screw(problem, split, s, siblings, meter);
+        if self.split_count >= SPLITS_BEFORE_SCREW {
+            self.finish_pairs_along_screw(problem, split, s, siblings, meter);
         }
-        self.splits += 1;
+        self.split_count += 1;
     }
 
     #[cold]
-    fn finish_along_screw(
+    fn finish_pairs_along_screw(
         &mut self,
         problem: &Problem<'_>,
         split: &Split,
@@ -75,7 +75,7 @@ impl TighterBounds {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits == SPLITS_BEFORE_SCREW && problem.uses_shortcut(Shortcut::Screw) {
+        if self.split_count == SPLITS_BEFORE_SCREW && problem.uses_shortcut(Shortcut::Screw) {
             self.screw = Screw::for_problem(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.

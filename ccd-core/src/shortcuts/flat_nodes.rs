@@ -97,11 +97,11 @@ fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, 
     if !(gap > CLOSED_GAP * problem.tolerance) {
         return 0.0;
     }
-    let approach = ApproachRateBounds::along(problem, [&a.node, &b.node], n, s);
+    let approach = ApproachRateBounds::along_axis(problem, [&a.node, &b.node], n, s);
     let free = approach.free_time(gap);
     // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.
-    if free >= 1.0 - s || approach.straight * free >= (1.0 - ROTATION_GAP_SHARE) * gap {
+    if free >= 1.0 - s || approach.centre_rate * free >= (1.0 - ROTATION_GAP_SHARE) * gap {
         free
     } else {
         0.0

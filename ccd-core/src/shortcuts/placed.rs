@@ -44,7 +44,7 @@ impl PlacedNode {
             frame,
             shape: Shape::Box {
                 axes: [0, 1, 2].map(|k| whole.axes.col(k)),
-                half: whole.half.to_array(),
+                half: whole.half_extents.to_array(),
                 slack: whole.slack,
             },
             centre: frame.point(whole.centre),
@@ -143,7 +143,7 @@ impl PlacedNode {
 /// Upper bounds of the rate at which a node of A and a node of B approach along a direction, and of its derivative.
 pub(crate) struct ApproachRateBounds {
     /// The rate at which the nodes' centres approach each other.
-    pub(crate) straight: f64,
+    pub(crate) centre_rate: f64,
     /// An upper bound of the rate at which any two points of the nodes approach along the direction.
     rate: f64,
     /// An upper bound of the derivative of that rate; negative if the nodes accelerate away from each other.
@@ -152,8 +152,13 @@ pub(crate) struct ApproachRateBounds {
 
 impl ApproachRateBounds {
     /// Computes the bounds along a unit vector from A to B, from clock `s` on.
-    pub(crate) fn along(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3, s: f64) -> Self {
-        let straight = straight(problem, [a, b], n, s);
+    pub(crate) fn along_axis(
+        problem: &Problem<'_>,
+        [a, b]: [&PlacedNode; 2],
+        n: DVec3,
+        s: f64,
+    ) -> Self {
+        let straight = centre_approach_rate(problem, [a, b], n, s);
         let (mut turning, mut second_derivative, mut speed) = (0.0, 0.0, 0.0);
         for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
             let (path, radius) = (&side.path, node.radius);
@@ -170,7 +175,7 @@ impl ApproachRateBounds {
             speed += path.speed() + path.rate * (length(arm) + radius);
         }
         ApproachRateBounds {
-            straight,
+            centre_rate: straight,
             rate: straight + turning + 2.0 * RATE_ERROR_F64 * speed,
             second_derivative,
         }
@@ -188,7 +193,12 @@ impl ApproachRateBounds {
 }
 
 /// Returns the rate at which the nodes' centres approach each other along `n`.
-pub(crate) fn straight(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3, s: f64) -> f64 {
+pub(crate) fn centre_approach_rate(
+    problem: &Problem<'_>,
+    [a, b]: [&PlacedNode; 2],
+    n: DVec3,
+    s: f64,
+) -> f64 {
     let rate = |path: &Path, centre: DVec3, n: DVec3| n.dot(path.velocity_at(centre, s));
     rate(&problem.a.path, a.centre, n) + rate(&problem.b.path, b.centre, -n)
 }

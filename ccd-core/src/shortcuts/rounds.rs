@@ -16,22 +16,22 @@ use crate::motion::period::{PathWithRadius, Period};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{TURN_COUNT_WIDENING, least_tolerance, position_rounding};
 use crate::settings::StartPolicy;
-use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
-use crate::tuning::{MAX_PERIOD_SHARE, MAX_SCREW_DRIFT, PERIOD_CHANGE_SHARE};
+use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
+use crate::tuning::{MAX_DISTANCE_CHANGE_SHARE, MAX_SCREW_DRIFT, MAX_SEARCHED_SHARE};
 use std::ops::ControlFlow;
 
 /// A problem with periodic motions, and the time until which the bodies are proven apart.
 #[derive(Debug)]
-pub(crate) struct Rounds<'a> {
-    whole: Problem<'a>,
+pub(crate) struct PeriodicSearch<'a> {
+    whole_problem: Problem<'a>,
     period: Period,
     /// The error of distances in a single period, in addition to the error of distances in the whole problem.
     rounding: f64,
     /// The clock until which the bodies are proven apart.
-    from: f64,
+    proven_until: f64,
     round: Round,
     /// The number of periods of the next round that is searched in full, because its periods differ too much.
-    patience: f64,
+    full_round_periods: f64,
     /// A lower bound of the distance of the bodies up to the clock `from`.
     gap: f64,
 }
@@ -45,13 +45,13 @@ enum Round {
     AllPeriods(f64),
 }
 
-impl<'a> Rounds<'a> {
+impl<'a> PeriodicSearch<'a> {
     /// Creates the rounds of a problem; `None` if the motions are not periodic, or the periods are too long to save
     /// work.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
-        if problem.turns_at_least_twice() && free_by_bounding_volumes(problem).is_none() {
-            Rounds::for_many_turns(problem)
+        if problem.turns_at_least_twice() && free_outcome_by_bounding_volumes(problem).is_none() {
+            PeriodicSearch::for_many_turns(problem)
         } else {
             None
         }
@@ -66,7 +66,7 @@ impl<'a> Rounds<'a> {
     ) -> Outcome {
         loop {
             let outcome = search(&self.between_clocks(), meter);
-            match self.process_outcome(&outcome, meter) {
+            match self.start_next_round_or_finish(&outcome, meter) {
                 ControlFlow::Continue(()) => {}
                 ControlFlow::Break(outcome) => return outcome,
             }
@@ -89,7 +89,7 @@ impl<'a> Rounds<'a> {
             position_rounding(reach, path.rate, way)
         });
         let rounding = a + b;
-        let known = PERIOD_CHANGE_SHARE * tolerance;
+        let known = MAX_DISTANCE_CHANGE_SHARE * tolerance;
         // Written so that NaN is too much.
         if !(rounding + least_tolerance(problem.rounding) <= 0.5 * known) {
             return None;
@@ -98,13 +98,13 @@ impl<'a> Rounds<'a> {
         let size = lesser(a, b);
         let period = period_with_least_work(bodies, known)
             .or_else(|| period_with_least_work(bodies, MAX_SCREW_DRIFT * size))?;
-        let mut rounds = Rounds {
-            whole: problem.clone(),
+        let mut rounds = PeriodicSearch {
+            whole_problem: problem.clone(),
             period,
             rounding,
-            from: 0.0,
+            proven_until: 0.0,
             round: Round::AllPeriods(1.0),
-            patience: 1.0,
+            full_round_periods: 1.0,
             gap: f64::INFINITY,
         };
         rounds.start_round(f64::INFINITY);
@@ -113,48 +113,58 @@ impl<'a> Rounds<'a> {
 
     /// Returns the problem to search in the present round: its first period or all periods, with a raised margin.
     pub(crate) fn between_clocks(&self) -> Problem<'a> {
-        let tolerance = self.whole.tolerance;
+        let tolerance = self.whole_problem.tolerance;
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
         // distances is lost.
-        let room = (tolerance - 2.0 * self.distance_change()) - 4.0 * self.rounding;
-        let left = greater(room, PERIOD_CHANGE_SHARE * tolerance);
+        let room = (tolerance - 2.0 * self.max_distance_change()) - 4.0 * self.rounding;
+        let left = greater(room, MAX_DISTANCE_CHANGE_SHARE * tolerance);
         let to = match self.round {
-            Round::FirstPeriod(_) => lesser(1.0, self.from + self.period.length_rounded_up()),
+            Round::FirstPeriod(_) => {
+                lesser(1.0, self.proven_until + self.period.length_rounded_up())
+            }
             Round::AllPeriods(_) => self.end_clock(),
         };
-        self.whole.between_clocks(
-            [self.from, to],
+        self.whole_problem.between_clocks(
+            [self.proven_until, to],
             self.margin_increase() + 0.5 * (tolerance - left),
             left,
         )
     }
 
     /// Processes the outcome of a round: starts the next round, or breaks with the outcome of the whole problem.
-    pub(crate) fn process_outcome(
+    pub(crate) fn start_next_round_or_finish(
         &mut self,
         outcome: &Outcome,
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
-        let unresolved =
-            |rounds: &Self, reason| Outcome::unresolved(rounds.whole.time(rounds.from), reason);
+        let unresolved = |rounds: &Self, reason| {
+            Outcome::unresolved(rounds.whole_problem.time(rounds.proven_until), reason)
+        };
         match *outcome {
             Outcome::Free { proven_gap } => self.record_gap(proven_gap)?,
-            Outcome::Contact { time, contact } => self.process_contact(time, contact)?,
+            Outcome::Contact { time, contact } => {
+                self.confirm_contact_or_shorten_round(time, contact)?;
+            }
             Outcome::Touching { contact } => {
-                self.process_contact(self.whole.time(self.from), contact)?;
+                self.confirm_contact_or_shorten_round(
+                    self.whole_problem.time(self.proven_until),
+                    contact,
+                )?;
             }
             Outcome::Unresolved(_) => return ControlFlow::Break(*outcome),
             Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 unreachable!("no outcome of a search for contacts")
             }
-            Outcome::Overlapping { .. } if self.from == 0.0 => return ControlFlow::Break(*outcome),
+            Outcome::Overlapping { .. } if self.proven_until == 0.0 => {
+                return ControlFlow::Break(*outcome);
+            }
             // The bodies were proven apart until then, so an oracle contradicts itself.
             Outcome::Overlapping { .. } => {
                 return ControlFlow::Break(unresolved(self, Limit::Undecided));
             }
         }
         // A round counts as a visit, even if bounding balls prove the bodies apart at once.
-        match meter.count_visit(&self.whole) {
+        match meter.count_visit(&self.whole_problem) {
             Ok(()) => ControlFlow::Continue(()),
             Err(limit) => ControlFlow::Break(unresolved(self, limit)),
         }
@@ -163,18 +173,18 @@ impl<'a> Rounds<'a> {
     /// Records that the bodies keep a gap in the present round, and starts the next round or ends the search.
     fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
         self.gap = lesser(self.gap, (gap - self.margin_increase()).next_down());
-        self.from = self.end_clock();
-        if self.from >= 1.0 {
-            let proven_gap = greater(self.gap, self.whole.margin);
+        self.proven_until = self.end_clock();
+        if self.proven_until >= 1.0 {
+            let proven_gap = greater(self.gap, self.whole_problem.margin);
             return ControlFlow::Break(Outcome::Free { proven_gap });
         }
         match self.round {
             Round::FirstPeriod(count) => {
-                self.patience = 1.0;
+                self.full_round_periods = 1.0;
                 self.start_round(2.0 * count);
             }
             Round::AllPeriods(count) => {
-                self.patience = 2.0 * count;
+                self.full_round_periods = 2.0 * count;
                 self.start_round(2.0);
             }
         }
@@ -182,8 +192,12 @@ impl<'a> Rounds<'a> {
     }
 
     /// Processes a contact in the present round: returns it if the bodies are in contact, or else shortens the round.
-    fn process_contact(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
-        let within = self.whole.contact_distance();
+    fn confirm_contact_or_shorten_round(
+        &mut self,
+        time: f64,
+        contact: Contact,
+    ) -> ControlFlow<Outcome> {
+        let within = self.whole_problem.contact_distance();
         let contact = widen_contact_by(contact, self.rounding);
         let Separation { upper, .. } = contact.separation;
         match self.round {
@@ -192,7 +206,7 @@ impl<'a> Rounds<'a> {
                 let fewer = (upper - within) / self.period.max_distance_change;
                 match lesser(0.5 * count, fewer).floor() {
                     fewer if fewer >= 2.0 => self.start_round(fewer),
-                    _ => self.round = Round::AllPeriods(self.patience),
+                    _ => self.round = Round::AllPeriods(self.full_round_periods),
                 }
                 ControlFlow::Continue(())
             }
@@ -202,17 +216,17 @@ impl<'a> Rounds<'a> {
 
     /// Starts a round of `count` periods, or of the remaining periods if fewer are left.
     fn start_round(&mut self, count: f64) {
-        let left = ((1.0 - self.from) / self.period.length).ceil();
+        let left = ((1.0 - self.proven_until) / self.period.length).ceil();
         self.round = match lesser(count, left) {
             count if count >= 2.0 => Round::FirstPeriod(count),
-            _ => Round::AllPeriods(self.patience),
+            _ => Round::AllPeriods(self.full_round_periods),
         };
     }
 
     /// Returns the clock at which the round ends.
     fn end_clock(&self) -> f64 {
         let (Round::FirstPeriod(count) | Round::AllPeriods(count)) = self.round;
-        let end = self.from + count * self.period.length;
+        let end = self.proven_until + count * self.period.length;
         // A rest of the time that is only rounding is covered, too.
         if end + 0.5 * TURN_COUNT_WIDENING * self.period.length < 1.0 {
             end
@@ -223,7 +237,7 @@ impl<'a> Rounds<'a> {
 
     /// Returns a bound of the difference between distances in the searched part of the round and at the same phase of
     /// its other periods.
-    fn distance_change(&self) -> f64 {
+    fn max_distance_change(&self) -> f64 {
         match self.round {
             Round::FirstPeriod(count) => count * self.period.max_distance_change,
             Round::AllPeriods(_) => 0.0,
@@ -232,28 +246,28 @@ impl<'a> Rounds<'a> {
 
     /// Returns the distance that the bodies have to keep beyond the margin in the searched part of the round.
     fn margin_increase(&self) -> f64 {
-        self.distance_change() + self.rounding
+        self.max_distance_change() + self.rounding
     }
 }
 
 /// One period that represents the whole duration, for queries for the closest approach.
 #[derive(Debug)]
-pub(crate) struct Sample<'a> {
+pub(crate) struct RepresentativePeriod<'a> {
     /// The problem restricted to this period, with a tolerance that leaves room for `change`.
-    pub(crate) part: Problem<'a>,
+    pub(crate) period_problem: Problem<'a>,
     /// A bound of the difference between distances in this period and in any other.
-    pub(crate) change: f64,
+    pub(crate) max_distance_change: f64,
     /// The error of distances in this period, in addition to the error of distances in the whole problem.
     pub(crate) rounding: f64,
 }
 
-impl<'a> Sample<'a> {
+impl<'a> RepresentativePeriod<'a> {
     /// Returns the first period if its distances differ from those in all other periods by at most a part of the
     /// tolerance; `None` otherwise.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         if problem.turns_at_least_twice() {
-            Sample::for_many_turns(problem)
+            RepresentativePeriod::for_many_turns(problem)
         } else {
             None
         }
@@ -261,21 +275,26 @@ impl<'a> Sample<'a> {
 
     #[cold]
     fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
-        let rounds = Rounds::for_many_turns(problem)?;
-        let (change, rounding) = (rounds.distance_change(), rounds.rounding);
+        let rounds = PeriodicSearch::for_many_turns(problem)?;
+        let (change, rounding) = (rounds.max_distance_change(), rounds.rounding);
         // Written so that NaN is too much.
         let stands_for_all =
             matches!(rounds.round, Round::FirstPeriod(_)) && rounds.end_clock() >= 1.0;
-        (stands_for_all && change <= PERIOD_CHANGE_SHARE * problem.tolerance).then(|| Sample {
-            part: rounds.between_clocks().for_distances(),
-            change,
-            rounding,
+        (stands_for_all && change <= MAX_DISTANCE_CHANGE_SHARE * problem.tolerance).then(|| {
+            RepresentativePeriod {
+                period_problem: rounds.between_clocks().for_distances(),
+                max_distance_change: change,
+                rounding,
+            }
         })
     }
 
     /// Converts a lower bound of the distance in this period to a lower bound for the whole duration.
     pub(crate) fn lower(&self, distance: f64) -> f64 {
-        greater(0.0, (distance - (self.change + self.rounding)).next_down())
+        greater(
+            0.0,
+            (distance - (self.max_distance_change + self.rounding)).next_down(),
+        )
     }
 
     /// Widens the bounds of a contact in the period so that they hold for the whole problem.
@@ -304,10 +323,10 @@ fn period_with_least_work(bodies: [PathWithRadius<'_>; 2], change: f64) -> Optio
         let rounds = greater(1.0, period.max_distance_change / (period.length * change));
         lesser(1.0, period.length * rounds)
     };
-    Period::all(bodies)
+    Period::all_fitting_twice(bodies)
         .map(|period| (searched(&period), period))
         .reduce(|best, next| if next.0 < best.0 { next } else { best })
-        .filter(|(searched, _)| *searched <= MAX_PERIOD_SHARE)
+        .filter(|(searched, _)| *searched <= MAX_SEARCHED_SHARE)
         .map(|(_, period)| period)
 }
 

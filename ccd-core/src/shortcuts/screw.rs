@@ -15,11 +15,11 @@ mod profile;
 use super::placed::PlacedNode;
 use super::screw::profile::{Profile, ScrewAxis, ScrewPath, profiles_keep_apart};
 use crate::body::tree::{GroupHeader, NodeChildren, NodeId, NodeOrTriangle};
-use crate::engine::capacity::empty;
+use crate::engine::capacity::clear_and_shrink;
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
-use crate::rounding::{ADVANCE_ERROR_F64, RATE_ERROR_F64};
+use crate::rounding::{RATE_ERROR_F64, SCREW_VELOCITY_ERROR_F64};
 use crate::tuning::{CLOSED_GAP, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -43,12 +43,12 @@ struct BodyProfiles {
     /// For each node or triangle, by its id, the index of its profile among the known ones, or a mark that it is unknown or
     /// that there is none.
     profile_indices: Vec<u32>,
-    known: Vec<Profile>,
+    computed_profiles: Vec<Profile>,
 }
 
 /// The entry of `profile_indices` for a node whose profile is not computed yet.
-const UNKNOWN: u32 = u32::MAX;
-const NONE: u32 = u32::MAX - 1;
+const NOT_COMPUTED: u32 = u32::MAX;
+const NO_PROFILE: u32 = u32::MAX - 1;
 
 impl Screw {
     /// Returns the screw motion of one body relative to the other, and clears all profiles. It is `None` unless exactly
@@ -72,7 +72,7 @@ impl Screw {
             0.0
         };
         // The advance is off by a few units in the last place, which counts as drift too.
-        let drift = length(velocity - along * unit) + ADVANCE_ERROR_F64 * length(velocity);
+        let drift = length(velocity - along * unit) + SCREW_VELOCITY_ERROR_F64 * length(velocity);
         // Bodies with the same acceleration do not accelerate relative to each other.
         let acceleration = side.path.acceleration - other.path.acceleration;
         let drift = drift + 0.5 * length(acceleration);
@@ -148,9 +148,9 @@ impl Screw {
 impl BodyProfiles {
     fn clear(&mut self, side: &BodyWithPath<'_>) {
         let count = side.body.tree().nodes() + side.body.pieces().len();
-        empty(&mut self.known);
-        empty(&mut self.profile_indices);
-        self.profile_indices.resize(count, UNKNOWN);
+        clear_and_shrink(&mut self.computed_profiles);
+        clear_and_shrink(&mut self.profile_indices);
+        self.profile_indices.resize(count, NOT_COMPUTED);
     }
 
     /// Returns the profile of a node or triangle; `None` if the node surrounds the axis, or nearly does.
@@ -161,16 +161,16 @@ impl BodyProfiles {
         axis: &ScrewAxis,
     ) -> Option<&Profile> {
         let place = &mut self.profile_indices[id as usize];
-        if *place == UNKNOWN {
+        if *place == NOT_COMPUTED {
             *place = match compute_profile(side, id, axis) {
-                Some(profile) if self.known.len() < NONE as usize => {
-                    self.known.push(profile);
-                    self.known.len() as u32 - 1
+                Some(profile) if self.computed_profiles.len() < NO_PROFILE as usize => {
+                    self.computed_profiles.push(profile);
+                    self.computed_profiles.len() as u32 - 1
                 }
-                _ => NONE,
+                _ => NO_PROFILE,
             };
         }
-        self.known.get(*place as usize)
+        self.computed_profiles.get(*place as usize)
     }
 }
 

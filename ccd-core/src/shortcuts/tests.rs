@@ -11,12 +11,12 @@ use crate::schedule::BestFirst;
 use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{Kind, body, distance, rng, scene};
+use crate::tests::scene::{SceneKind, body, distance, rng, scene};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
+    BestFirst::default().answer_first_contact(problem, &mut ExhaustiveOracle)
 }
 
 /// Checks that two times of contact agree: at the earlier one, the bodies are as far apart as the answer with the later
@@ -31,14 +31,19 @@ fn assert_times_agree(problem: &Problem<'_>, earlier: f64, number: usize) {
 
 #[test]
 fn answers_without_a_shortcut_agree_with_those_of_all() {
-    const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
+    const SCENE_KINDS: [SceneKind; 4] = [
+        SceneKind::RandomMotion,
+        SceneKind::Sliding,
+        SceneKind::NearRim,
+        SceneKind::Receding,
+    ];
     let mut rng = rng(7);
     let (mut contacts, mut free, mut changed) = (0, 0, 0);
     for number in 0..2_800 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
-        scene.config.budget = 20_000;
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
+        scene.settings.budget = 20_000;
         let with = solve(&scene.problem());
-        scene.config.shortcuts = Shortcuts::ALL.without(Shortcut::ALL[number / 4 % 7]);
+        scene.settings.shortcuts = Shortcuts::ALL.without(Shortcut::ALL[number / 4 % 7]);
         let problem = scene.problem();
         let without = solve(&problem);
         changed += u32::from(with.stats.work() != without.stats.work());
@@ -76,7 +81,7 @@ fn at(place: [f64; 3]) -> Pose {
     Pose::at(place).unwrap()
 }
 
-fn moving(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
+fn motion_from(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
     Motion::new(at(place), velocity, spin).unwrap()
 }
 
@@ -127,11 +132,11 @@ fn scene_of(shortcut: Shortcut) -> Pair {
     let still = Motion::STILL;
     match shortcut {
         Shortcut::Balls => {
-            let passing = moving([-5.0, 4.0, 0.0], [10.0, 0.0, 0.0], [0.0; 3]);
+            let passing = motion_from([-5.0, 4.0, 0.0], [10.0, 0.0, 0.0], [0.0; 3]);
             ([plate(1.0, 4), tube(1.0, 16)], [passing, still], 1e-3)
         }
         Shortcut::Boxes => {
-            let above = moving([-0.5, 0.0, 0.1], [1.0, 0.0, 0.0], [0.0; 3]);
+            let above = motion_from([-0.5, 0.0, 0.1], [1.0, 0.0, 0.0], [0.0; 3]);
             ([plate(1.0, 8), plate(1.0, 8)], [above, still], 1e-3)
         }
         Shortcut::Rounds => {
@@ -147,21 +152,21 @@ fn scene_of(shortcut: Shortcut) -> Pair {
             )
         }
         Shortcut::Screw => {
-            let turning = moving([0.0; 3], [0.0; 3], [0.0, 0.0, TAU]);
+            let turning = motion_from([0.0; 3], [0.0; 3], [0.0, 0.0, TAU]);
             ([tube(1.0, 64), tube(1.05, 64)], [turning, still], 1e-3)
         }
         Shortcut::FlatNodes => {
-            let falling = moving([0.0, 0.0, 1e-3], [0.0, 0.0, -1.0], [0.0; 3]);
+            let falling = motion_from([0.0, 0.0, 1e-3], [0.0, 0.0, -1.0], [0.0; 3]);
             ([plate(1.0, 16), plate(1.0, 16)], [falling, still], 1e-9)
         }
         Shortcut::TurningNodes => {
-            let turning = moving([0.0; 3], [0.0; 3], [1.5, 0.0, 0.0]);
-            let beside = moving([0.8, -0.02, 0.03], [0.0; 3], [0.0; 3]);
+            let turning = motion_from([0.0; 3], [0.0; 3], [1.5, 0.0, 0.0]);
+            let beside = motion_from([0.8, -0.02, 0.03], [0.0; 3], [0.0; 3]);
             ([disc(8), plate(0.01, 8)], [turning, beside], 1e-5)
         }
         Shortcut::TurningPieces => {
-            let turning = moving([0.0; 3], [0.0; 3], [0.0, 0.0, 3.0]);
-            let beside = moving([0.0, -1.0, 0.0], [0.0, 0.9, 0.0], [0.0; 3]);
+            let turning = motion_from([0.0; 3], [0.0; 3], [0.0, 0.0, 3.0]);
+            let beside = motion_from([0.0, -1.0, 0.0], [0.0, 0.9, 0.0], [0.0; 3]);
             ([plate(0.5, 1), plate(0.01, 1)], [turning, beside], 1e-4)
         }
     }

@@ -38,18 +38,19 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let level = axis.n.level();
         let at = Vec3x8::splat(level, other.centre());
         let velocity = Vec3x8::splat(level, motion.velocity);
-        let velocity = velocity + motion.split.velocity(at) - self.other_rotational_velocity;
-        let across = motion.split.cross_angular_velocity(axis.n);
-        let own = motion.other.cross_angular_velocity(axis.n);
+        let velocity =
+            velocity + motion.split_rotation.velocity(at) - self.other_rotational_velocity;
+        let across = motion.split_rotation.cross_angular_velocity(axis.n);
+        let own = motion.other_rotation.cross_angular_velocity(axis.n);
         self.turning_plane_free_time(
             axis,
-            second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
-            motion.split.rate,
+            second_derivative_bound(across, motion.split_rotation.rate, splat(level, 1.0)),
+            motion.split_rotation.rate,
             &NodePastTurningPlane {
                 rate: axis.n.dot(velocity) + other.extent_along(own - across),
-                distance: motion.split.distances_from_centre(at) + other.radius(),
-                speed: self.other_speed,
-                own_angular_speed: motion.other.rate,
+                distance: motion.split_rotation.distances_from_centre(at) + other.radius(),
+                speed: self.other_rotational_speed,
+                own_angular_speed: motion.other_rotation.rate,
             },
         )
     }
@@ -61,18 +62,19 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let level = axis.n.level();
         let at = children.centre(level);
         let velocity = Vec3x8::splat(level, motion.velocity);
-        let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
-        let across = motion.other.cross_angular_velocity(axis.n);
-        let own = motion.split.cross_angular_velocity(axis.n);
+        let velocity =
+            velocity + motion.split_rotation.velocity(at) - motion.other_rotation.velocity(at);
+        let across = motion.other_rotation.cross_angular_velocity(axis.n);
+        let own = motion.split_rotation.cross_angular_velocity(axis.n);
         self.turning_plane_free_time(
             axis,
-            second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
-            motion.other.rate,
+            second_derivative_bound(across, motion.other_rotation.rate, splat(level, 1.0)),
+            motion.other_rotation.rate,
             &NodePastTurningPlane {
                 rate: axis.n.dot(velocity) + children.extent_along(own - across),
-                distance: motion.other.distances_from_centre(at) + children.radius(level),
+                distance: motion.other_rotation.distances_from_centre(at) + children.radius(level),
                 speed: self.speed,
-                own_angular_speed: motion.split.rate,
+                own_angular_speed: motion.split_rotation.rate,
             },
         )
     }
@@ -90,13 +92,13 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             Some(acceleration) => acceleration.length() * SECOND_DERIVATIVE_FACTOR_F32,
             None => 0.0,
         };
-        let straight = motion.velocity.length() + change + motion.rate_slack;
+        let straight = motion.velocity.length() + change + motion.rate_allowance;
         let speed = sweep.speed + straight;
         let far = sweep.distance + speed * MAX_TURNING_PLANE_TIME;
         let second_derivative =
             across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_angular_speed + change;
         // Each sweep happens at the distance of its node from the turning body's centre.
-        let rate_slack = sweep.distance * (RATE_ERROR_F32 * spin) + motion.rate_slack;
+        let rate_slack = sweep.distance * (RATE_ERROR_F32 * spin) + motion.rate_allowance;
         let free = clock::free_time(
             axis.gap - motion.slack,
             motion.closed_gap,

@@ -13,7 +13,7 @@ use crate::body::piece::Piece;
 use crate::math::order::lesser;
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
-use crate::motion::track::{Angle, RotatingVector};
+use crate::motion::track::{AngleSinCos, RotatingVector};
 use crate::problem::BodyWithPath;
 use crate::rounding::{RATE_ERROR_F64, turning_axis_rounding};
 use crate::tuning::{MAX_NEWTON_STEPS, MAX_TURNING_PLANE_TIME};
@@ -63,7 +63,7 @@ impl<'p> MovingPiece<'p> {
 pub(crate) struct PiecePastTurningPlane<'p> {
     /// The plane's normal `n`, which turns at `ω`.
     normal: RotatingVector,
-    unit: DVec3,
+    rotation_axis: DVec3,
     angular_speed: f64,
     /// The vector `D`, from the turning body's centre to the reference point, at the present clock.
     offset: DVec3,
@@ -75,7 +75,7 @@ pub(crate) struct PiecePastTurningPlane<'p> {
     own_rotation_axis: DVec3,
     own_angular_speed: f64,
     /// The relative angular velocity `Δ = ω − ω_s`.
-    relative: DVec3,
+    relative_spin: DVec3,
     piece: Piece<'p>,
     frame: &'p Frame,
     /// The reference point at the end of `D`, in the frame of the piece's body.
@@ -121,7 +121,7 @@ impl<'p> PiecePastTurningPlane<'p> {
         let radius = other.piece.max_distance_from(reference);
         PiecePastTurningPlane {
             normal: RotatingVector::new(path.axis, normal),
-            unit: path.axis,
+            rotation_axis: path.axis,
             angular_speed: path.rate,
             offset,
             velocity,
@@ -129,7 +129,7 @@ impl<'p> PiecePastTurningPlane<'p> {
             acceleration,
             own_rotation_axis: own.axis,
             own_angular_speed: own.rate,
-            relative: path.spin - own.spin,
+            relative_spin: path.spin - own.spin,
             piece: other.piece,
             frame: other.frame,
             reference_point: reference,
@@ -143,7 +143,7 @@ impl<'p> PiecePastTurningPlane<'p> {
     /// Returns a time for which the pieces certainly keep the required gap along the plane's normal; `None` if they do
     /// up to `horizon`. `slack` is the present excess over that gap.
     pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
-        let (height, rate) = self.allowances();
+        let (height, rate) = self.rounding_allowances();
         let apart = slack - height - self.least_start_height();
         first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
             self.evaluations
@@ -174,7 +174,7 @@ impl<'p> PiecePastTurningPlane<'p> {
     }
 
     /// Returns a bound of the rounding of changes of height, and a bound of the rounding of their rates.
-    fn allowances(&self) -> (f64, f64) {
+    fn rounding_allowances(&self) -> (f64, f64) {
         let turns = self.angular_speed + self.own_angular_speed;
         let rounding = turning_axis_rounding(turns);
         let fastest =
@@ -208,8 +208,8 @@ impl<'p> PiecePastTurningPlane<'p> {
     }
 
     fn turned(&self, tau: f64) -> HeightTerms {
-        let angle = Angle::new(self.angular_speed * tau);
-        let own = Angle::new(self.own_angular_speed * tau);
+        let angle = AngleSinCos::new(self.angular_speed * tau);
+        let own = AngleSinCos::new(self.own_angular_speed * tau);
         let axis = self.normal.at(angle);
         let (offset, velocity) = self.offset_and_velocity_after(tau);
         let turning = self.normal.derivative_at(angle) * self.angular_speed;
@@ -222,7 +222,7 @@ impl<'p> PiecePastTurningPlane<'p> {
             height: axis.dot(offset),
             axis: back(axis),
             rate: turning.dot(offset) + axis.dot(velocity),
-            rate_axis: back(self.relative.cross(axis)),
+            rate_axis: back(self.relative_spin.cross(axis)),
         }
     }
 
@@ -240,10 +240,11 @@ impl<'p> PiecePastTurningPlane<'p> {
     /// [`MAX_TURNING_PLANE_TIME`] from `tau` on.
     fn second_derivative(&self, tau: f64) -> f64 {
         let (offset, _) = self.offset_and_velocity_after(tau);
-        let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
+        let arm = self.rotation_axis.cross(offset).length()
+            + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
         let across = self.angular_speed * (self.normal.derivative_length() + RATE_ERROR_F64);
-        let relative =
-            self.relative.length() + RATE_ERROR_F64 * (self.angular_speed + self.own_angular_speed);
+        let relative = self.relative_spin.length()
+            + RATE_ERROR_F64 * (self.angular_speed + self.own_angular_speed);
         let second_derivative = across
             * (self.angular_speed * (arm + RATE_ERROR_F64 * self.reach) + 2.0 * self.speed)
             + relative * (across + self.own_angular_speed) * self.radius

@@ -6,12 +6,12 @@ use crate::engine::answer::EngineSchedule;
 use crate::math::order::greater;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};
+use crate::tests::scene::{RngExt, Scene, SceneKind, direction, magnitude, rng, scene};
 use crate::tests::trajectories::SwingingTrajectory;
 use crate::{Motion, Outcome, Pose};
 
 fn boxes(scene: &Scene) -> [SweptBox; 2] {
-    [0, 1].map(|k| moving(scene, k).swept_box(1.0, &scene.config).unwrap())
+    [0, 1].map(|k| moving(scene, k).swept_box(1.0, &scene.settings).unwrap())
 }
 
 fn moving(scene: &Scene, k: usize) -> MovingBody<'_> {
@@ -23,7 +23,11 @@ fn points_stay_in_their_box() {
     let mut rng = rng(1);
     let (mut tightest, mut turning) = (f64::INFINITY, 0);
     for _ in 0..2_000 {
-        let kind = [Kind::Any, Kind::Sliding, Kind::NearRim][rng.random_range(0..3)];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::Sliding,
+            SceneKind::NearRim,
+        ][rng.random_range(0..3)];
         let scene = scene(&mut rng, kind, 8);
         for (k, swept) in boxes(&scene).iter().enumerate() {
             let path = Path::new(&scene.motions[k], DVec3::ZERO, 1.0);
@@ -47,7 +51,7 @@ fn points_stay_in_their_box() {
             // In the worst case the box is about a ball.
             let whole = scene.bodies[k].tree().body_box();
             let ball = distance(whole.centre, path.centre) + whole.radius;
-            let worst = path.velocity.abs() + 2.0 * (ball + half_contact_distance_of(&scene, k));
+            let worst = path.velocity.abs() + 2.0 * (ball + box_growth_of(&scene, k));
             // Coordinates are rounded at their position.
             let rounding = 4.0 * f64::EPSILON * (swept.max.abs() + swept.min.abs());
             assert!(
@@ -65,7 +69,7 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
     let mut rng = rng(3);
     let mut widest: f64 = 0.0;
     for _ in 0..300 {
-        let scene = scene(&mut rng, Kind::Any, 8);
+        let scene = scene(&mut rng, SceneKind::RandomMotion, 8);
         let (body, swing) = (&scene.bodies[0], SwingingTrajectory::draw(&mut rng, 3.0));
         let swept = MovingBody::from((body, &swing)).swept_box(2.0, &Settings::DEFAULT);
         let swept = swept.unwrap();
@@ -90,13 +94,13 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
     assert!(widest < 4.0, "{widest}");
 }
 
-fn half_contact_distance_of(scene: &Scene, k: usize) -> f64 {
+fn box_growth_of(scene: &Scene, k: usize) -> f64 {
     let side = BodyWithPath {
         body: &scene.bodies[k],
         given_body: None,
         path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
     };
-    half_contact_distance(&side, &scene.config.terms())
+    box_growth(&side, &scene.settings.to_query_settings())
 }
 
 /// Tests that bodies do not touch if their boxes are disjoint, even if the boxes are barely disjoint.
@@ -105,10 +109,14 @@ fn bodies_whose_boxes_are_apart_are_free() {
     let mut rng = rng(2);
     let (mut apart, mut others, mut contacts) = (0, 0, 0);
     for number in 0..4_000 {
-        let kind = [Kind::Any, Kind::Sliding, Kind::NearRim][rng.random_range(0..3)];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::Sliding,
+            SceneKind::NearRim,
+        ][rng.random_range(0..3)];
         let mut scene = scene(&mut rng, kind, 8);
-        scene.config.margin = match rng.random_range(0..3) {
-            0 => scene.config.tolerance * magnitude(&mut rng, -2.0, 5.0),
+        scene.settings.margin = match rng.random_range(0..3) {
+            0 => scene.settings.tolerance * magnitude(&mut rng, -2.0, 5.0),
             _ => 0.0,
         };
         let [a, b] = boxes(&scene);
@@ -125,7 +133,7 @@ fn bodies_whose_boxes_are_apart_are_free() {
             Motion::about(start, motion.velocity(), motion.spin(), motion.centre()).unwrap();
         let [a, b] = boxes(&scene);
         let outcome = BestFirst::default()
-            .solve(&scene.problem(), &mut ExhaustiveOracle)
+            .answer_first_contact(&scene.problem(), &mut ExhaustiveOracle)
             .outcome;
         let is_free = matches!(outcome, Outcome::Free { .. });
         if a.meets(&b) {
@@ -146,15 +154,15 @@ fn bodies_whose_boxes_are_apart_are_free() {
 fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
     let mut rng = rng(3);
     for _ in 0..10_000 {
-        let scene = scene(&mut rng, Kind::Any, 2);
+        let scene = scene(&mut rng, SceneKind::RandomMotion, 2);
         let problem = scene.problem();
         let shares: f64 = [&problem.a, &problem.b]
             .iter()
             .zip(&scene.motions)
             .map(|(side, motion)| {
                 let path = Path::new(motion, DVec3::ZERO, 1.0);
-                let way = length(path.centre_at(0.0)) + path.speed() + scene.config.margin;
-                body_distance_rounding(side.span(), path.rate, way)
+                let way = length(path.centre_at(0.0)) + path.speed() + scene.settings.margin;
+                body_distance_rounding(side.max_distance_bound(), path.rate, way)
             })
             .sum();
         assert!(shares * (1.0 + 1e-12) >= problem.rounding);

@@ -1,7 +1,7 @@
 //! Tests that answers hold for the exact motion between given poses far from the world's origin, not only for the
 //! rounded motion.
 
-use super::double::{Double, Double3, EndPoses};
+use super::double::{DoubleDouble, DoubleDouble3, EndPoses};
 use super::oracle::ExhaustiveOracle;
 use super::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use crate::answer::Outcome;
@@ -57,10 +57,10 @@ impl Scene {
     }
 
     /// Returns the exact distance of the balls after the share `share` of the duration.
-    fn distance(&self, share: Double) -> Double {
+    fn distance(&self, share: DoubleDouble) -> DoubleDouble {
         let [a, b] = [0, 1].map(|k| self.ends[k].place(share, self.centres[k]));
-        let way: Double3 = b - a;
-        way.length() - Double::from(self.radii) - Double::from(self.radii)
+        let way: DoubleDouble3 = b - a;
+        way.length() - DoubleDouble::from(self.radii) - DoubleDouble::from(self.radii)
     }
 }
 
@@ -88,24 +88,24 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
         let problem = Problem::about(moving(0), moving(1), duration, &config).unwrap();
         for outcome in [
             BestFirst::default()
-                .solve(&problem, &mut ExhaustiveOracle)
+                .answer_first_contact(&problem, &mut ExhaustiveOracle)
                 .outcome,
             Naive::default()
-                .solve(&problem, &mut ExhaustiveOracle)
+                .answer_first_contact(&problem, &mut ExhaustiveOracle)
                 .outcome,
         ] {
             let (until, least) = match outcome {
                 Outcome::Contact { time, contact } => {
                     hits += 1;
-                    let share = Double::from(time) / Double::from(duration);
+                    let share = DoubleDouble::from(time) / DoubleDouble::from(duration);
                     let exact = scene.distance(share);
                     let (lower, upper) = (contact.separation.lower, contact.separation.upper);
                     assert!(
-                        (exact - Double::from(lower)).get() >= 0.0,
+                        (exact - DoubleDouble::from(lower)).get() >= 0.0,
                         "{number}: {outcome:?}"
                     );
                     assert!(
-                        (Double::from(upper) - exact).get() >= 0.0,
+                        (DoubleDouble::from(upper) - exact).get() >= 0.0,
                         "{number}: {outcome:?}"
                     );
                     (share.get(), 0.0)
@@ -118,7 +118,7 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
                 outcome => panic!("{number}: {outcome:?}"),
             };
             for k in 0..64 {
-                let found = scene.distance(Double::from(until * f64::from(k) / 64.0));
+                let found = scene.distance(DoubleDouble::from(until * f64::from(k) / 64.0));
                 assert!(found.get() >= least, "{number}: {outcome:?}");
             }
         }

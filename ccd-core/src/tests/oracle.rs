@@ -23,8 +23,8 @@ impl DistanceOracle for ExhaustiveOracle {
         let way = point(&b_in_a, found.b) - point(&a, found.a);
         Ok(Claim {
             axis: widest_gap_axis(pair, way, &a, &b_in_a),
-            a: combination(found.a, pair.a.points.len()),
-            b: combination(found.b, pair.b.points.len()),
+            a: convex_combination(found.a, pair.a.points.len()),
+            b: convex_combination(found.b, pair.b.points.len()),
         })
     }
 }
@@ -59,7 +59,7 @@ fn corners(points: &[DVec3]) -> Option<Triangle> {
     (points.len() <= 3).then(|| std::array::from_fn(|k| points[k.min(last)]))
 }
 
-fn combination(weights: [f64; 3], points: usize) -> ConvexCombination {
+fn convex_combination(weights: [f64; 3], points: usize) -> ConvexCombination {
     let mut out = ConvexCombination::EMPTY;
     for (k, weight) in weights.into_iter().enumerate() {
         out.push(k.min(points - 1) as u32, weight);

@@ -29,7 +29,7 @@ pub(crate) enum SoupKind {
     /// All triangles are along one line, up to 1e-7 of their size.
     Stretched,
     /// The sizes of the triangles extend over six orders of magnitude.
-    Mixed,
+    MixedSizes,
 }
 
 impl SoupKind {
@@ -38,7 +38,7 @@ impl SoupKind {
         SoupKind::Needles,
         SoupKind::Flat,
         SoupKind::Stretched,
-        SoupKind::Mixed,
+        SoupKind::MixedSizes,
     ];
 }
 
@@ -52,16 +52,16 @@ impl TryRng for RandomCase {
     type Error = Infallible;
 
     fn try_next_u32(&mut self) -> Result<u32, Infallible> {
-        Ok((self.word() >> 32) as u32)
+        Ok((self.next_word() >> 32) as u32)
     }
 
     fn try_next_u64(&mut self) -> Result<u64, Infallible> {
-        Ok(self.word())
+        Ok(self.next_word())
     }
 
     fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
         for byte in bytes {
-            *byte = self.word() as u8;
+            *byte = self.next_word() as u8;
         }
         Ok(())
     }
@@ -114,7 +114,7 @@ pub(crate) fn soup(
         .map(|_| {
             let centre = point_in_ball(rng, size);
             let edge = match look {
-                SoupKind::Mixed => size * magnitude(rng, -6.0, 0.0),
+                SoupKind::MixedSizes => size * magnitude(rng, -6.0, 0.0),
                 _ => size * rng.random_range(0.05..1.0),
             };
             let mut corners = [0; 3].map(|_| centre + point_in_ball(rng, edge));
@@ -157,7 +157,7 @@ pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
 
 /// The motion of a body with constant velocities, given by its pose at the clock `clock`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Passage {
+pub(crate) struct MotionThroughPose {
     pub(crate) clock: f64,
     pub(crate) rotation: DQuat,
     /// The position of the body's point `middle` at the clock `clock`.
@@ -170,7 +170,7 @@ pub(crate) struct Passage {
     pub(crate) centre: DVec3,
 }
 
-impl Passage {
+impl MotionThroughPose {
     pub(crate) fn motion(&self) -> Motion {
         let start = DQuat::from_scaled_axis(-self.clock * self.spin) * self.rotation;
         let translation = self.place - self.rotation * self.middle;
@@ -191,7 +191,7 @@ pub(crate) struct Scene {
     pub(crate) bodies: [Body; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) accelerations: [DVec3; 2],
-    pub(crate) config: Settings,
+    pub(crate) settings: Settings,
     /// The clock at which the bodies are near each other.
     pub(crate) clock: f64,
     /// The approximate time for which the bodies are near each other.
@@ -202,22 +202,29 @@ impl Scene {
     pub(crate) fn problem(&self) -> Problem<'_> {
         let moving = |k: usize| (&self.bodies[k], self.motions[k]);
         let bodies = [moving(0), moving(1)];
-        Problem::with_accelerations(bodies, self.accelerations, 1.0, &self.config.terms()).unwrap()
+        Problem::with_accelerations(
+            bodies,
+            self.accelerations,
+            1.0,
+            &self.settings.to_query_settings(),
+        )
+        .unwrap()
     }
 
     /// Adds accelerations of both bodies with a probability of a third.
-    pub(crate) fn with_random_accelerations(self, rng: &mut Pcg64) -> Self {
+    pub(crate) fn with_occasional_accelerations(self, rng: &mut Pcg64) -> Self {
         match rng.random_range(0..3) {
-            0 => self.accelerating(rng),
+            0 => self.with_accelerations(rng),
             _ => self,
         }
     }
 
     /// Adds random accelerations of both bodies, without a change of their poses and velocities at the clock `clock`.
     /// The accelerations are of the order of the scene's size or of the bodies' displacements.
-    pub(crate) fn accelerating(mut self, rng: &mut Pcg64) -> Self {
+    pub(crate) fn with_accelerations(mut self, rng: &mut Pcg64) -> Self {
         let clock = self.clock;
-        let size = self.bodies[0].tree().span() + self.bodies[1].tree().span();
+        let size = self.bodies[0].tree().max_distance_from_origin()
+            + self.bodies[1].tree().max_distance_from_origin();
         for (motion, acceleration) in self.motions.iter_mut().zip(&mut self.accelerations) {
             let speed = if rng.random_bool(0.5) {
                 size
@@ -251,9 +258,9 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
 
 /// The kind of motion of two bodies while they are near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum SceneKind {
     /// Each body rests, translates or turns at random, about any centre.
-    Any,
+    RandomMotion,
     /// The bodies overlap, and move apart without turning.
     Receding,
     /// One body slides past the other, without turning, by a thousand times its size in the duration.
@@ -263,11 +270,11 @@ pub(crate) enum Kind {
 }
 
 /// Draws a scene of two bodies with up to `most` triangles each, which come near each other.
-pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
+pub(crate) fn scene(rng: &mut Pcg64, kind: SceneKind, most: usize) -> Scene {
     let size = magnitude(rng, -6.0, 6.0);
     let ratio = match kind {
-        Kind::NearRim => magnitude(rng, 1.0, 5.0),
-        Kind::Receding => magnitude(rng, 0.0, 0.5),
+        SceneKind::NearRim => magnitude(rng, 1.0, 5.0),
+        SceneKind::Receding => magnitude(rng, 0.0, 0.5),
         _ if rng.random_bool(0.5) => 1.0,
         _ => magnitude(rng, 0.0, 4.0),
     };
@@ -280,7 +287,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let way = direction(rng);
     // The distance of the middles at that clock is from overlapping to well apart.
     let near = match kind {
-        Kind::Receding => rng.random_range(0.0..0.3),
+        SceneKind::Receding => rng.random_range(0.0..0.3),
         _ => rng.random_range(0.0..1.4),
     } * (sizes[0] + sizes[1]);
     let mut bodies = Vec::new();
@@ -293,7 +300,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
         let triangles = soup(rng, look, count.max(1), sizes[k]);
         let moved: Vec<Triangle> = triangles.iter().map(|t| t.map(|p| p + middle)).collect();
         bodies.push(body(&moved));
-        let mut passage = Passage {
+        let mut passage = MotionThroughPose {
             clock,
             rotation: rotation(rng),
             place: world + sign * way,
@@ -310,7 +317,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
         bodies: bodies.try_into().unwrap(),
         motions: motions.try_into().unwrap(),
         accelerations: [DVec3::ZERO; 2],
-        config: Settings {
+        settings: Settings {
             tolerance: lesser(sizes[0], sizes[1]) * magnitude(rng, -6.0, -2.0),
             ..Settings::DEFAULT
         },
@@ -330,8 +337,8 @@ fn offset(rng: &mut Pcg64, size: f64) -> f64 {
 
 fn draw_velocities(
     rng: &mut Pcg64,
-    kind: Kind,
-    passage: &mut Passage,
+    kind: SceneKind,
+    passage: &mut MotionThroughPose,
     side: usize,
     way: DVec3,
     sizes: &[f64; 2],
@@ -339,18 +346,18 @@ fn draw_velocities(
     let size = greater(sizes[0], sizes[1]);
     let large = sizes[side] == size;
     match kind {
-        Kind::Receding => {
+        SceneKind::Receding => {
             let sign = if side == 0 { -1.0 } else { 1.0 };
             passage.velocity =
                 (sign * way + point_in_ball(rng, 0.3)) * size * magnitude(rng, -2.0, 2.0);
         }
-        Kind::Sliding => {
+        SceneKind::Sliding => {
             if side == 1 {
                 let across = way.cross(direction(rng)).normalize();
                 passage.velocity = across * size * 1e3;
             }
         }
-        Kind::NearRim => {
+        SceneKind::NearRim => {
             if large {
                 passage.spin = direction(rng) * rng.random_range(0.1..20.0);
                 passage.centre = passage.middle + point_in_ball(rng, size);
@@ -360,7 +367,7 @@ fn draw_velocities(
                 passage.centre = passage.middle;
             }
         }
-        Kind::Any => {
+        SceneKind::RandomMotion => {
             if rng.random_bool(0.7) {
                 passage.velocity = direction(rng) * size * magnitude(rng, -3.0, 1.5);
             }

@@ -75,7 +75,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
             |k: usize| MovingBody::from((&bodies[k], [Motion::still(Pose::IDENTITY), motion][k]));
         let problem = Problem::about(moving(0), moving(1), 1.0, &config).unwrap();
         let outcome = BestFirst::default()
-            .solve(&problem, &mut ExhaustiveOracle)
+            .answer_first_contact(&problem, &mut ExhaustiveOracle)
             .outcome;
         let (until, least) = match outcome {
             Outcome::Contact { time, .. } => {

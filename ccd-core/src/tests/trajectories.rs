@@ -13,11 +13,11 @@ use glam::{DQuat, DVec3};
 pub(crate) struct SwingingTrajectory {
     pub(crate) place: DVec3,
     pub(crate) drift: DVec3,
-    along: [DVec3; 2],
+    swing_amplitudes: [DVec3; 2],
     rates: [f64; 3],
     phases: [f64; 3],
     axis: DVec3,
-    turn: f64,
+    turn_amplitude: f64,
     start: DQuat,
     centre: DVec3,
     /// Whether the trajectory provides the acceleration of its centre, not only bounds of it.
@@ -30,11 +30,11 @@ impl SwingingTrajectory {
         SwingingTrajectory {
             place: point_in_ball(rng, size),
             drift: point_in_ball(rng, size),
-            along: [(); 2].map(|()| point_in_ball(rng, size)),
+            swing_amplitudes: [(); 2].map(|()| point_in_ball(rng, size)),
             rates: [(); 3].map(|()| rng.random_range(0.5..6.0)),
             phases: [(); 3].map(|()| rng.random_range(0.0..6.0)),
             axis: direction(rng),
-            turn: rng.random_range(0.0..3.0),
+            turn_amplitude: rng.random_range(0.0..3.0),
             start: rotation(rng),
             centre: point_in_ball(rng, 1.0),
             provides_acceleration: rng.random_bool(0.5),
@@ -47,22 +47,23 @@ impl SmoothTrajectory for SwingingTrajectory {
         let (mut at, mut velocity) = (self.place + self.drift * t, self.drift);
         for k in 0..2 {
             let angle = self.rates[k] * t + self.phases[k];
-            at += self.along[k] * angle.sin();
-            velocity += self.along[k] * (self.rates[k] * angle.cos());
+            at += self.swing_amplitudes[k] * angle.sin();
+            velocity += self.swing_amplitudes[k] * (self.rates[k] * angle.cos());
         }
         let angle = self.rates[2] * t + self.phases[2];
-        let turned = DQuat::from_scaled_axis(self.axis * (self.turn * angle.sin())) * self.start;
-        let spin = self.axis * (self.turn * self.rates[2] * angle.cos());
+        let turned =
+            DQuat::from_scaled_axis(self.axis * (self.turn_amplitude * angle.sin())) * self.start;
+        let spin = self.axis * (self.turn_amplitude * self.rates[2] * angle.cos());
         // The centre is at the place, not the origin.
         let start = Pose::new(at - turned * self.centre, turned)?;
         Motion::about(start, velocity, spin, self.centre)
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
-        let linear = |k: usize| self.along[k].length() * self.rates[k] * self.rates[k];
+    fn acceleration_bounds(&self, _: f64, _: f64) -> AccelerationBounds {
+        let linear = |k: usize| self.swing_amplitudes[k].length() * self.rates[k] * self.rates[k];
         AccelerationBounds {
-            linear: linear(0) + linear(1),
-            angular_acceleration: self.turn * self.rates[2] * self.rates[2],
+            linear_acceleration: linear(0) + linear(1),
+            angular_acceleration: self.turn_amplitude * self.rates[2] * self.rates[2],
         }
     }
 
@@ -74,11 +75,14 @@ impl SmoothTrajectory for SwingingTrajectory {
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let (mut vector, mut jerk) = (DVec3::ZERO, 0.0);
         for k in 0..2 {
-            let (rate, along) = (self.rates[k], self.along[k]);
+            let (rate, along) = (self.rates[k], self.swing_amplitudes[k]);
             vector -= along * (rate * rate * (rate * t + self.phases[k]).sin());
             jerk += along.length() * rate * rate * rate;
         }
-        let acceleration = Acceleration { vector, jerk };
+        let acceleration = Acceleration {
+            vector,
+            jerk_bound: jerk,
+        };
         Ok((
             self.tangent_motion(t)?,
             self.provides_acceleration.then_some(acceleration),

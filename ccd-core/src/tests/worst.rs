@@ -15,7 +15,7 @@ use std::ops::RangeInclusive;
 /// A random test case: a list of random words from which its numbers are read. It grows as more words are read.
 pub(crate) struct RandomCase {
     words: Vec<u64>,
-    read: usize,
+    read_count: usize,
     rng: SplitMix64,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct LargestError {
     /// The largest error, as a share of the bound.
     share: f64,
     /// Whether the search examined so many cases (more than 1,000) that its largest error should be near the bound.
-    whole: bool,
+    is_thorough: bool,
 }
 
 /// The number of cases in a row without a larger error after which a search restarts: a base, and an addition for each
@@ -78,7 +78,7 @@ impl WorstCaseSearch {
             drawn += 1;
             let mut tape = RandomCase {
                 words,
-                read: 0,
+                read_count: 0,
                 rng: SplitMix64(dice.next()),
             };
             let Some(share) = judge(&mut tape) else {
@@ -114,19 +114,22 @@ impl WorstCaseSearch {
         LargestError {
             name,
             share,
-            whole: self.cases >= count as f64 && count > 1000,
+            is_thorough: self.cases >= count as f64 && count > 1000,
         }
     }
 }
 
 impl LargestError {
     /// Checks that no error exceeded its bound, and that the largest came within a factor `looseness` of it.
-    pub(crate) fn assert_within(&self, looseness: f64) {
+    pub(crate) fn assert_tight_bound(&self, looseness: f64) {
         let (name, ratio) = (self.name, 1.0 / self.share);
         assert!(self.share <= 1.0, "{name}: only {ratio:e} of an error");
         // A search that examines nothing would prove nothing.
         let near = self.share > 0.0 && ratio <= looseness;
-        assert!(near || !self.whole, "{name}: {ratio:e} times all errors");
+        assert!(
+            near || !self.is_thorough,
+            "{name}: {ratio:e} times all errors"
+        );
     }
 }
 
@@ -144,17 +147,17 @@ pub(crate) fn share(error: f64, allowance: f64) -> f64 {
 
 impl RandomCase {
     /// Reads the next word of the case, and draws a random word at the end of the list.
-    pub(crate) fn word(&mut self) -> u64 {
-        if self.read == self.words.len() {
+    pub(crate) fn next_word(&mut self) -> u64 {
+        if self.read_count == self.words.len() {
             self.words.push(self.rng.next());
         }
-        self.read += 1;
-        self.words[self.read - 1]
+        self.read_count += 1;
+        self.words[self.read_count - 1]
     }
 
     /// Reads a number of any sign and mantissa, with a binary exponent in the given range; sometimes 0.
-    pub(crate) fn any(&mut self, exponents: RangeInclusive<i32>) -> f64 {
-        let word = self.word();
+    pub(crate) fn any_number(&mut self, exponents: RangeInclusive<i32>) -> f64 {
+        let word = self.next_word();
         let (field, mantissa) = (word >> 52 & 0x7ff, word & MANTISSA_MASK);
         if field < 32 {
             return 0.0;
@@ -170,13 +173,13 @@ impl RandomCase {
 
     /// Reads three numbers of any sign and mantissa, with binary exponents in the given range; sometimes 0.
     pub(crate) fn vector(&mut self, exponents: RangeInclusive<i32>) -> [f64; 3] {
-        [(); 3].map(|()| self.any(exponents.clone()))
+        [(); 3].map(|()| self.any_number(exponents.clone()))
     }
 
     /// Reads a positive number with a binary exponent in the given range.
     pub(crate) fn size(&mut self, exponents: RangeInclusive<i32>) -> f64 {
         let least = 2f64.powi(*exponents.start());
-        match self.any(exponents).abs() {
+        match self.any_number(exponents).abs() {
             size if size > 0.0 => size,
             _ => least,
         }
@@ -184,17 +187,17 @@ impl RandomCase {
 
     /// Reads a number that differs from `x` by a relative amount of any magnitude, from 0 to about 1.
     pub(crate) fn number_near(&mut self, x: f64) -> f64 {
-        x + x * self.any(-54..=0)
+        x + x * self.any_number(-54..=0)
     }
 
     /// Reads a number in [0, 1).
     pub(crate) fn fraction(&mut self) -> f64 {
-        (self.word() >> 11) as f64 * 0.5f64.powi(53)
+        (self.next_word() >> 11) as f64 * 0.5f64.powi(53)
     }
 
     /// Reads a whole number from 0 to `count − 1`.
     pub(crate) fn index_below(&mut self, count: usize) -> usize {
-        (self.word() % count as u64) as usize
+        (self.next_word() % count as u64) as usize
     }
 }
 

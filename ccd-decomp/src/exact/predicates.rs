@@ -1,7 +1,9 @@
 //! Exact predicates for triangles given by vertex indices, and for projections to a coordinate plane `[SHE97]`. They
 //! extend [`ccd_core::exact`].
 
-pub(crate) use ccd_core::exact::{first_too_fine_point, is_degenerate, line_side_along, side};
+pub(crate) use ccd_core::exact::{
+    first_point_below_exact_range, is_degenerate, side, side_of_line_along,
+};
 
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
@@ -34,7 +36,7 @@ impl Projection {
     /// degenerate.
     pub(crate) fn new(triangle: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = triangle;
-        (0..3).find_map(|axis| match line_side_along(axis, [a, b], c) {
+        (0..3).find_map(|axis| match side_of_line_along(axis, [a, b], c) {
             Ordering::Equal => None,
             turn => Some(Projection {
                 axis,
@@ -48,9 +50,9 @@ impl Projection {
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         if self.turned {
-            line_side_along(self.axis, [b, a], point)
+            side_of_line_along(self.axis, [b, a], point)
         } else {
-            line_side_along(self.axis, [a, b], point)
+            side_of_line_along(self.axis, [a, b], point)
         }
     }
 }
@@ -71,9 +73,13 @@ fn unit_upscale_factor(x: f64) -> f64 {
 
 /// Returns the power of two that scales a positive number to about 1; 1 for any other number.
 fn unit_scale_factor(x: f64) -> f64 {
-    const EXPONENT: u64 = f64::INFINITY.to_bits();
+    const EXPONENT_MASK: u64 = f64::INFINITY.to_bits();
     if x > 0.0 && x.is_finite() {
-        greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip()
+        greater(
+            f64::MIN_POSITIVE,
+            f64::from_bits(x.to_bits() & EXPONENT_MASK),
+        )
+        .recip()
     } else {
         1.0
     }

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 /// Returns the direction in which a segment crosses a triangle: 1 from back to front, −1 from front to back, 0 if the
 /// segment misses the triangle. Returns `None` if it meets an edge or ends on the triangle.
-pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
+pub(crate) fn segment_crossing_sign([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
     let [a, b, c] = triangle;
     let ends = [from, to].map(|p| side(triangle, p));
     if ends[0] == ends[1] && ends[0] != Ordering::Equal {

@@ -42,7 +42,7 @@ pub enum StoreFault {
     ChecksumMismatch,
     /// The checksum matches, but the content is not a valid body.
     #[error("holds no valid body: {problem}; {PREPARE_ADVICE}")]
-    Invalid {
+    InvalidContent {
         /// The description of the part that is not valid.
         problem: String,
     },
@@ -56,7 +56,7 @@ pub(super) const FORMAT_VERSION: u32 = 3;
 
 impl StoreFault {
     pub(super) fn invalid_content(problem: &dyn fmt::Display) -> Self {
-        StoreFault::Invalid {
+        StoreFault::InvalidContent {
             problem: problem.to_string(),
         }
     }

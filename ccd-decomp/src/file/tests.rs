@@ -194,13 +194,13 @@ fn parts_that_do_not_belong_together_are_reported() {
     small.hierarchy = large.hierarchy;
     assert!(matches!(
         fault(&stored_bytes(&small)),
-        StoreFault::Invalid { .. }
+        StoreFault::InvalidContent { .. }
     ));
     let mut miscounted = model(DENTED_OBJ, Detail::Triangles);
     miscounted.report.pieces += 1;
     assert!(matches!(
         fault(&stored_bytes(&miscounted)),
-        StoreFault::Invalid { .. }
+        StoreFault::InvalidContent { .. }
     ));
 }
 
@@ -214,7 +214,7 @@ fn check(bytes: &[u8]) {
 }
 
 /// Wraps a changed payload in a header and a matching checksum.
-fn frame_payload(payload: &[u8]) -> Vec<u8> {
+fn wrap_in_frame(payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     frame::write(&mut bytes, payload).unwrap();
     bytes
@@ -225,9 +225,9 @@ fn a_payload_cut_anywhere_is_an_error() {
     for bytes in STORED_FILES.iter() {
         let payload = frame::read(&bytes[..]).unwrap();
         for end in 0..payload.len() {
-            let fault = fault(&frame_payload(&payload[..end]));
+            let fault = fault(&wrap_in_frame(&payload[..end]));
             assert!(
-                matches!(fault, StoreFault::Invalid { .. }),
+                matches!(fault, StoreFault::InvalidContent { .. }),
                 "{end}: {fault}"
             );
         }
@@ -242,7 +242,7 @@ fn no_single_change_of_a_payload_panics() {
             for value in [0, 1, 2, 0x7f, 0x80, 0xff] {
                 let mut changed = payload.clone();
                 changed[at] = value;
-                check(&frame_payload(&changed));
+                check(&wrap_in_frame(&changed));
             }
         }
     }
@@ -252,7 +252,7 @@ proptest! {
     #[test]
     fn no_bytes_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         check(&bytes);
-        check(&frame_payload(&bytes));
+        check(&wrap_in_frame(&bytes));
     }
 
     #[test]
@@ -267,8 +267,8 @@ proptest! {
             let at = at.index(payload.len());
             payload[at] = byte;
         }
-        check(&frame_payload(&payload));
-        check(&frame_payload(&payload[cut.index(payload.len())..]));
+        check(&wrap_in_frame(&payload));
+        check(&wrap_in_frame(&payload[cut.index(payload.len())..]));
     }
 }
 

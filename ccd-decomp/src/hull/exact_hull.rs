@@ -21,9 +21,9 @@ pub(crate) struct ExactHull {
 
 /// The change of a hull when one point is inserted: the facets to remove and to add.
 #[derive(Clone, Debug)]
-pub(crate) struct Growth {
+pub(crate) struct HullGrowth {
     /// For each facet, whether the inserted point is in front of it. Such facets are removed.
-    seen: Vec<bool>,
+    is_facet_visible: Vec<bool>,
     /// The new triangles, all of which have the inserted point as a corner.
     fan: Vec<[u32; 3]>,
 }
@@ -41,7 +41,7 @@ impl ExactHull {
         }
     }
 
-    pub(crate) fn with_facets(facets: Vec<[u32; 3]>) -> Self {
+    pub(crate) fn from_facets(facets: Vec<[u32; 3]>) -> Self {
         let mut corners: Vec<u32> = facets.iter().flatten().copied().collect();
         corners.sort_unstable();
         corners.dedup();
@@ -83,7 +83,7 @@ impl ExactHull {
 
     /// Computes the change of the hull by the insertion of a point; `None` if the point is inside or on the hull. O(f
     /// log f) in the number of facets.
-    pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<Growth> {
+    pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<HullGrowth> {
         let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
         let seen: Vec<bool> = self.facets.iter().map(sees).collect();
         if !seen.contains(&true) {
@@ -98,26 +98,26 @@ impl ExactHull {
         let rim = edges
             .iter()
             .filter(|(a, b)| edges.binary_search(&(*b, *a)).is_err());
-        Some(Growth {
+        Some(HullGrowth {
             fan: rim.map(|&(a, b)| [a, b, point]).collect(),
-            seen,
+            is_facet_visible: seen,
         })
     }
 
     /// Returns the bounding box of all facets that an insertion adds or removes.
-    pub(crate) fn changed_bounds(&self, points: &[DVec3], growth: &Growth) -> Bounds {
-        let removed = self.facets.iter().zip(&growth.seen);
+    pub(crate) fn bounds_of_change(&self, points: &[DVec3], growth: &HullGrowth) -> Bounds {
+        let removed = self.facets.iter().zip(&growth.is_facet_visible);
         let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
         let corners = removed.chain(&growth.fan).flatten();
         Bounds::enclosing(corners.map(|&v| points[v as usize]))
     }
 
     /// Changes the hull as [`growth`](Self::growth) computed for the insertion of a point.
-    pub(crate) fn grow(&mut self, growth: Growth) {
-        let mut seen = growth.seen.into_iter();
+    pub(crate) fn grow(&mut self, growth: HullGrowth) {
+        let mut seen = growth.is_facet_visible.into_iter();
         self.facets.retain(|_| !seen.next().unwrap_or(false));
         self.facets.extend(growth.fan);
-        *self = ExactHull::with_facets(std::mem::take(&mut self.facets));
+        *self = ExactHull::from_facets(std::mem::take(&mut self.facets));
     }
 }
 

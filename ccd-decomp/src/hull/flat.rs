@@ -17,7 +17,7 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
     let mut ends: Vec<DVec3> = ends.into_iter().flatten().collect();
     ends.dedup();
     let plane = match ends[..] {
-        [a, b] => plane_through([a, b], points),
+        [a, b] => projection_of_plane([a, b], points),
         _ => None,
     };
     match plane {
@@ -31,7 +31,7 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
 
 /// Returns a projection of the plane that contains some points; `None` if all points are on a line. `a` and `b` are two
 /// of the points.
-fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
+fn projection_of_plane([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
     let area = |p: &DVec3| (b - a).cross(*p - a).length_squared();
     let is_proper = |p: &DVec3| !is_degenerate([a, b, *p]);
     // A far point makes a large triangle; any will do.

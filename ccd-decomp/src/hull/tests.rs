@@ -93,7 +93,7 @@ fn assert_valid_hull(points: &[DVec3], hull: &Hull) {
 }
 
 /// Checks the hull of some points against the brute-force hull; it may have no facets only if all points are on a line.
-fn assert_hull_of(points: &[DVec3]) {
+fn assert_hull_agrees_with_brute_force(points: &[DVec3]) {
     let (hull, twin) = (
         hull(points).expect("in range"),
         BruteForceHull::from_points(points),
@@ -114,7 +114,7 @@ fn checked_hull(points: &[DVec3]) -> Hull {
 }
 
 /// Returns a linear congruential generator of pseudorandom numbers in −1..1.
-fn noise(seed: u64) -> impl FnMut() -> f64 {
+fn noise_generator(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(2).wrapping_add(1);
     move || {
         state = state
@@ -125,13 +125,13 @@ fn noise(seed: u64) -> impl FnMut() -> f64 {
 }
 
 fn cloud(count: usize, seed: u64) -> Vec<DVec3> {
-    let mut next = noise(seed);
+    let mut next = noise_generator(seed);
     (0..count)
         .map(|_| DVec3::new(next(), next(), next()))
         .collect()
 }
 
-fn ball(count: usize, seed: u64) -> Vec<DVec3> {
+fn sphere_points(count: usize, seed: u64) -> Vec<DVec3> {
     let inside = |p: &DVec3| (1e-2..1.0).contains(&p.length());
     let points = cloud(4 * count, seed);
     points
@@ -148,7 +148,7 @@ fn grid_points(n: i32) -> Vec<DVec3> {
 }
 
 fn perturbed_points(points: Vec<DVec3>, amplitude: f64, seed: u64) -> Vec<DVec3> {
-    let mut next = noise(seed);
+    let mut next = noise_generator(seed);
     let mut shake = |p: DVec3| p + amplitude * DVec3::new(next(), next(), next());
     points.into_iter().map(&mut shake).collect()
 }
@@ -164,7 +164,7 @@ fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
 
 #[rstest]
 #[case::cloud(cloud(14, 1))]
-#[case::ball(ball(16, 2))]
+#[case::ball(sphere_points(16, 2))]
 #[case::grid(grid_points(3))]
 #[case::cylinder(cylinder(8, 3))]
 #[case::shaken_grid(perturbed_points(grid_points(3), 1e-16, 3))]
@@ -189,16 +189,16 @@ fn hull_agrees_with_brute_force(#[case] points: Vec<DVec3>) {
 #[case::cloud(cloud(20_000, 1), 100)]
 #[case::some(cloud(60, 1), 20)]
 #[case::hardly_planar(perturbed_points(grid_points(4), 1e-15, 0), 8)]
-#[case::ball(ball(3000, 2), 3000)]
+#[case::ball(sphere_points(3000, 2), 3000)]
 #[case::grid(grid_points(12), 8)]
 #[case::cylinder(cylinder(100, 30), 200)]
-#[case::turned_grid(turned(grid_points(8)), 8)]
+#[case::turned_grid(rotated_points(grid_points(8)), 8)]
 fn hull_has_at_least_the_expected_corners(#[case] points: Vec<DVec3>, #[case] least: usize) {
     let hull = checked_hull(&points);
     assert!(hull.points.len() >= least, "{}", hull.points.len());
 }
 
-fn turned(points: Vec<DVec3>) -> Vec<DVec3> {
+fn rotated_points(points: Vec<DVec3>) -> Vec<DVec3> {
     let turn = ccd_core::glam::DQuat::from_scaled_axis(DVec3::new(0.3, -0.5, 0.7));
     points.into_iter().map(|p| turn * p).collect()
 }
@@ -252,7 +252,7 @@ proptest! {
     #[test]
     fn coarse_points(points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 1..18)) {
         let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        assert_hull_of(&points);
+        assert_hull_agrees_with_brute_force(&points);
     }
 
     /// Tests the hulls of points within a few units in the last place of a plane, a line or each other.
@@ -263,6 +263,6 @@ proptest! {
         seed in 0_u64..1000,
     ) {
         let points = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        assert_hull_of(&perturbed_points(points, scale, seed));
+        assert_hull_agrees_with_brute_force(&perturbed_points(points, scale, seed));
     }
 }

@@ -13,7 +13,7 @@ use std::fmt;
 /// // The left part, of a right one that was drawn in millimetres; lengths are to be in metres.
 /// let left = Adjustments::default()
 ///     .with_stated_unit(Unit::Millimetre)
-///     .converted_to(Unit::Metre)
+///     .with_target_unit(Unit::Metre)
 ///     .mirrored(Axis::Y);
 /// assert_eq!(left.to_string(), "@mm@mirror=y");
 /// assert!(left.scaled(-1.0).is_err());
@@ -63,7 +63,7 @@ impl Adjustments {
     /// [Converts](crate::MeshFile::converted_to_unit) the coordinates to a unit. The coordinates of a file without a known unit
     /// stay as they are.
     #[must_use]
-    pub fn converted_to(self, unit: Unit) -> Self {
+    pub fn with_target_unit(self, unit: Unit) -> Self {
         Adjustments {
             target_unit: Some(unit),
             ..self
@@ -99,7 +99,7 @@ impl Adjustments {
 
     /// Treats a closed mesh as a hollow [surface](crate::Detail::Surface), whatever the kind of pieces.
     #[must_use]
-    pub fn hollow(self) -> Self {
+    pub fn treated_as_hollow(self) -> Self {
         Adjustments {
             is_hollow: true,
             ..self
@@ -125,13 +125,13 @@ impl Adjustments {
     }
 
     /// Returns the affine map that scales and mirrors the file's coordinates; `None` if it is the identity.
-    pub(crate) fn map(&self) -> Option<AffineMap> {
+    pub(crate) fn affine_map(&self) -> Option<AffineMap> {
         let map = || DAffine3::from_scale(self.factors).into();
         (self.factors != DVec3::ONE).then(map)
     }
 
     /// Returns whether any adjustment is of a kind that applies to meshes only, and not to prepared bodies.
-    pub(crate) fn are_for_meshes_only(&self) -> bool {
+    pub(crate) fn has_mesh_only_adjustment(&self) -> bool {
         let others = Adjustments {
             target_unit: None,
             ..*self
@@ -161,7 +161,7 @@ impl Adjustments {
             return self.scaled(factor).map_err(|_| unknown());
         }
         match word {
-            "surface" => Ok(self.hollow()),
+            "surface" => Ok(self.treated_as_hollow()),
             "mirror=x" => Ok(self.mirrored(Axis::X)),
             "mirror=y" => Ok(self.mirrored(Axis::Y)),
             "mirror=z" => Ok(self.mirrored(Axis::Z)),

@@ -3,7 +3,7 @@
 use super::TriangleMesh;
 use super::affine::AffineMap;
 use super::error::{MeshError, MeshFault};
-use super::polygons::{check_count, check_vertices};
+use super::polygons::{check_coordinate_range, check_count_fits_indices};
 use super::repair::Repairs;
 use crate::bounds::Bounds;
 use ccd_core::glam::DVec3;
@@ -37,7 +37,7 @@ impl TriangleMesh {
         let map = map.into();
         let images = self.vertices.iter().map(|&vertex| map.apply(vertex));
         let vertices: Vec<DVec3> = images.collect();
-        check_vertices(&vertices, &[])?;
+        check_coordinate_range(&vertices, &[])?;
         let mut faces = self.faces.clone();
         if map.reverses_orientation() {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
@@ -76,9 +76,9 @@ impl TriangleMesh {
             return Err(MeshFault::NoVertices.into());
         }
         let total = |count: fn(&Self) -> usize| meshes.iter().map(|mesh| count(mesh)).sum();
-        check_count("vertices", total(|mesh| mesh.vertices.len()))?;
-        check_count("corners", total(|mesh| 3 * mesh.faces.len()))?;
-        check_count("faces", total(|mesh| mesh.face_count as usize))?;
+        check_count_fits_indices("vertices", total(|mesh| mesh.vertices.len()))?;
+        check_count_fits_indices("corners", total(|mesh| 3 * mesh.faces.len()))?;
+        check_count_fits_indices("faces", total(|mesh| mesh.face_count as usize))?;
         let (mut vertices, mut faces, mut ids) = (Vec::new(), Vec::new(), Vec::new());
         let (mut repairs, mut face_count) = (Repairs::default(), 0);
         for mesh in meshes {

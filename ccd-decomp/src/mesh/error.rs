@@ -26,10 +26,10 @@ pub enum MeshFault {
         extension: String,
     },
     /// The format is known, but this variant of it is not supported.
-    #[error("holds {what}, which is not supported; export it as {alternative}")]
+    #[error("holds {unsupported_content}, which is not supported; export it as {alternative}")]
     Unsupported {
         /// The content that is not supported, as a noun phrase for the message.
-        what: String,
+        unsupported_content: String,
         /// The content to export instead, which is supported.
         alternative: &'static str,
     },
@@ -54,7 +54,7 @@ pub enum MeshFault {
     },
     /// One element of a scene has a fault.
     #[error("{place}: {fault}")]
-    At {
+    AtElement {
         /// The element that has the fault, such as a node or a mesh.
         place: String,
         /// The fault of the element.
@@ -148,10 +148,10 @@ pub enum MeshFault {
         corners: usize,
     },
     /// There are more elements than an index can address.
-    #[error("{count} {what} are too many; split the mesh into several")]
+    #[error("{count} {element_kind} are too many; split the mesh into several")]
     TooManyElements {
         /// The kind of elements, in the plural, such as `vertices`.
-        what: &'static str,
+        element_kind: &'static str,
         /// The number of elements in the file.
         count: usize,
     },
@@ -176,7 +176,7 @@ impl MeshFault {
     pub(crate) fn unsupported(what: impl Into<String>, instead: &'static str) -> Self {
         let what = what.into();
         MeshFault::Unsupported {
-            what,
+            unsupported_content: what,
             alternative: instead,
         }
     }
@@ -190,8 +190,8 @@ impl MeshFault {
     }
 
     /// Wraps the fault with the name of the element that has it.
-    pub(crate) fn at(self, place: impl Into<String>) -> Self {
-        MeshFault::At {
+    pub(crate) fn at_element(self, place: impl Into<String>) -> Self {
+        MeshFault::AtElement {
             place: place.into(),
             fault: Box::new(self),
         }
@@ -248,7 +248,7 @@ const MAX_NAMED_PARTS: usize = 20;
 
 fn list_of_parts(parts: &[Option<String>]) -> String {
     let label = |(number, name): (usize, &Option<String>)| match name {
-        Some(name) => format!("{number} {:?}", Quote(name)),
+        Some(name) => format!("{number} {:?}", QuotedName(name)),
         None => number.to_string(),
     };
     let named = parts.iter().enumerate().take(MAX_NAMED_PARTS).map(label);
@@ -271,11 +271,11 @@ fn list_of_numbers(numbers: &[usize]) -> String {
 }
 
 /// A name from a file, quoted and truncated for messages.
-pub(crate) struct Quote<'a>(pub(crate) &'a str);
+pub(crate) struct QuotedName<'a>(pub(crate) &'a str);
 
-impl fmt::Debug for Quote<'_> {
+impl fmt::Debug for QuotedName<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.char_indices().nth(MAX_QUOTED_NAME) {
+        match self.0.char_indices().nth(MAX_QUOTED_NAME_CHARS) {
             Some((end, _)) => write!(f, "{:?}", format!("{}…", &self.0[..end])),
             None => write!(f, "{:?}", self.0),
         }
@@ -285,13 +285,13 @@ impl fmt::Debug for Quote<'_> {
 /// Returns the name of an element for messages, such as `node 2 "lid"`.
 pub(crate) fn element_name(kind: &str, number: usize, name: Option<&str>) -> String {
     match name {
-        Some(name) => format!("{kind} {number} {:?}", Quote(name)),
+        Some(name) => format!("{kind} {number} {:?}", QuotedName(name)),
         None => format!("{kind} {number}"),
     }
 }
 
 /// The maximum length of a name in a message, in characters.
-const MAX_QUOTED_NAME: usize = 80;
+const MAX_QUOTED_NAME_CHARS: usize = 80;
 
 fn line_prefix(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))

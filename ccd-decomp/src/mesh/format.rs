@@ -52,11 +52,11 @@ pub(crate) type LinkedFiles = BTreeMap<String, Vec<u8>>;
 
 /// A reference from a mesh to another file, such as a buffer of a glTF.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Reference {
+pub(crate) struct FileReference {
     /// The path of the file relative to the mesh, as written in the mesh.
     pub(crate) name: String,
     /// The number of bytes of the file that the mesh needs.
-    pub(crate) bytes: u64,
+    pub(crate) needed_bytes: u64,
 }
 
 impl Format {
@@ -83,13 +83,13 @@ impl Format {
     }
 
     /// Returns the references in a mesh to other files, whose contents [`Format::parse`] needs.
-    pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
+    pub(crate) fn file_references(self, bytes: &[u8]) -> Result<Vec<FileReference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
             (Format::Gltf, bytes)
                 if !is_lfs_pointer(bytes) && !is_step_file(&text::to_utf8(bytes)) =>
             {
-                gltf::references(bytes)
+                gltf::file_references(bytes)
             }
             _ => Ok(Vec::new()),
         }

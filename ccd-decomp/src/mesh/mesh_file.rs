@@ -3,9 +3,9 @@
 use super::TriangleMesh;
 use super::content::Content;
 use super::error::{MeshError, MeshFault, element_name};
-use super::format::{Format, LinkedFiles, Reference};
+use super::format::{FileReference, Format, LinkedFiles};
 use super::polygons::Polygons;
-use super::unit::{Conversion, Unit};
+use super::unit::{Unit, UnitConversion};
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -29,7 +29,7 @@ use std::path::{Component, Path, PathBuf};
 pub struct MeshFile {
     content: Content,
     unit: Option<Unit>,
-    conversion: Conversion,
+    conversion: UnitConversion,
     path: Option<PathBuf>,
 }
 
@@ -51,7 +51,7 @@ impl MeshFile {
         let path = path.as_ref();
         let read = || {
             let (format, bytes) = open(path)?;
-            let references = format.references(&bytes)?.into_iter();
+            let references = format.file_references(&bytes)?.into_iter();
             let folder = path.parent().unwrap_or(Path::new(""));
             let linked: Result<LinkedFiles, _> = references
                 .map(|reference| {
@@ -88,7 +88,7 @@ impl MeshFile {
         MeshFile {
             unit: content.unit,
             content,
-            conversion: Conversion::NONE,
+            conversion: UnitConversion::NONE,
             path,
         }
     }
@@ -114,7 +114,7 @@ impl MeshFile {
     #[must_use]
     pub fn with_stated_unit(mut self, unit: Unit) -> Self {
         self.content.unit = Some(unit);
-        self.conversion = Conversion::NONE;
+        self.conversion = UnitConversion::NONE;
         self.unit = Some(unit);
         self
     }
@@ -137,8 +137,8 @@ impl MeshFile {
     #[must_use]
     pub fn converted_to_unit(mut self, unit: Unit) -> Self {
         self.conversion = match self.content.unit {
-            Some(stated) => Conversion::new(stated, unit),
-            None => Conversion::NONE,
+            Some(stated) => UnitConversion::new(stated, unit),
+            None => UnitConversion::NONE,
         };
         self.unit = Some(unit);
         self
@@ -159,7 +159,7 @@ impl MeshFile {
             let part = self.find_part(name_or_number)?;
             let separate = self.content.separate_parts(part..part + 1);
             let mesh = separate.and_then(|mut one| mesh(one.swap_remove(0), self.conversion));
-            mesh.map_err(|fault| fault.at(self.part_label(part)))
+            mesh.map_err(|fault| fault.at_element(self.part_label(part)))
         };
         made().map_err(|fault| error(fault, &self.path))
     }
@@ -167,13 +167,13 @@ impl MeshFile {
     /// Returns the meshes of all parts, each with its name.
     ///
     /// # Errors
-    /// [`MeshFault::At`] with the number and name of a part, and its fault.
+    /// [`MeshFault::AtElement`] with the number and name of a part, and its fault.
     pub fn into_parts(self) -> Result<Vec<NamedMesh>, MeshError> {
         let parts = self.content.separate_parts(0..self.content.parts());
         let parts = parts.map_err(|fault| error(fault, &self.path))?.into_iter();
         let named = parts.enumerate().map(|(part, polygons)| {
             let mesh = mesh(polygons, self.conversion)
-                .map_err(|fault| error(fault.at(self.part_label(part)), &self.path))?;
+                .map_err(|fault| error(fault.at_element(self.part_label(part)), &self.path))?;
             let name = self.content.name(part).map(str::to_owned);
             Ok(NamedMesh { name, mesh })
         });
@@ -233,7 +233,7 @@ pub(crate) fn source_paths(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
         let (format, bytes) = open(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut files = vec![path.to_owned()];
-        for reference in format.references(&bytes)? {
+        for reference in format.file_references(&bytes)? {
             files.push(folder.join(checked_relative_path(&reference.name)?));
         }
         Ok(files)
@@ -249,8 +249,8 @@ fn error(fault: MeshFault, path: &Option<PathBuf>) -> MeshError {
 }
 
 /// Creates a mesh from polygons, after converting their coordinates to another unit.
-fn mesh(mut polygons: Polygons, conversion: Conversion) -> Result<TriangleMesh, MeshFault> {
-    if conversion != Conversion::NONE {
+fn mesh(mut polygons: Polygons, conversion: UnitConversion) -> Result<TriangleMesh, MeshFault> {
+    if conversion != UnitConversion::NONE {
         for vertex in &mut polygons.vertices {
             *vertex = conversion.apply(*vertex);
         }
@@ -268,8 +268,11 @@ fn open(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
 }
 
 /// Reads a file that a mesh refers to, up to the needed length. Only regular files are read: a pipe might never end.
-fn read_linked_file(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault> {
-    let Reference { name, bytes } = reference;
+fn read_linked_file(folder: &Path, reference: &FileReference) -> Result<Vec<u8>, MeshFault> {
+    let FileReference {
+        name,
+        needed_bytes: bytes,
+    } = reference;
     let path = folder.join(checked_relative_path(name)?);
     let read = || {
         if !fs::metadata(&path)?.is_file() {

@@ -22,7 +22,7 @@ type Plane = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), Hierarchy
 /// Expected `n log n` for `n` corners: corners and edges are inserted in a pseudorandom order. A sweep takes `n²` for
 /// corners on or near a line.
 pub(super) fn triangulate_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
-    let places = project(points)?;
+    let places = project_to_coordinate_plane(points)?;
     // A fault of the library may panic; the fan is used then.
     let order = insertion_order(&places)?;
     let (plane, at) = catch_unwind(|| triangulate_constrained(&places, &order)).ok()??;
@@ -32,7 +32,7 @@ pub(super) fn triangulate_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
 }
 
 /// Projects the corners to the coordinate plane nearest to the polygon's plane, counterclockwise.
-fn project(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
+fn project_to_coordinate_plane(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let first = *points.first()?;
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
     let normal: DVec3 = pairs.map(|(&p, &q)| (p - first).cross(q - first)).sum();

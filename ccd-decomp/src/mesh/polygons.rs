@@ -14,7 +14,7 @@ pub(crate) struct Polygons {
     /// The vertex numbers of the corners of all faces, one face after the other, from 0; not yet checked.
     pub(crate) corners: Vec<i64>,
     /// For each face, the end of its range in `corners`.
-    pub(crate) ends: Vec<usize>,
+    pub(crate) corner_ends: Vec<usize>,
     /// The line number of each vertex in the file, from 1; empty if the format has no lines. `face_lines` has the line
     /// numbers of the faces.
     pub(crate) vertex_lines: Vec<usize>,
@@ -24,16 +24,16 @@ pub(crate) struct Polygons {
 
 impl Polygons {
     pub(super) fn check(&self) -> Result<(), MeshFault> {
-        let (vertices, faces) = (self.vertices.len(), self.ends.len());
+        let (vertices, faces) = (self.vertices.len(), self.corner_ends.len());
         if vertices == 0 {
             return Err(MeshFault::NoVertices);
         }
         if faces == 0 {
             return Err(MeshFault::NoFaces);
         }
-        check_count("vertices", vertices)?;
-        check_count("corners", self.corners.len())?;
-        check_vertices(&self.vertices, &self.vertex_lines)?;
+        check_count_fits_indices("vertices", vertices)?;
+        check_count_fits_indices("corners", self.corners.len())?;
+        check_coordinate_range(&self.vertices, &self.vertex_lines)?;
         self.check_corners()
     }
 
@@ -66,17 +66,19 @@ impl Polygons {
     /// Adds a face with the given vertex numbers of its corners.
     pub(crate) fn push_face(&mut self, corners: impl IntoIterator<Item = i64>) {
         self.corners.extend(corners);
-        self.ends.push(self.corners.len());
+        self.corner_ends.push(self.corners.len());
     }
 
     pub(super) fn faces(&self) -> impl Iterator<Item = &[i64]> {
-        (0..self.ends.len()).map(|face| self.face_corners(face))
+        (0..self.corner_ends.len()).map(|face| self.face_corners(face))
     }
 
     /// Returns the vertex numbers of a face's corners.
     pub(super) fn face_corners(&self, face: usize) -> &[i64] {
-        let start = face.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.corners[start..self.ends[face]]
+        let start = face
+            .checked_sub(1)
+            .map_or(0, |before| self.corner_ends[before]);
+        &self.corners[start..self.corner_ends[face]]
     }
 
     /// Triangulates every polygon as the fan about its first corner. A polygon whose fan has a degenerate triangle,
@@ -87,7 +89,7 @@ impl Polygons {
     /// triangulated otherwise.
     pub(super) fn triangulate(&self, repairs: &mut Repairs) -> (Vec<[u32; 3]>, Vec<u32>) {
         let (mut faces, mut ids) = (Vec::new(), Vec::new());
-        faces.reserve_exact(self.corners.len() - 2 * self.ends.len());
+        faces.reserve_exact(self.corners.len() - 2 * self.corner_ends.len());
         ids.reserve_exact(faces.capacity());
         for (face, corners) in self.faces().enumerate() {
             let id = face as u32;
@@ -121,17 +123,20 @@ impl Polygons {
 }
 
 /// Checks that there are few enough vertices or corners for 32-bit indices.
-pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFault> {
+pub(super) fn check_count_fits_indices(what: &'static str, count: usize) -> Result<(), MeshFault> {
     // A fan makes less than one triangle per corner; pieces name corners by u32.
     if count < u32::MAX as usize / 12 {
         Ok(())
     } else {
-        Err(MeshFault::TooManyElements { what, count })
+        Err(MeshFault::TooManyElements {
+            element_kind: what,
+            count,
+        })
     }
 }
 
 /// Checks that all coordinates are in the supported range.
-pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
+pub(super) fn check_coordinate_range(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
     let Some(vertex) = first_out_of_range(vertices) else {
         return Ok(());
     };

@@ -1,6 +1,6 @@
 //! Remarks of mesh readers about content that was skipped or changed.
 
-use super::error::Quote;
+use super::error::QuotedName;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -20,7 +20,7 @@ pub struct Remark {
 }
 
 /// The maximum number of kinds of elements that have a remark of their own, to keep the report short.
-const KINDS: usize = 8;
+const MAX_REMARKED_KINDS: usize = 8;
 
 impl Remarks {
     /// Iterates over the remarks, in the order in which they were first made.
@@ -35,11 +35,11 @@ impl Remarks {
 
     /// Adds `count` elements to the remark about `what`, which is created if it is missing. A count of 0 adds nothing.
     pub(crate) fn add(&mut self, what: &str, count: usize, line: Option<usize>) {
-        let full = self.0.len() >= KINDS;
+        let full = self.0.len() >= MAX_REMARKED_KINDS;
         match self.0.iter_mut().find(|remark| remark.what == what) {
             _ if count == 0 => {}
             Some(remark) => remark.count += count,
-            None if full && what != OTHER_KINDS => self.add(OTHER_KINDS, count, line),
+            None if full && what != OTHER_KINDS_TEXT => self.add(OTHER_KINDS_TEXT, count, line),
             None => self.0.push(Remark {
                 what: what.to_owned(),
                 count,
@@ -56,20 +56,20 @@ impl Remarks {
         count: usize,
         line: Option<usize>,
     ) {
-        let what = format!("{kind} {:?} passed over", Quote(name));
+        let what = format!("{kind} {:?} passed over", QuotedName(name));
         self.add(&what, count, line);
     }
 
     /// Adds the counts of the remarks about another file, without its line numbers.
-    pub(crate) fn append(&mut self, other: &Self) {
+    pub(crate) fn add_counts(&mut self, other: &Self) {
         for Remark { what, count, .. } in other.iter() {
             self.add(what, *count, None);
         }
     }
 }
 
-/// The text of the remark that counts all kinds of elements beyond the first [`KINDS`].
-const OTHER_KINDS: &str = "others passed over";
+/// The text of the remark that counts all kinds of elements beyond the first [`MAX_REMARKED_KINDS`].
+const OTHER_KINDS_TEXT: &str = "others passed over";
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

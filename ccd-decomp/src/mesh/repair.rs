@@ -67,7 +67,7 @@ impl Repairs {
         collapsed.append(&other.collapsed_faces, face);
         zero_area.append(&other.zero_area_faces, face);
         unreferenced.append(&other.unreferenced_vertices, vertex);
-        remarks.append(&other.remarks);
+        remarks.add_counts(&other.remarks);
     }
 
     pub(crate) fn note_unreferenced_vertices(&mut self, vertices: usize, corners: &[i64]) {

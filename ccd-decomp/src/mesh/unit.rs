@@ -85,13 +85,13 @@ impl FromStr for Unit {
 /// exactly to a smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between metric
 /// units and inches or feet a coordinate is rounded up to twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Conversion {
+pub(crate) struct UnitConversion {
     numerator: f64,
     denominator: f64,
 }
 
-impl Conversion {
-    pub(crate) const NONE: Conversion = Conversion {
+impl UnitConversion {
+    pub(crate) const NONE: UnitConversion = UnitConversion {
         numerator: 1.0,
         denominator: 1.0,
     };
@@ -99,7 +99,7 @@ impl Conversion {
     pub(crate) fn new(from: Unit, to: Unit) -> Self {
         let [from, to] = [from, to].map(|unit| unit.symbol_and_micrometres().1);
         let common = greatest_common_divisor(from, to);
-        Conversion {
+        UnitConversion {
             numerator: f64::from(from / common),
             denominator: f64::from(to / common),
         }

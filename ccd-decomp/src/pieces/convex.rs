@@ -1,6 +1,6 @@
 //! Converts a convex solid to a single polytope.
 
-use super::polytope::{CoveredFacet, polytope};
+use super::polytope::{FacetWithFaces, polytope};
 use crate::hull::polygons::for_each_polygon;
 use crate::solid::error::DecomposeError;
 use crate::solid::manifold::{Dihedral, Manifold};
@@ -33,10 +33,10 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
         manifold.mesh().vertices(),
         manifold.faces(),
         |corners, faces| {
-            facets.push(CoveredFacet {
+            facets.push(FacetWithFaces {
                 corners: corners.to_vec(),
                 faces: faces.to_vec(),
-                is_covered: true,
+                is_wholly_covered: true,
             });
         },
     );

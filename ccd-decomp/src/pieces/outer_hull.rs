@@ -12,7 +12,7 @@ use crate::pieces::convex::convex_polytope;
 use crate::solid::manifold::Manifold;
 use crate::solid::star_shaped::star_centre;
 use crate::solid::topology::Topology;
-use crate::tolerance::EXCESS_ABSOLUTE_TOLERANCE;
+use crate::tolerance::EXCESS_TOLERANCE_PER_HALF_DIAGONAL;
 use ccd_core::order::lesser;
 use ccd_core::{Facet, FacetOrigin, Hull, Polytope};
 use target::Target;
@@ -78,7 +78,7 @@ fn excess_bound(mesh: &TriangleMesh, topology: &Topology, hull: &Hull) -> f64 {
         }
         by_shrinking = shrink::excess_bound(&target, hull, centre).unwrap_or(f64::INFINITY);
     }
-    if by_shrinking <= EXCESS_ABSOLUTE_TOLERANCE * target.half_diagonal() {
+    if by_shrinking <= EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal() {
         return by_shrinking;
     }
     lesser(by_shrinking, search::excess_bound(&target, hull))

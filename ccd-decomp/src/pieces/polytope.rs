@@ -4,24 +4,24 @@ use crate::solid::manifold::Manifold;
 use ccd_core::{Face, Facet, FacetOrigin, Polytope};
 
 /// A facet of a polytope, and the faces of the mesh that lie in it.
-pub(super) struct CoveredFacet {
+pub(super) struct FacetWithFaces {
     /// The vertex numbers of the corners, counter-clockwise seen from outside.
     pub(super) corners: Vec<u32>,
     pub(super) faces: Vec<u32>,
     /// Whether the faces of the mesh cover the whole facet.
-    pub(super) is_covered: bool,
+    pub(super) is_wholly_covered: bool,
 }
 
 /// Creates a polytope from its facets and the mesh faces that lie in them. Its points are the mesh vertices at the
 /// corners.
-pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[CoveredFacet]) -> Polytope {
+pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[FacetWithFaces]) -> Polytope {
     let mut vertices: Vec<u32> = facets.iter().flat_map(|f| &f.corners).copied().collect();
     vertices.sort_unstable();
     vertices.dedup();
     let id = |face: u32| manifold.mesh().face_ids()[face as usize];
     let mut polytope = Polytope::default();
     for facet in facets {
-        let origin = match (&facet.faces[..], facet.is_covered) {
+        let origin = match (&facet.faces[..], facet.is_wholly_covered) {
             ([], _) | (_, false) => FacetOrigin::Virtual,
             (&[face], true) => FacetOrigin::Face(id(face)),
             (_, true) => FacetOrigin::Faces,

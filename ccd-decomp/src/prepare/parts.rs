@@ -11,7 +11,7 @@ use crate::tree::hierarchy::build_hierarchy;
 use ccd_core::{Hierarchy, Pieces, Polytope, Volume};
 
 /// The pieces that were made of a mesh. Each variant is one kind of pieces.
-pub(super) enum PiecesByKind {
+pub(super) enum PiecesOfOneKind {
     Triangles,
     Patches(Decomposition),
     Hull(Box<Polytope>),
@@ -21,7 +21,7 @@ pub(super) enum PiecesByKind {
 /// The kind of pieces chosen for a mesh, with the pieces and the mesh's topology.
 pub(super) struct PiecesChoice {
     pub(super) volume: Volume,
-    pub(super) parts: PiecesByKind,
+    pub(super) parts: PiecesOfOneKind,
     pub(super) reason: PieceReason,
     pub(super) topology: Topology,
     /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
@@ -46,18 +46,18 @@ impl PiecesChoice {
             (_, turned) => triangle_tree(turned.as_ref().unwrap_or(mesh)),
         };
         let ((pieces, hierarchy), surface) = match self.parts {
-            PiecesByKind::Triangles => (triangles()?, None),
-            PiecesByKind::Patches(Decomposition { patches }) => {
+            PiecesOfOneKind::Triangles => (triangles()?, None),
+            PiecesOfOneKind::Patches(Decomposition { patches }) => {
                 report.kind = PiecesKind::Patches;
                 report.virtual_facets = patches.iter().map(Patch::virtual_facet_count).sum();
                 let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
                 (polytope_tree(&polytopes)?, None)
             }
-            PiecesByKind::Hull(polytope) => {
+            PiecesOfOneKind::Hull(polytope) => {
                 report.kind = PiecesKind::Hull;
                 (polytope_tree(&[*polytope])?, Some(triangles()?))
             }
-            PiecesByKind::OuterHull(hull) => {
+            PiecesOfOneKind::OuterHull(hull) => {
                 report.kind = PiecesKind::OuterHull;
                 report.excess = hull.excess_bound;
                 report.virtual_facets = hull.polytope.facets.len();

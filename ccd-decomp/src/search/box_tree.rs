@@ -61,7 +61,7 @@ impl BoxTree {
 
     /// Calls `holds` for the face of every element that conservative tests do not separate from a region. Stops when
     /// `holds` returns false or the work is spent.
-    pub(crate) fn all_meeting(
+    pub(crate) fn all_meeting_faces_satisfy(
         &self,
         region: &Region,
         work: &Work,
@@ -79,12 +79,12 @@ impl BoxTree {
                     .get_or_init(|| SeparationTests::for_shape(&region.shape))
                     .separates(oriented)
         };
-        self.all_near_elements(is_far, work, |element| holds(element.face))
+        self.all_near_elements_satisfy(is_far, work, |element| holds(element.face))
     }
 
     /// Calls `holds` for all elements, except those in boxes for which `is_far` is true. Stops when `holds`
     /// returns false or the work is spent.
-    pub(super) fn all_near_elements(
+    pub(super) fn all_near_elements_satisfy(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
         work: &Work,

@@ -94,14 +94,14 @@ impl Fan {
     }
 
     /// Calls `holds` for the triangles of the fan that may meet a shape. It is a part of
-    /// [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
-    pub(super) fn all_meeting(
+    /// [`TriangleBoxes::all_meeting_faces_satisfy`](super::TriangleBoxes::all_meeting_faces_satisfy).
+    pub(super) fn all_meeting_faces_satisfy(
         &self,
         shape: &Shape,
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        if let Shape::Inside(hull) = shape
+        if let Shape::HullInBox(hull) = shape
             && self.is_on_one_side_of(hull)
         {
             return true;
@@ -111,6 +111,6 @@ impl Fan {
             planes.iter().any(|plane| plane.has_box_in_front(oriented))
         };
         self.rim
-            .all_near_elements(is_far, work, |element| holds(element.face))
+            .all_near_elements_satisfy(is_far, work, |element| holds(element.face))
     }
 }

@@ -53,14 +53,14 @@ impl BoxTree {
 
     /// Calls `holds` for the triangles whose bounding boxes meet a given box. Stops when `holds` returns false or the
     /// work is spent.
-    pub(crate) fn all_triangles_meeting_box(
+    pub(crate) fn all_triangles_meeting_box_satisfy(
         &self,
         bounds: &Bounds,
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
-        self.all_near_elements(is_far, work, |element| {
+        self.all_near_elements_satisfy(is_far, work, |element| {
             !Bounds::enclosing(element.corners).meets(bounds) || holds(element.face)
         })
     }

@@ -2,7 +2,7 @@
 
 use super::oriented_box::OrientedBox;
 use super::region::{Hull, Shape};
-use crate::exact::predicates::{Projection, line_side_along, side};
+use crate::exact::predicates::{Projection, side, side_of_line_along};
 use ccd_core::glam::DVec3;
 use ccd_core::rounding::height_rounding;
 use std::cmp::Ordering;
@@ -56,7 +56,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
                 Plane::from_triangle([hub, *q, *p]),
             ]
         }
-        Shape::Inside(Hull { facets, .. }) => {
+        Shape::HullInBox(Hull { facets, .. }) => {
             let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
             facets.map(|&facet| Plane::from_triangle(facet)).collect()
@@ -99,7 +99,7 @@ impl<'a> SeparationTests<'a> {
         match shape {
             Shape::Segment(ends) => SeparationTests::Points(ends),
             Shape::Triangle(corners) => SeparationTests::Points(corners),
-            Shape::Inside(Hull { facets, .. }) => {
+            Shape::HullInBox(Hull { facets, .. }) => {
                 let tested = facets.iter().take(MAX_TESTED_FACETS);
                 SeparationTests::Planes(tested.map(|&facet| Plane::from_triangle(facet)).collect())
             }
@@ -125,7 +125,7 @@ fn add_axis_parallel_planes(
     hub: DVec3,
 ) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
-        let turn = |x: DVec3| line_side_along(axis, [p, q], x);
+        let turn = |x: DVec3| side_of_line_along(axis, [p, q], x);
         let none = |of: Ordering| behind.iter().all(|&x| turn(x) != of);
         if none(Ordering::Greater) && turn(hub) != Ordering::Less {
             planes.push(Plane::new(p, [up, q - p]));

@@ -15,7 +15,7 @@ pub(super) enum Shape {
     Segment([DVec3; 2]),
     Triangle([DVec3; 3]),
     /// The part of a hull's interior that is in the region's bounding box.
-    Inside(Hull),
+    HullInBox(Hull),
 }
 
 /// The maximum number of facets of a hull that a region stores for separation tests.
@@ -44,7 +44,11 @@ impl Region {
     }
 
     /// Creates the region inside both a box and a hull; the hull is given by its corners and facets.
-    pub(crate) fn inside(corners: Vec<DVec3>, mut facets: Vec<[DVec3; 3]>, bounds: Bounds) -> Self {
+    pub(crate) fn inside_box_and_hull(
+        corners: Vec<DVec3>,
+        mut facets: Vec<[DVec3; 3]>,
+        bounds: Bounds,
+    ) -> Self {
         // A triangle near a hull but outside is most likely in front of a large facet.
         let area = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).length_squared();
         let larger = |f: &[DVec3; 3], g: &[DVec3; 3]| area(g).total_cmp(&area(f));
@@ -53,7 +57,7 @@ impl Region {
             facets.truncate(MAX_SEPARATION_FACETS);
         }
         facets.sort_by(larger);
-        let shape = Shape::Inside(Hull { corners, facets });
+        let shape = Shape::HullInBox(Hull { corners, facets });
         Region { bounds, shape }
     }
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
-use crate::exact::rays::crossing;
+use crate::exact::rays::segment_crossing_sign;
 use crate::exact::triangles::triangles_meet;
 use crate::hull::exact_hull::ExactHull;
 use crate::test_meshes::star_bipyramid;
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 
 fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     let mut found = Vec::new();
-    boxes.all_faces_meeting(region, &Work::unbounded(), |face| {
+    boxes.all_meeting_faces_satisfy(region, &Work::unbounded(), |face| {
         found.push(face);
         true
     });
@@ -78,13 +78,13 @@ fn a_hub_that_touches_is_not_left_out() {
     assert!(found(&boxes, &Region::triangle(beside)).is_empty());
 }
 
-fn coordinate() -> impl Strategy<Value = f64> {
+fn any_coordinate() -> impl Strategy<Value = f64> {
     // On a grid, with many contacts and coplanar triangles, and anywhere.
     prop_oneof![(-2i32..=2).prop_map(|x| 0.5 * f64::from(x)), -1.0..1.0f64]
 }
 
 fn corner() -> impl Strategy<Value = DVec3> {
-    (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+    (any_coordinate(), any_coordinate(), any_coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
 /// Generates triangles around a common vertex, and other triangles; in some cases many triangles are coplanar.
@@ -126,7 +126,11 @@ fn skipped_triangles_meet_nothing() {
             }
             let facets = ExactHull::facets_of(&probe).unwrap_or_default().into_iter();
             let facets: Vec<[DVec3; 3]> = facets.map(|f| f.map(|v| probe[v as usize])).collect();
-            let inside = Region::inside(probe.to_vec(), facets.clone(), Bounds::enclosing(probe));
+            let inside = Region::inside_box_and_hull(
+                probe.to_vec(),
+                facets.clone(),
+                Bounds::enclosing(probe),
+            );
             let regions = [Region::triangle([a, b, c]), Region::segment([a, b]), inside];
             let found = regions.map(|region| found(&boxes, &region));
             asked += faces.len();
@@ -144,7 +148,7 @@ fn skipped_triangles_meet_nothing() {
                 let shares = [a, b, c].iter().any(|p| corners.contains(p));
                 let meets = [
                     !shares && triangles_meet([[a, b, c], corners]),
-                    matches!(crossing([a, b], corners), Some(1 | -1)),
+                    matches!(segment_crossing_sign([a, b], corners), Some(1 | -1)),
                     corners.iter().any(is_inside)
                         || is_inside(&(corners.iter().sum::<DVec3>() / 3.0)),
                 ];
@@ -184,10 +188,11 @@ fn the_nearest_triangle_is_found() {
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::enclosing([p, q]);
             let mut within = Vec::new();
-            let all = search.all_triangles_meeting_box(&bounds, &Work::unbounded(), |face| {
-                within.push(face);
-                true
-            });
+            let all =
+                search.all_triangles_meeting_box_satisfy(&bounds, &Work::unbounded(), |face| {
+                    within.push(face);
+                    true
+                });
             assert!(all);
             within.sort_unstable();
             let meets = |face: &[u32; 3]| Bounds::enclosing(at(face)).meets(&bounds);

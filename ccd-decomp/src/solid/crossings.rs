@@ -29,10 +29,10 @@ pub(crate) fn crossings(
             found.len() < MAX_CROSSINGS && work.spend(STEPS_PER_PAIR)
         };
         let goes_on = match &plates {
-            Some(plates) => plates.all_meeting(face, &near, work, pair),
+            Some(plates) => plates.all_meeting_faces_satisfy(face, &near, work, pair),
             None => manifold
                 .boxes()
-                .all_faces_meeting(&near, work, |other| other <= face || pair(other)),
+                .all_meeting_faces_satisfy(&near, work, |other| other <= face || pair(other)),
         };
         if !goes_on {
             work.check()?;

@@ -5,7 +5,7 @@ use crate::disjoint_sets::{DisjointSets, members};
 use crate::exact::predicates::Projection;
 use crate::half_edges::HalfEdge;
 use crate::hull::polygons::strictly_convex_corners;
-use crate::tolerance::{DIRECTION_BINS, LENGTH_BINS};
+use crate::tolerance::{BINS_PER_LENGTH_DOUBLING, DIRECTION_BINS_PER_UNIT};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::{length, unit};
 use rayon::prelude::*;
@@ -13,14 +13,14 @@ use std::cmp::{Ordering, Reverse};
 
 /// The partition of a mesh's faces into convex polygons.
 pub(crate) struct ConvexPolygons {
-    polygons: Vec<Flat>,
+    polygons: Vec<ConvexPolygon>,
     /// For each face, the number of its polygon.
     polygon_of_face: Vec<u32>,
 }
 
 /// A convex polygon of a mesh's surface: exactly coplanar faces without holes.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Flat {
+pub(crate) struct ConvexPolygon {
     /// The faces that make up the polygon, in ascending order.
     pub(crate) faces: Vec<u32>,
     /// The half-edges of the polygon's boundary, counter-clockwise.
@@ -39,7 +39,7 @@ impl ConvexPolygons {
         self.polygons.len()
     }
 
-    pub(crate) fn get(&self, flat: u32) -> &Flat {
+    pub(crate) fn get(&self, flat: u32) -> &ConvexPolygon {
         &self.polygons[flat as usize]
     }
 
@@ -52,19 +52,19 @@ impl ConvexPolygons {
 
 /// The size of a planar part of the surface: a connected set of coplanar faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct PlanarRegion {
-    pub(crate) triangles: usize,
+pub(crate) struct PlanarRegionSize {
+    pub(crate) triangle_count: usize,
     /// The number of convex polygons in the part, which is at least the number of patches.
-    pub(crate) polygons: usize,
+    pub(crate) polygon_count: usize,
 }
 
 /// Coplanar regions of faces, which are merged as long as their union is convex. Two disjoint convex regions share a
 /// single run of edges. Their union is convex if it is convex at both ends of the run.
 pub(crate) struct RegionMerger<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    /// For each half-edge, the next half-edge on the boundary of its region; `previous` holds the previous one.
-    next: Vec<HalfEdge>,
-    previous: Vec<HalfEdge>,
+    /// For each half-edge, the next half-edge on the boundary of its region; `previous_half_edge` holds the previous one.
+    next_half_edge: Vec<HalfEdge>,
+    previous_half_edge: Vec<HalfEdge>,
     regions: DisjointSets,
     /// The connected coplanar sets of faces, each of one or more polygons.
     planes: DisjointSets,
@@ -94,13 +94,13 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     }
 
     /// Returns the size of the planar part with the most triangles.
-    pub(crate) fn largest_planar_region(&mut self) -> PlanarRegion {
+    pub(crate) fn largest_planar_region_size(&mut self) -> PlanarRegionSize {
         let faces = self.manifold.faces().len();
-        let mut planes = vec![PlanarRegion::default(); faces];
+        let mut planes = vec![PlanarRegionSize::default(); faces];
         for face in 0..faces as u32 {
             let plane = &mut planes[self.planes.root(face) as usize];
-            plane.triangles += 1;
-            plane.polygons += usize::from(self.regions.root(face) == face);
+            plane.triangle_count += 1;
+            plane.polygon_count += usize::from(self.regions.root(face) == face);
         }
         planes.into_iter().max().unwrap_or_default()
     }
@@ -111,8 +111,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         let turn = |step: u32| (0..3 * faces).map(move |h| h - h % 3 + (h + step) % 3);
         RegionMerger {
             manifold,
-            next: turn(1).collect(),
-            previous: turn(2).collect(),
+            next_half_edge: turn(1).collect(),
+            previous_half_edge: turn(2).collect(),
             regions: DisjointSets::new(faces as usize),
             planes: DisjointSets::new(faces as usize),
         }
@@ -125,8 +125,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         let rank = |h: HalfEdge| {
             let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
             let offset = b - a;
-            let length = (length(offset).log2() * LENGTH_BINS).round() as i32;
-            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTION_BINS;
+            let length = (length(offset).log2() * BINS_PER_LENGTH_DOUBLING).round() as i32;
+            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTION_BINS_PER_UNIT;
             let offset = offset.to_array().map(|x| x.round() as i32);
             (Reverse(length), offset.max(offset.map(|x| -x)), h)
         };
@@ -149,30 +149,40 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             return true;
         }
         // The common run of edges, seen from the first region. It is never a whole rim: it lies on one line.
-        let Some(first) =
-            self.last_half_edge_beside_region(edge, |merger, h| merger.previous[h as usize], other)
-        else {
+        let Some(first) = self.last_half_edge_beside_region(
+            edge,
+            |merger, h| merger.previous_half_edge[h as usize],
+            other,
+        ) else {
             return false;
         };
-        let Some(last) =
-            self.last_half_edge_beside_region(edge, |merger, h| merger.next[h as usize], other)
-        else {
+        let Some(last) = self.last_half_edge_beside_region(
+            edge,
+            |merger, h| merger.next_half_edge[h as usize],
+            other,
+        ) else {
             return false;
         };
         let twin = |h: HalfEdge| self.manifold.twin(h);
         let joints = [
             (
-                self.previous[first as usize],
-                self.next[twin(first) as usize],
+                self.previous_half_edge[first as usize],
+                self.next_half_edge[twin(first) as usize],
             ),
-            (self.previous[twin(last) as usize], self.next[last as usize]),
+            (
+                self.previous_half_edge[twin(last) as usize],
+                self.next_half_edge[last as usize],
+            ),
         ];
-        if !joints.iter().all(|&joint| self.turns_left(joint)) {
+        if !joints
+            .iter()
+            .all(|&joint| self.is_straight_or_left_turn(joint))
+        {
             return false;
         }
         for (before, after) in joints {
-            self.next[before as usize] = after;
-            self.previous[after as usize] = before;
+            self.next_half_edge[before as usize] = after;
+            self.previous_half_edge[after as usize] = before;
         }
         self.regions.join(one, other);
         true
@@ -200,7 +210,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     }
 
     /// Returns whether a boundary is straight or turns left from one half-edge to the next.
-    fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
+    fn is_straight_or_left_turn(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
         let Some(plane) = Projection::new(self.manifold.triangle(before / 3)) else {
             return false;
         };
@@ -212,11 +222,11 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     /// Converts the merged regions to convex polygons.
     pub(crate) fn into_polygons(mut self) -> ConvexPolygons {
         let flat_of = self.regions.numbers();
-        let flat = |faces: Vec<u32>| Flat {
+        let flat = |faces: Vec<u32>| ConvexPolygon {
             faces,
-            ..Flat::default()
+            ..ConvexPolygon::default()
         };
-        let mut flats: Vec<Flat> = members(&flat_of).into_iter().map(flat).collect();
+        let mut flats: Vec<ConvexPolygon> = members(&flat_of).into_iter().map(flat).collect();
         for (number, flat) in flats.iter_mut().enumerate() {
             let outer =
                 |&h: &HalfEdge| flat_of[self.manifold.twin(h) as usize / 3] as usize != number;
@@ -224,7 +234,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             let Some(start) = own.into_iter().find(outer) else {
                 continue;
             };
-            let onward = |&h: &HalfEdge| Some(self.next[h as usize]).filter(|&h| h != start);
+            let onward =
+                |&h: &HalfEdge| Some(self.next_half_edge[h as usize]).filter(|&h| h != start);
             // A convex polygon has one rim, on which each half-edge is once.
             let most = 3 * flat.faces.len();
             flat.rim = std::iter::successors(Some(start), onward)

@@ -2,7 +2,7 @@
 
 use super::error::DecomposeError;
 use super::topology::{Orientation, Topology};
-use crate::exact::predicates::{Projection, first_too_fine_point, is_degenerate, side};
+use crate::exact::predicates::{Projection, first_point_below_exact_range, is_degenerate, side};
 use crate::half_edges::{HalfEdge, twins};
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
@@ -47,7 +47,7 @@ impl<'m> Manifold<'m> {
         mesh: &'m TriangleMesh,
         topology: &Topology,
     ) -> Result<Self, DecomposeError> {
-        if let Some(vertex) = first_too_fine_point(mesh.vertices()) {
+        if let Some(vertex) = first_point_below_exact_range(mesh.vertices()) {
             return Err(DecomposeError::TooFine { vertex });
         }
         if !topology.is_manifold() {

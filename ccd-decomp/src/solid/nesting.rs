@@ -4,8 +4,8 @@ mod closed_parts;
 
 use crate::bounds::{Bounds, BoundsTree};
 use crate::disjoint_sets::members;
-use crate::exact::predicates::{first_too_fine_point, is_degenerate};
-use crate::exact::rays::{crossing, probe_segment};
+use crate::exact::predicates::{first_point_below_exact_range, is_degenerate};
+use crate::exact::rays::{probe_segment, segment_crossing_sign};
 use crate::exact::triangles::meet_outside_shared_corners;
 use crate::exact::volume::SignedVolume;
 use crate::half_edges::Edges;
@@ -62,10 +62,10 @@ struct Shells<'m> {
 
 /// The shells that surround one shell.
 #[derive(Clone, Debug, Default)]
-struct Surroundings {
+struct SurroundingShells {
     shells: Vec<u32>,
     /// Whether another shell intersects the surrounded shell; false if no shell winds about it.
-    is_crossed: bool,
+    is_shell_crossed: bool,
 }
 
 impl<'m> Shells<'m> {
@@ -83,13 +83,14 @@ impl<'m> Shells<'m> {
     }
 
     fn nesting(&self) -> Nesting {
-        let exact = first_too_fine_point(self.mesh.vertices()).is_none();
+        let exact = first_point_below_exact_range(self.mesh.vertices()).is_none();
         let shells = 0..self.faces_of_shell.len() as u32;
-        let found: Vec<Option<Surroundings>> = shells
+        let found: Vec<Option<SurroundingShells>> = shells
             .map(|shell| exact.then(|| self.surroundings(shell)).flatten())
             .collect();
         let is_unknown: Vec<bool> = found.iter().map(Option::is_none).collect();
-        let around: Vec<Surroundings> = found.into_iter().map(Option::unwrap_or_default).collect();
+        let around: Vec<SurroundingShells> =
+            found.into_iter().map(Option::unwrap_or_default).collect();
         let orientations: Vec<i32> = self
             .faces_of_shell
             .iter()
@@ -101,9 +102,9 @@ impl<'m> Shells<'m> {
         let mut sides = vec![1; around.len()];
         let mut unclear = Tally::default();
         for shell in order {
-            let Surroundings {
+            let SurroundingShells {
                 shells,
-                is_crossed: crossed,
+                is_shell_crossed: crossed,
             } = &around[shell];
             let windings: i32 = shells.iter().map(|&other| sides[other as usize]).sum();
             let outermost = shells.iter().map(|&k| k as usize);
@@ -151,17 +152,17 @@ impl<'m> Shells<'m> {
     }
 
     /// Returns the shells that surround a shell; `None` if they cannot be determined.
-    fn surroundings(&self, shell: u32) -> Option<Surroundings> {
+    fn surroundings(&self, shell: u32) -> Option<SurroundingShells> {
         let mut shells = self.shells_winding_about(shell)?;
         if shells.is_empty() {
-            return Some(Surroundings::default());
+            return Some(SurroundingShells::default());
         }
         let crossing = self.shells_crossing(shell);
         shells.retain(|other| !crossing.contains(other));
         let crossed = !crossing.is_empty();
-        Some(Surroundings {
+        Some(SurroundingShells {
             shells,
-            is_crossed: crossed,
+            is_shell_crossed: crossed,
         })
     }
 
@@ -195,11 +196,14 @@ impl<'m> Shells<'m> {
     fn isolated_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
         let (middle, across) = centre_and_sides(face, size)?;
         let is_of_shell = |face: u32| self.shell_of_face[face as usize] == shell;
-        let misses =
-            |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
-        let is_alone =
-            self.boxes
-                .all_faces_meeting(&Region::segment(across), &Work::unbounded(), misses);
+        let misses = |face: u32| {
+            is_of_shell(face) || segment_crossing_sign(across, self.mesh.triangle(face)) == Some(0)
+        };
+        let is_alone = self.boxes.all_meeting_faces_satisfy(
+            &Region::segment(across),
+            &Work::unbounded(),
+            misses,
+        );
         is_alone.then_some(middle)
     }
 
@@ -210,12 +214,12 @@ impl<'m> Shells<'m> {
         let region = Region::segment(ray);
         let passes = self
             .boxes
-            .all_faces_meeting(&region, &Work::unbounded(), |face| {
+            .all_meeting_faces_satisfy(&region, &Work::unbounded(), |face| {
                 let other = self.shell_of_face[face as usize];
                 let start = Bounds::enclosing([ray[0]]);
                 let may_wind = other != shell && self.bounds.get(other).meets(&start);
                 let found = if may_wind {
-                    crossing(ray, self.mesh.triangle(face))
+                    segment_crossing_sign(ray, self.mesh.triangle(face))
                 } else {
                     Some(0)
                 };
@@ -239,8 +243,10 @@ impl<'m> Shells<'m> {
         let faces = self.faces_of_shell[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);
-            self.boxes
-                .all_faces_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
+            self.boxes.all_meeting_faces_satisfy(
+                &Region::triangle(one),
+                &Work::unbounded(),
+                |near| {
                     let other = self.shell_of_face[near as usize];
                     if other != shell && !crossed.contains(&other) && !flat(near) {
                         let ids = [face, near].map(|f| self.mesh.welded_face(f));
@@ -249,7 +255,8 @@ impl<'m> Shells<'m> {
                         }
                     }
                     true
-                });
+                },
+            );
         }
         crossed
     }

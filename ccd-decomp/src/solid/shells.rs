@@ -3,7 +3,7 @@
 use super::error::DecomposeError;
 use super::manifold::Manifold;
 use crate::disjoint_sets::{DisjointSets, members};
-use crate::exact::rays::{crossing, probe_segment};
+use crate::exact::rays::{probe_segment, segment_crossing_sign};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
 use crate::tolerance::MAX_NESTING_RAYS;
@@ -76,9 +76,9 @@ fn winding_number_of_other_shells(
         let mut windings = Some(0);
         manifold
             .boxes()
-            .all_faces_meeting(&Region::segment(ray), work, |f| {
+            .all_meeting_faces_satisfy(&Region::segment(ray), work, |f| {
                 if shell_of[f as usize] != shell {
-                    let crossing = crossing(ray, manifold.triangle(f));
+                    let crossing = segment_crossing_sign(ray, manifold.triangle(f));
                     windings = windings.zip(crossing).map(|(sum, one)| sum + one);
                 }
                 windings.is_some()

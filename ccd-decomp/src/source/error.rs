@@ -52,22 +52,22 @@ pub enum SourceError {
     },
     /// A shape has too many or too few lengths.
     #[error(
-        "{shape:?} takes {expected} length{}, not {given}; {USAGE_EXAMPLES}",
-        if *.expected == 1 { "" } else { "s" }
+        "{shape:?} takes {expected_count} length{}, not {given_count}; {USAGE_EXAMPLES}",
+        if *.expected_count == 1 { "" } else { "s" }
     )]
     WrongLengthCount {
         /// The name of the shape.
         shape: &'static str,
         /// The number of lengths that the shape takes.
-        expected: usize,
+        expected_count: usize,
         /// The number of lengths that the text has.
-        given: usize,
+        given_count: usize,
     },
     /// A word after the file name is not an adjustment.
     #[error(transparent)]
     UnknownAdjustment(#[from] UnknownAdjustment),
     /// A stored body has adjustments, which apply only to meshes.
-    #[error("{}: {PREPARED_ADVICE}", .file.display())]
+    #[error("{}: {PREPARED_BODY_ADVICE}", .file.display())]
     AdjustedStoredBody {
         /// The path of the file of the stored body.
         file: PathBuf,
@@ -76,7 +76,7 @@ pub enum SourceError {
     #[error(
         "{length:?} is too large a length of {shape:?}: lengths are from 0 to {MAX_COORDINATE:e}; use a larger unit of length"
     )]
-    TooLong {
+    LengthTooLarge {
         /// The name of the shape.
         shape: &'static str,
         /// The length as written in the text.
@@ -94,7 +94,7 @@ pub enum SourceError {
     },
 }
 
-const PREPARED_ADVICE: &str = "a prepared body has its unit, size and pieces already; use the mesh it was made from, or \
+const PREPARED_BODY_ADVICE: &str = "a prepared body has its unit, size and pieces already; use the mesh it was made from, or \
                         prepare it with the adjustments";
 
 const USAGE_EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \

@@ -55,7 +55,7 @@ impl MeshSource {
             Some(part) => file.part(part)?,
             None => file.into_mesh()?,
         };
-        let mesh = match self.adjustments.map() {
+        let mesh = match self.adjustments.affine_map() {
             Some(map) => mesh
                 .transformed(map)
                 .map_err(|error| MeshError::new(&self.file, error.fault))?,

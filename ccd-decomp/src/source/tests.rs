@@ -174,13 +174,13 @@ fn a_stored_body_stays_as_it_is() {
 #[rstest]
 #[case("", SourceError::Empty)]
 #[case("ball:1", SourceError::UnknownShape { shape: "ball".into() })]
-#[case("sphere", SourceError::WrongLengthCount { shape: "sphere", expected: 1, given: 0 })]
-#[case("box:1,2", SourceError::WrongLengthCount { shape: "box", expected: 3, given: 2 })]
+#[case("sphere", SourceError::WrongLengthCount { shape: "sphere", expected_count: 1, given_count: 0 })]
+#[case("box:1,2", SourceError::WrongLengthCount { shape: "box", expected_count: 3, given_count: 2 })]
 #[case("sphere:", SourceError::BadLength { shape: "sphere", length: String::new() })]
 #[case("sphere:-1", SourceError::BadLength { shape: "sphere", length: "-1".into() })]
 #[case("capsule:1,nan", SourceError::BadLength { shape: "capsule", length: "nan".into() })]
-#[case("cylinder:1", SourceError::WrongLengthCount { shape: "cylinder", expected: 2, given: 1 })]
-#[case("cone:1,2,3,4", SourceError::WrongLengthCount { shape: "cone", expected: 2, given: 4 })]
+#[case("cylinder:1", SourceError::WrongLengthCount { shape: "cylinder", expected_count: 2, given_count: 1 })]
+#[case("cone:1,2,3,4", SourceError::WrongLengthCount { shape: "cone", expected_count: 2, given_count: 4 })]
 #[case("box:1,2,inf", SourceError::BadLength { shape: "box", length: "inf".into() })]
 fn bad_descriptions_show_examples(#[case] text: &str, #[case] expected: SourceError) {
     let error = text.parse::<BodySource>().unwrap_err();
@@ -204,7 +204,7 @@ fn lengths_that_are_too_large_are_reported_with_the_range(
         "{message}"
     );
     let length = length.to_owned();
-    assert_eq!(error, SourceError::TooLong { shape, length });
+    assert_eq!(error, SourceError::LengthTooLarge { shape, length });
 }
 
 /// Tests that the largest allowed lengths are accepted.
@@ -254,7 +254,7 @@ fn faults_reach_the_caller_typed() {
     ));
     assert!(matches!(
         parse_body("sphere:1e300", Detail::Auto),
-        Err(BodyError::Source(SourceError::TooLong { .. }))
+        Err(BodyError::Source(SourceError::LengthTooLarge { .. }))
     ));
     // A length that comes from code was not checked by the parser.
     let source = BodySource::Sphere { radius: 1e300 };

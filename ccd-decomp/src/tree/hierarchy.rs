@@ -10,7 +10,7 @@ use crate::tree::slot::Slot;
 use agglomerate::agglomerate;
 use ccd_core::glam::{DVec3, Vec3A};
 use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
-use nodes::{AabbF32, Below, Node};
+use nodes::{AabbF32, Node, NodeContent};
 use rayon::prelude::*;
 use reinsert::reinsert_subtrees;
 
@@ -35,11 +35,11 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
             pieces: pieces.len(),
         });
     }
-    let mut nodes = split(&unit_leaves(pieces));
+    let mut nodes = split(&leaves_in_unit_cube(pieces));
     reinsert_subtrees(&mut nodes);
-    let node = |node: &Node| match node.below {
-        Below::Piece(piece) => HierarchyNode::Leaf(piece),
-        Below::Children(first) => HierarchyNode::Inner(first, first + 1),
+    let node = |node: &Node| match node.content {
+        NodeContent::Piece(piece) => HierarchyNode::Leaf(piece),
+        NodeContent::Children(first) => HierarchyNode::Inner(first, first + 1),
     };
     Hierarchy::new(
         nodes
@@ -53,7 +53,7 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
 
 /// Creates a leaf for each piece, with a box in f32. The boxes are scaled to the unit cube, so that pieces that are
 /// tiny or far from the origin do not coincide.
-fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
+fn leaves_in_unit_cube(pieces: &Pieces) -> Vec<Node> {
     let bounds = |piece: usize| {
         let piece = pieces.get(piece);
         let Bounds { lo, hi } = Bounds::enclosing(piece.points.iter().copied());
@@ -92,8 +92,8 @@ const PIECES_PER_TASK: usize = 4096;
 /// Splits leaves at the medians of their centres into clusters, and agglomerates each cluster. Returns the nodes, the
 /// root first.
 fn split(leaves: &[Node]) -> Vec<Node> {
-    let centres = (0..).zip(leaves).map(|(piece, leaf)| Centre {
-        at: leaf.cuboid.centre().to_array(),
+    let centres = (0..).zip(leaves).map(|(piece, leaf)| PieceCentre {
+        position: leaf.cuboid.centre().to_array(),
         piece,
     });
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
@@ -105,13 +105,13 @@ fn split(leaves: &[Node]) -> Vec<Node> {
 
 /// The centre of a piece's bounding box.
 #[derive(Clone, Copy)]
-struct Centre {
-    at: [f32; 3],
+struct PieceCentre {
+    position: [f32; 3],
     piece: u32,
 }
 
 /// Builds the subtree over some pieces, in parallel if they are many.
-fn build_subtree(leaves: &[Node], centres: &mut [Centre], slot: Slot<'_, Node>) {
+fn build_subtree(leaves: &[Node], centres: &mut [PieceCentre], slot: Slot<'_, Node>) {
     if centres.len() > MAX_CLUSTER_PIECES {
         let is_shared = centres.len() > PIECES_PER_TASK;
         return split_at_median(centres, slot, |[left, right]| {
@@ -129,13 +129,18 @@ fn build_subtree(leaves: &[Node], centres: &mut [Centre], slot: Slot<'_, Node>) 
     let tree = agglomerate(&of_cluster.collect::<Vec<_>>());
     // Node k > 0 of the small tree becomes node k + offset of the large one.
     let moved = |node: &Node| Node {
-        below: match node.below {
-            Below::Children(child) => Below::Children(child - 1 + slot.first),
+        content: match node.content {
+            NodeContent::Children(child) => {
+                NodeContent::Children(child - 1 + slot.first_descendant)
+            }
             leaf => leaf,
         },
         ..*node
     };
-    for (to, from) in std::iter::once(slot.node).chain(slot.below).zip(&tree) {
+    for (to, from) in std::iter::once(slot.node)
+        .chain(slot.descendants)
+        .zip(&tree)
+    {
         *to = moved(from);
     }
 }
@@ -143,17 +148,17 @@ fn build_subtree(leaves: &[Node], centres: &mut [Centre], slot: Slot<'_, Node>) 
 /// Splits pieces at the median of their centres along the longest axis, calls `make` to build both halves, and joins
 /// them under a node.
 fn split_at_median(
-    centres: &mut [Centre],
+    centres: &mut [PieceCentre],
     mut slot: Slot<'_, Node>,
-    make: impl FnOnce([(&mut [Centre], Slot<'_, Node>); 2]),
+    make: impl FnOnce([(&mut [PieceCentre], Slot<'_, Node>); 2]),
 ) {
     let spread = centres.iter().fold(AabbF32::EMPTY, |all, centre| {
-        all.union(AabbF32::from_point(centre.at.into()))
+        all.union(AabbF32::from_point(centre.position.into()))
     });
     let axis = spread.extent().max_position();
     let half = centres.len() / 2;
     centres.select_nth_unstable_by(half, |a, b| {
-        let order = a.at[axis].total_cmp(&b.at[axis]);
+        let order = a.position[axis].total_cmp(&b.position[axis]);
         order.then(a.piece.cmp(&b.piece))
     });
     let (low, high) = centres.split_at_mut(half);
@@ -161,8 +166,8 @@ fn split_at_median(
         make([(low, left), (high, right)]);
     }
     *slot.node = Node {
-        cuboid: slot.below[0].cuboid.union(slot.below[1].cuboid),
-        below: Below::Children(slot.first),
+        cuboid: slot.descendants[0].cuboid.union(slot.descendants[1].cuboid),
+        content: NodeContent::Children(slot.first_descendant),
     };
 }
 

@@ -76,7 +76,7 @@ impl TreeBuilder<'_> {
             )
         };
         grown_left.and(grown_right)?;
-        let children = &slot.below[..2];
+        let children = &slot.descendants[..2];
         let points: Vec<DVec3> = children
             .iter()
             .flat_map(|child| corners(child, self.pieces))
@@ -84,7 +84,7 @@ impl TreeBuilder<'_> {
             .collect();
         let out_of_range = |error: HullError| BuildError::OutOfRange(points[error.point as usize]);
         let hull = hull(&points).map_err(out_of_range)?;
-        *slot.node = HullNode::Inner([slot.first, slot.first + 1], hull);
+        *slot.node = HullNode::Inner([slot.first_descendant, slot.first_descendant + 1], hull);
         Ok(())
     }
 }

@@ -5,9 +5,9 @@ pub(super) struct Slot<'n, N> {
     pub(super) node: &'n mut N,
     /// The descendants: the two children, then the descendants of the second child, then the descendants of the first
     /// child.
-    pub(super) below: &'n mut [N],
+    pub(super) descendants: &'n mut [N],
     /// The index of the first descendant.
-    pub(super) first: u32,
+    pub(super) first_descendant: u32,
 }
 
 impl<'n, N> Slot<'n, N> {
@@ -15,25 +15,29 @@ impl<'n, N> Slot<'n, N> {
     pub(super) fn whole(nodes: &'n mut [N]) -> Option<Self> {
         let (node, below) = nodes.split_first_mut()?;
         let first = 1;
-        Some(Slot { node, below, first })
+        Some(Slot {
+            node,
+            descendants: below,
+            first_descendant: first,
+        })
     }
 
     /// Returns the slots of both children; `None` for a leaf. The second child has `leaves` leaves.
     pub(super) fn children(&mut self, leaves: usize) -> Option<[Slot<'_, N>; 2]> {
-        let [left, right, below @ ..] = &mut *self.below else {
+        let [left, right, below @ ..] = &mut *self.descendants else {
             return None;
         };
         let (below_right, below_left) = below.split_at_mut(2 * (leaves - 1));
-        let first = self.first + 2;
+        let first = self.first_descendant + 2;
         let of_left = Slot {
             node: left,
-            first: first + below_right.len() as u32,
-            below: below_left,
+            first_descendant: first + below_right.len() as u32,
+            descendants: below_left,
         };
         let of_right = Slot {
             node: right,
-            first,
-            below: below_right,
+            first_descendant: first,
+            descendants: below_right,
         };
         Some([of_left, of_right])
     }

@@ -26,7 +26,7 @@ impl<L: Simd> SeparatingAxisCandidates<L> {
     pub(crate) fn new(level: L, p: &Corners, q: &Corners, w: DVec3) -> Self {
         let (edges_p, edges_q) = (edges(p), edges(q));
         let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
-        let lanes_q = with_fourth_lane(level, edges_q, DVec3::ZERO);
+        let lanes_q = pack_four_lanes(level, edges_q, DVec3::ZERO);
         // Nearly parallel edges have a cross product that rounding tilts along them.
         let cross = |e: DVec3| {
             let e = Lanes3::splat(level, e);
@@ -39,16 +39,16 @@ impl<L: Simd> SeparatingAxisCandidates<L> {
                 cross(edges_p[0]),
                 cross(edges_p[1]),
                 cross(edges_p[2]),
-                w.perpendicular_to(with_fourth_lane(level, edges_p, DVec3::ZERO)),
+                w.perpendicular_to(pack_four_lanes(level, edges_p, DVec3::ZERO)),
                 w.perpendicular_to(lanes_q),
-                with_fourth_lane(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
-                with_fourth_lane(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
+                pack_four_lanes(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
+                pack_four_lanes(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
                 axes_of_longest_edge(level, &edges_p, &edges_q),
             ],
             gaps: [splat(level, 0.0); LANE_GROUP_COUNT],
         };
         for (n, gap) in out.directions.iter_mut().zip(&mut out.gaps) {
-            (*n, *gap) = oriented(p, q, *n);
+            (*n, *gap) = orient_to_larger_gap(p, q, *n);
         }
         out
     }
@@ -66,7 +66,7 @@ impl<L: Simd> SeparatingAxisCandidates<L> {
 
 /// Orients each direction towards the larger support gap, and returns the gaps along the unit vectors.
 #[inline(always)]
-fn oriented<L: Simd>(p: &Corners, q: &Corners, n: Lanes3<L>) -> (Lanes3<L>, f64x4<L>) {
+fn orient_to_larger_gap<L: Simd>(p: &Corners, q: &Corners, n: Lanes3<L>) -> (Lanes3<L>, f64x4<L>) {
     let level = n.level();
     let [a, b, c] = p.map(|x| n.dot(Lanes3::splat(level, x)));
     let [d, e, f] = q.map(|y| n.dot(Lanes3::splat(level, y)));
@@ -111,7 +111,7 @@ fn axes_of_longest_edge<L: Simd>(
     let edge = longest_edge(&[longest_edge(edges_p), longest_edge(edges_q)]);
     let along = unit(edge).unwrap_or(DVec3::X);
     let (across, other) = along.any_orthonormal_pair();
-    with_fourth_lane(level, [along, across, other], DVec3::ZERO)
+    pack_four_lanes(level, [along, across, other], DVec3::ZERO)
 }
 
 fn longest_edge(edges: &[DVec3]) -> DVec3 {
@@ -125,6 +125,6 @@ fn longest_edge(edges: &[DVec3]) -> DVec3 {
 }
 
 #[inline(always)]
-fn with_fourth_lane<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
+fn pack_four_lanes<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
     Lanes3::new(level, [a, b, c, d])
 }

@@ -19,16 +19,16 @@ pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
 
 /// The nearest points of two triangles, in barycentric coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest {
+pub(crate) struct NearestPoints {
     pub(crate) a: [f64; 3],
     pub(crate) b: [f64; 3],
 }
 
-impl Nearest {
+impl NearestPoints {
     /// Returns the vector from the first triangle's nearest point to the second triangle's.
     #[inline(always)]
     pub(crate) fn difference(&self, p: &Corners, q: &Corners) -> DVec3 {
-        at(q, self.b) - at(p, self.a)
+        point_at_weights(q, self.b) - point_at_weights(p, self.a)
     }
 }
 
@@ -36,17 +36,19 @@ impl Nearest {
 /// of a corner and a face.
 ///
 /// Every candidate is a valid pair of points, however ill-conditioned; the least distance decides.
-pub(crate) fn nearest(level: Level, p: &Corners, q: &Corners) -> Nearest {
-    vectorize!(level, level => nearest_in_lanes(level, p, q))
+pub(crate) fn nearest_points(level: Level, p: &Corners, q: &Corners) -> NearestPoints {
+    vectorize!(level, level => nearest_points_in_lanes(level, p, q))
 }
 
 #[inline(always)]
-fn nearest_in_lanes<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
+fn nearest_points_in_lanes<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestPoints {
     let edges = nearest_edge_points(level, p, q);
     let corners_q = project_corners_to_face(level, p, q);
     let corners_p = project_corners_to_face(level, q, p);
-    let face_p = corners_q.square.simd_lt(corners_p.square);
-    let faces = corners_q.square.min(corners_p.square);
+    let face_p = corners_q
+        .squared_distance
+        .simd_lt(corners_p.squared_distance);
+    let faces = corners_q.squared_distance.min(corners_p.squared_distance);
     let (at_edges, at_faces) = (least_lane(edges.square), least_lane(faces));
     if at_edges.0 <= at_faces.0 {
         return edges.weights(at_edges.1);
@@ -54,15 +56,15 @@ fn nearest_in_lanes<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
     let k = at_faces.1;
     if face_p.to_bitmask() >> k & 1 == 1 {
         let (a, b) = corners_q.weights(k);
-        Nearest { a, b }
+        NearestPoints { a, b }
     } else {
         let (b, a) = corners_p.weights(k);
-        Nearest { a, b }
+        NearestPoints { a, b }
     }
 }
 
 /// For every edge of the second triangle, one per lane, the nearest edge of the first triangle.
-struct EdgeEdge<L: Simd> {
+struct NearestEdges<L: Simd> {
     square: f64x4<L>,
     /// The index of the first triangle's edge.
     edge: f64x4<L>,
@@ -72,26 +74,26 @@ struct EdgeEdge<L: Simd> {
     t: f64x4<L>,
 }
 
-impl<L: Simd> EdgeEdge<L> {
+impl<L: Simd> NearestEdges<L> {
     #[inline(always)]
-    fn weights(&self, lane: usize) -> Nearest {
-        let (i, j) = (self.edge[lane] as usize, LANE_CORNER[lane]);
-        Nearest {
-            a: on_edge(i, self.s[lane]),
-            b: on_edge(j, self.t[lane]),
+    fn weights(&self, lane: usize) -> NearestPoints {
+        let (i, j) = (self.edge[lane] as usize, EDGE_START_OF_LANE[lane]);
+        NearestPoints {
+            a: weights_on_edge(i, self.s[lane]),
+            b: weights_on_edge(j, self.t[lane]),
         }
     }
 }
 
 /// The start corner of the edge in each lane; the fourth lane repeats the third corner.
-const LANE_CORNER: [usize; 4] = [0, 1, 2, 2];
+const EDGE_START_OF_LANE: [usize; 4] = [0, 1, 2, 2];
 
 #[inline(always)]
-fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
-    let starts = Lanes3::new(level, LANE_CORNER.map(|k| q[k]));
+fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestEdges<L> {
+    let starts = Lanes3::new(level, EDGE_START_OF_LANE.map(|k| q[k]));
     let f = Lanes3::new(level, [q[1] - q[0], q[2] - q[1], q[0] - q[2], DVec3::ZERO]);
     let per_f = reciprocal(f.dot(f));
-    let mut best = EdgeEdge {
+    let mut best = NearestEdges {
         square: splat(level, f64::INFINITY),
         edge: splat(level, 0.0),
         s: splat(level, 0.0),
@@ -124,7 +126,7 @@ fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<
 /// For every corner of one triangle, one per lane, its projection onto the face of the other triangle.
 struct CornerProjections<L: Simd> {
     /// The squared distance of the corner from its projection; infinite if the projection is outside of the face.
-    square: f64x4<L>,
+    squared_distance: f64x4<L>,
     u: f64x4<L>,
     v: f64x4<L>,
 }
@@ -135,7 +137,7 @@ impl<L: Simd> CornerProjections<L> {
     fn weights(&self, lane: usize) -> ([f64; 3], [f64; 3]) {
         let (u, v) = (self.u[lane], self.v[lane]);
         let mut corner = [0.0; 3];
-        corner[LANE_CORNER[lane]] = 1.0;
+        corner[EDGE_START_OF_LANE[lane]] = 1.0;
         ([1.0 - u - v, u, v], corner)
     }
 }
@@ -152,7 +154,7 @@ fn project_corners_to_face<L: Simd>(
     let per = if square > 0.0 { 1.0 / square } else { 0.0 };
     // The dual basis of the two edges within the plane: u = w·g, v = w·h.
     let (g, h) = (per * f.cross(n), per * n.cross(e));
-    let w = Lanes3::new(level, LANE_CORNER.map(|k| corners[k] - face[0]));
+    let w = Lanes3::new(level, EDGE_START_OF_LANE.map(|k| corners[k] - face[0]));
     let u = w.dot(Lanes3::splat(level, g));
     let v = w.dot(Lanes3::splat(level, h));
     let apart = w
@@ -161,7 +163,7 @@ fn project_corners_to_face<L: Simd>(
     let zero = splat(level, 0.0);
     let inside = u.simd_ge(zero) & v.simd_ge(zero) & (splat(level, 1.0) - u - v).simd_gt(zero);
     CornerProjections {
-        square: inside.select(apart.dot(apart), splat(level, f64::INFINITY)),
+        squared_distance: inside.select(apart.dot(apart), splat(level, f64::INFINITY)),
         u,
         v,
     }
@@ -177,7 +179,7 @@ fn least_lane<L: Simd>(x: f64x4<L>) -> (f64, usize) {
 }
 
 #[inline(always)]
-fn on_edge(start: usize, t: f64) -> [f64; 3] {
+fn weights_on_edge(start: usize, t: f64) -> [f64; 3] {
     let mut out = [0.0; 3];
     out[start] = 1.0 - t;
     out[(start + 1) % 3] += t;
@@ -186,6 +188,6 @@ fn on_edge(start: usize, t: f64) -> [f64; 3] {
 
 /// Returns the point with the given barycentric coordinates.
 #[inline(always)]
-pub(crate) fn at(corners: &Corners, [u, v, w]: [f64; 3]) -> DVec3 {
+pub(crate) fn point_at_weights(corners: &Corners, [u, v, w]: [f64; 3]) -> DVec3 {
     u * corners[0] + v * corners[1] + w * corners[2]
 }

@@ -1,6 +1,6 @@
 //! Finds common points of two triangles, where an edge of one passes through the other.
 
-use super::nearest::{Corners, Nearest, at};
+use super::nearest::{Corners, NearestPoints, point_at_weights};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
@@ -10,10 +10,14 @@ use ccd_core::order::lesser;
 /// Two non-coplanar triangles that intersect share a segment, which ends where an edge of one meets the other.
 /// Triangles in one plane have crossing edges or a corner inside, which `near` covers. Clamping to edge and face
 /// replaces an inside test.
-pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
-    let through_p = edge_plane_intersections(q, p).map(|(b, a)| Nearest { a, b });
-    let through_q = edge_plane_intersections(p, q).map(|(a, b)| Nearest { a, b });
-    let square = |n: &Nearest| n.difference(p, q).length_squared();
+pub(crate) fn nearest_with_edge_plane_intersections(
+    p: &Corners,
+    q: &Corners,
+    near: NearestPoints,
+) -> NearestPoints {
+    let through_p = edge_plane_intersections(q, p).map(|(b, a)| NearestPoints { a, b });
+    let through_q = edge_plane_intersections(p, q).map(|(a, b)| NearestPoints { a, b });
+    let square = |n: &NearestPoints| n.difference(p, q).length_squared();
     through_p
         .into_iter()
         .chain(through_q)
@@ -42,7 +46,10 @@ fn edge_plane_intersections(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3
         let mut edge = [0.0; 3];
         edge[start] = 1.0 - t;
         edge[end] = t;
-        (edge, projected_weights(e, f, n, at(of, edge) - face[0]))
+        (
+            edge,
+            projected_weights(e, f, n, point_at_weights(of, edge) - face[0]),
+        )
     })
 }
 

@@ -1,8 +1,8 @@
 //! Tests the features of claims, the refused pieces, and the common points of intersecting triangles.
 
 use super::ClosedForm;
-use super::nearest::{Corners, Nearest};
-use super::pierce::common_point;
+use super::nearest::{Corners, NearestPoints};
+use super::pierce::nearest_with_edge_plane_intersections;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, DistanceOracle, Frame, GiveUpReason, Instructions, Piece, PiecePair};
 use rand::{RngExt, SeedableRng};
@@ -24,8 +24,8 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUpReason> {
     ClosedForm::default().separation(&pair, &mut ())
 }
 
-fn nearest(p: &Corners, q: &Corners) -> Nearest {
-    super::nearest(Instructions::Best.level(), p, q)
+fn nearest(p: &Corners, q: &Corners) -> NearestPoints {
+    super::nearest_points(Instructions::Best.level(), p, q)
 }
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
@@ -85,11 +85,11 @@ fn finds_the_point_where_an_edge_passes_through() {
     let spear = [v(1.0, 1.0, 5.0), v(1.0, 1.0, -5.0), v(1.1, 1.1, 5.0)];
     let near = nearest(&BASE_TRIANGLE, &spear);
     assert!(near.difference(&BASE_TRIANGLE, &spear).length() > 0.9);
-    let common = common_point(&BASE_TRIANGLE, &spear, near);
+    let common = nearest_with_edge_plane_intersections(&BASE_TRIANGLE, &spear, near);
     assert!(common.difference(&BASE_TRIANGLE, &spear).length() < 1e-15);
     // From either side.
     let near = nearest(&spear, &BASE_TRIANGLE);
-    let common = common_point(&spear, &BASE_TRIANGLE, near);
+    let common = nearest_with_edge_plane_intersections(&spear, &BASE_TRIANGLE, near);
     assert!(common.difference(&spear, &BASE_TRIANGLE).length() < 1e-15);
 }
 
@@ -99,7 +99,7 @@ fn does_not_pierce_outside_of_the_face() {
     let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];
     let near = nearest(&BASE_TRIANGLE, &spear);
     let before = near.difference(&BASE_TRIANGLE, &spear).length();
-    let after = common_point(&BASE_TRIANGLE, &spear, near)
+    let after = nearest_with_edge_plane_intersections(&BASE_TRIANGLE, &spear, near)
         .difference(&BASE_TRIANGLE, &spear)
         .length();
     assert!((after - before).abs() < 1e-14);

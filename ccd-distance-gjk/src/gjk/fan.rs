@@ -1,6 +1,6 @@
 //! Finds separating axes that a few vertices of the Minkowski difference span.
 
-use super::search::Best;
+use super::search::SearchResult;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::MAX_AXIS_VERTICES;
 use ccd_core::glam::DVec3;
@@ -18,7 +18,7 @@ pub(crate) struct AxisCandidates {
 
 impl AxisCandidates {
     /// Creates the candidates from the simplex that a search found; `None` if the simplex is empty.
-    pub(crate) fn new(found: &Best) -> Option<Self> {
+    pub(crate) fn new(found: &SearchResult) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = AxisCandidates {
             point: DVec3::ZERO,

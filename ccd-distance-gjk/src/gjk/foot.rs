@@ -28,7 +28,7 @@ impl NearestPoint {
 
     /// Converts the foot on a sub-simplex to a foot on the whole simplex. Vertex `k` of the sub-simplex is vertex
     /// `indices[k]` of the whole simplex.
-    pub(crate) fn with_indices(self, indices: &[usize]) -> Self {
+    pub(crate) fn on_whole_simplex(self, indices: &[usize]) -> Self {
         let mut weights = [0.0; 4];
         for (&index, &weight) in indices.iter().zip(&self.weights) {
             weights[index] = weight;

@@ -65,7 +65,7 @@ impl<'a> MinkowskiDifference<'a> {
 
 /// Returns the index of a point of a piece that is farthest along a direction.
 ///
-/// Scans up to [`MAX_SCANNED_POINTS`] points; for more, calls [`Piece::extremal`].
+/// Scans up to [`MAX_SCANNED_POINTS`] points; for more, calls [`Piece::extremal_point`].
 #[inline]
 fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
     if piece.points.len() > MAX_SCANNED_POINTS {

@@ -2,7 +2,7 @@
 
 use super::minkowski::MinkowskiDifference;
 use super::refine;
-use super::search::{Best, search};
+use super::search::{SearchResult, search};
 use super::sharpen;
 use super::simplex::Simplex;
 use super::start::Cache;
@@ -67,7 +67,10 @@ pub(crate) const EMPTY_CLAIM: Claim = Claim {
 /// Searches for the nearest point from the cached simplex, and again without the cache if the result is not certified.
 ///
 /// A cached simplex may be degenerate at the new positions, so that no step gets nearer.
-pub(crate) fn solve_with_cache(difference: &MinkowskiDifference<'_>, cache: &Cache) -> Best {
+pub(crate) fn solve_with_cache(
+    difference: &MinkowskiDifference<'_>,
+    cache: &Cache,
+) -> SearchResult {
     let found = solve(difference, cache.simplex(difference));
     if found.gap > 0.0 && !is_certified(&found) {
         found.combine_results(solve(difference, Cache::default().simplex(difference)))
@@ -79,21 +82,23 @@ pub(crate) fn solve_with_cache(difference: &MinkowskiDifference<'_>, cache: &Cac
 /// Searches for the nearest point, and again from other vertices if rounding stalls the search.
 ///
 /// A search that stalls before its axis certifies the distance continues from the vertices found by axes of features.
-pub(crate) fn solve(difference: &MinkowskiDifference<'_>, mut simplex: Simplex) -> Best {
-    let mut found = Best::empty();
+pub(crate) fn solve(difference: &MinkowskiDifference<'_>, mut simplex: Simplex) -> SearchResult {
+    let mut found = SearchResult::empty();
     for _ in 0..MAX_FEATURE_AXIS_ROUNDS {
-        let before = found.square;
+        let before = found.squared_distance;
         let stop = search(difference, simplex, &mut found);
         if stop == StopReason::OriginEnclosed {
             sharpen::try_face_axes(difference, &mut found);
             break;
         }
-        if stop == StopReason::Converged && found.gap >= MIN_CERTIFIED_SHARE * found.square.sqrt() {
+        if stop == StopReason::Converged
+            && found.gap >= MIN_CERTIFIED_SHARE * found.squared_distance.sqrt()
+        {
             break;
         }
         refine::witnesses(difference, found.simplex, &mut found);
         // Written so that NaN breaks.
-        if is_certified(&found) || !(found.square < before) {
+        if is_certified(&found) || !(found.squared_distance < before) {
             break;
         }
         simplex = sharpen::try_feature_axes(difference, &mut found);
@@ -106,12 +111,18 @@ pub(crate) fn solve(difference: &MinkowskiDifference<'_>, mut simplex: Simplex) 
 }
 
 /// Returns whether the support gap along the axis equals the distance found, up to rounding.
-pub(crate) fn is_certified(found: &Best) -> bool {
-    found.gap > 0.0 && gap_equals_distance(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
+pub(crate) fn is_certified(found: &SearchResult) -> bool {
+    found.gap > 0.0
+        && gap_equals_distance(
+            found.gap,
+            found.squared_distance,
+            &found.simplex,
+            CERTIFIED_ULPS,
+        )
 }
 
 /// Converts the result of a search to a claim.
-pub(crate) fn claim(found: &Best) -> Claim {
+pub(crate) fn claim(found: &SearchResult) -> Claim {
     let mut out = Claim {
         axis: found.axis,
         ..EMPTY_CLAIM

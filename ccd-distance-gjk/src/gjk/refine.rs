@@ -1,9 +1,9 @@
 //! Improves the nearest points of a search by closed forms.
 
 use super::minkowski::MinkowskiDifference;
-use super::search::Best;
+use super::search::SearchResult;
 use super::simplex::Simplex;
-use crate::closed_form::nearest::{Corners, nearest};
+use crate::closed_form::nearest::{Corners, nearest_points};
 use ccd_core::Instructions;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -13,18 +13,22 @@ use ccd_core::order::lesser;
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.
-pub(crate) fn witnesses(difference: &MinkowskiDifference<'_>, simplex: Simplex, found: &mut Best) {
+pub(crate) fn witnesses(
+    difference: &MinkowskiDifference<'_>,
+    simplex: Simplex,
+    found: &mut SearchResult,
+) {
     let vertices = simplex.vertices();
     let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
     let q = Points::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));
     let (Some(p), Some(q)) = (p, q) else {
         return;
     };
-    let near = nearest(Instructions::Best.level(), &p.corners, &q.corners);
+    let near = nearest_points(Instructions::Best.level(), &p.corners, &q.corners);
     let square = near.difference(&p.corners, &q.corners).length_squared();
-    if square < found.square {
+    if square < found.squared_distance {
         let shares = PairedWeights::new(near.a, near.b);
-        found.square = square;
+        found.squared_distance = square;
         (found.simplex, found.weights) = pair_weights(difference, &p, &q, shares);
     }
 }

@@ -8,25 +8,25 @@ use ccd_core::glam::DVec3;
 
 /// The best results for a pair so far: nearest point and axis.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Best {
+pub(crate) struct SearchResult {
     /// The simplex that contains the nearest point.
     pub(crate) simplex: Simplex,
     pub(crate) weights: [f64; 4],
     /// The squared distance of the nearest point from the origin.
-    pub(crate) square: f64,
+    pub(crate) squared_distance: f64,
     /// The axis with the largest support gap so far, of any length.
     pub(crate) axis: DVec3,
     /// The gap along the unit vector of `axis`.
     pub(crate) gap: f64,
 }
 
-impl Best {
+impl SearchResult {
     /// Creates the state before a search: an empty simplex, no axis, and an infinite distance.
     pub(crate) fn empty() -> Self {
-        Best {
+        SearchResult {
             simplex: Simplex::EMPTY,
             weights: [0.0; 4],
-            square: f64::INFINITY,
+            squared_distance: f64::INFINITY,
             axis: DVec3::ZERO,
             gap: f64::NEG_INFINITY,
         }
@@ -34,13 +34,13 @@ impl Best {
 
     /// Combines two results: takes the nearer point, and the axis with the larger gap.
     pub(crate) fn combine_results(self, other: Self) -> Self {
-        let nearer = if other.square < self.square {
+        let nearer = if other.squared_distance < self.squared_distance {
             other
         } else {
             self
         };
         let wider = if other.gap > self.gap { other } else { self };
-        Best {
+        SearchResult {
             axis: wider.axis,
             gap: wider.gap,
             ..nearer
@@ -68,7 +68,7 @@ impl Best {
 pub(crate) fn search(
     difference: &MinkowskiDifference<'_>,
     mut simplex: Simplex,
-    found: &mut Best,
+    found: &mut SearchResult,
 ) -> StopReason {
     for _ in 0..MAX_STEPS {
         let Some(foot) = simplex.foot() else {
@@ -76,12 +76,12 @@ pub(crate) fn search(
         };
         let square = foot.point.length_squared();
         // Written so that NaN stops it.
-        if !(square < found.square) {
+        if !(square < found.squared_distance) {
             return StopReason::Stalled;
         }
         let reduced;
         (reduced, found.weights) = simplex.without_zero_weights(&foot);
-        (found.simplex, found.square) = (reduced, square);
+        (found.simplex, found.squared_distance) = (reduced, square);
         let Some(direction) = foot.direction else {
             return StopReason::OriginEnclosed;
         };

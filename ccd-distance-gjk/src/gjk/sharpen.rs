@@ -3,7 +3,7 @@
 
 use super::fan::AxisCandidates;
 use super::minkowski::MinkowskiDifference;
-use super::search::Best;
+use super::search::SearchResult;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::MAX_AXIS_VERTICES;
 use ccd_core::glam::DVec3;
@@ -17,7 +17,10 @@ use ccd_core::vector::unit;
 /// the nearest point's direction out of that cone when the point is short. The axis is therefore
 /// made perpendicular to one or two of the edges `x − f` towards vertices x below it, repeatedly,
 /// until no vertex is below it.
-pub(crate) fn try_feature_axes(difference: &MinkowskiDifference<'_>, found: &mut Best) -> Simplex {
+pub(crate) fn try_feature_axes(
+    difference: &MinkowskiDifference<'_>,
+    found: &mut SearchResult,
+) -> Simplex {
     let Some(mut fan) = AxisCandidates::new(found) else {
         return Simplex::EMPTY;
     };
@@ -42,7 +45,7 @@ pub(crate) fn try_feature_axes(difference: &MinkowskiDifference<'_>, found: &mut
 
 /// Tries the face normals of a tetrahedron around the origin as axes of least penetration, and stores the best in
 /// `found`.
-pub(crate) fn try_face_axes(difference: &MinkowskiDifference<'_>, found: &mut Best) {
+pub(crate) fn try_face_axes(difference: &MinkowskiDifference<'_>, found: &mut SearchResult) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {
         return;

@@ -1,7 +1,7 @@
 //! Chooses the simplex from which a search starts: the result of the last search on the pair, or a support vertex.
 
 use super::minkowski::MinkowskiDifference;
-use super::search::Best;
+use super::search::SearchResult;
 use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -19,7 +19,7 @@ pub struct Cache {
 
 impl Cache {
     /// Creates a cache from the result of a search.
-    pub(crate) fn from_search_result(found: &Best) -> Self {
+    pub(crate) fn from_search_result(found: &SearchResult) -> Self {
         let mut cache = Cache {
             axis: found.axis,
             ..Cache::default()

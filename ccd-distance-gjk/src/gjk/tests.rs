@@ -5,7 +5,7 @@ use super::foot::NearestPoint;
 use super::minkowski::MinkowskiDifference;
 use super::oracle::{is_certified, solve, solve_with_cache};
 use super::refine::PairedWeights;
-use super::search::{Best, search};
+use super::search::{SearchResult, search};
 use super::simplex::{Simplex, Vertex};
 use super::start::Cache;
 use super::termination::StopReason;
@@ -148,7 +148,7 @@ fn a_simplex_takes_no_pair_twice_and_no_fifth() {
 /// Tests that an axis is found along which no base corner of a flat pyramid is below its apex.
 #[test]
 fn a_fan_finds_the_axis_between_its_edges() {
-    let mut found = Best::empty();
+    let mut found = SearchResult::empty();
     let vertex = |x: f64, y: f64, z: f64, a| Vertex {
         point: DVec3::new(x, y, z),
         a,
@@ -182,13 +182,13 @@ fn stalled_searches_are_taken_up_again() {
         let pair = scene.pair();
         let difference = MinkowskiDifference::new(&pair).expect("pieces with points");
         let start = || Cache::default().simplex(&difference);
-        let mut alone = Best::empty();
+        let mut alone = SearchResult::empty();
         let stop = search(&difference, start(), &mut alone);
         stalled += u32::from(stop == StopReason::Stalled);
-        short += u32::from(alone.gap < 0.5 * alone.square.sqrt());
+        short += u32::from(alone.gap < 0.5 * alone.squared_distance.sqrt());
         let found = solve(&difference, start());
         assert!(
-            found.gap >= 0.99 * found.square.sqrt(),
+            found.gap >= 0.99 * found.squared_distance.sqrt(),
             "{found:?} of {scene:?}"
         );
     }

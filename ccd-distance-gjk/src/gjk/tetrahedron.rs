@@ -2,7 +2,7 @@
 
 use super::foot::NearestPoint;
 use super::triangle;
-use crate::tolerance::{TOUCHING_ULPS, VOLUME_ULPS, WEIGHT_CORRECTIONS};
+use crate::tolerance::{TOUCHING_ULPS, VOLUME_ULPS, WEIGHT_CORRECTION_ROUNDS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -21,7 +21,7 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
         return inside;
     }
     let feet = FACES.map(|[_, a, b, c]| {
-        triangle::foot(corners[a], corners[b], corners[c]).with_indices(&[a, b, c])
+        triangle::foot(corners[a], corners[b], corners[c]).on_whole_simplex(&[a, b, c])
     });
     let [first, others @ ..] = feet;
     others
@@ -47,7 +47,7 @@ fn weights_of_origin(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<N
     let mut weights = normalised(heights.map(|height| height.origin_height / height.apex_height));
     // Heights over a flat tetrahedron's faces have few correct digits. The residual of the weights is accurate, and
     // each round of correction gains as many digits again.
-    for _ in 0..WEIGHT_CORRECTIONS {
+    for _ in 0..WEIGHT_CORRECTION_ROUNDS {
         let missed = combined(weights);
         let correction = heights.map(|height| height.normal.dot(missed) / height.apex_height);
         weights = normalised(std::array::from_fn(|k| weights[k] - correction[k]));

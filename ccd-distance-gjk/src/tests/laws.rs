@@ -25,7 +25,7 @@ pub(super) fn ask<O: DistanceOracle>(o: &mut O, scene: &Scene, cache: &mut O::Ca
     }
 }
 
-pub(super) fn check(scene: &Scene, claim: &Claim) -> MeasuredClaim {
+pub(super) fn measure_claim(scene: &Scene, claim: &Claim) -> MeasuredClaim {
     let (a, b) = scene.local_points();
     let place = |combination: &ConvexCombination, points: &[DVec3]| {
         combination
@@ -44,8 +44,8 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> MeasuredClaim {
 
 /// Checks that the axis certifies the distance of separate pieces: up to rounding if they are well apart, else at least
 /// half of it.
-pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> MeasuredClaim {
-    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
+pub(super) fn check_separation<O: DistanceOracle + Default>(scene: &Scene) -> MeasuredClaim {
+    let checked = measure_claim(scene, &claim_with_empty_cache::<O>(scene));
     let MeasuredClaim { distance, gap } = checked;
     assert!(
         gap <= distance + 1e-14 * scene.size,
@@ -62,8 +62,8 @@ pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -
 }
 
 /// Checks that the nearest points of separate pieces are as near as by brute force.
-pub(super) fn agrees_with_brute_force<O: DistanceOracle + Default>(scene: &Scene) {
-    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
+pub(super) fn check_against_brute_force<O: DistanceOracle + Default>(scene: &Scene) {
+    let checked = measure_claim(scene, &claim_with_empty_cache::<O>(scene));
     let (a, b) = scene.local_points();
     let truth = twin::distance(&a, &b);
     let error = (checked.distance - truth).abs();
@@ -74,8 +74,8 @@ pub(super) fn agrees_with_brute_force<O: DistanceOracle + Default>(scene: &Scene
 }
 
 /// Checks that the two claimed points of intersecting pieces coincide, up to the fraction `within` of the size.
-pub(super) fn finds_common_point<O: DistanceOracle + Default>(scene: &Scene, within: f64) {
-    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
+pub(super) fn check_common_point<O: DistanceOracle + Default>(scene: &Scene, within: f64) {
+    let checked = measure_claim(scene, &claim_with_empty_cache::<O>(scene));
     assert!(
         checked.distance <= within * scene.size,
         "{checked:?} of {scene:?}"
@@ -83,8 +83,8 @@ pub(super) fn finds_common_point<O: DistanceOracle + Default>(scene: &Scene, wit
 }
 
 /// Checks that pieces that only touch get a common point, and an axis that separates their interiors.
-pub(super) fn separates_touching_pieces<O: DistanceOracle + Default>(scene: &Scene) {
-    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
+pub(super) fn check_touching_pieces<O: DistanceOracle + Default>(scene: &Scene) {
+    let checked = measure_claim(scene, &claim_with_empty_cache::<O>(scene));
     assert!(
         checked.distance <= 1e-12 * scene.size,
         "{checked:?} of {scene:?}"
@@ -97,9 +97,9 @@ pub(super) fn separates_touching_pieces<O: DistanceOracle + Default>(scene: &Sce
 
 /// Checks that the claimed points of a pair and of the exchanged pair have the same distance.
 pub(super) fn check_symmetry<O: DistanceOracle + Default>(scene: &Scene) {
-    let one = check(scene, &claim_with_empty_cache::<O>(scene));
+    let one = measure_claim(scene, &claim_with_empty_cache::<O>(scene));
     let swapped = scene.swapped();
-    let other = check(&swapped, &claim_with_empty_cache::<O>(&swapped));
+    let other = measure_claim(&swapped, &claim_with_empty_cache::<O>(&swapped));
     let error = (one.distance - other.distance).abs();
     assert!(
         error <= 1e-12 * scene.size,
@@ -109,7 +109,7 @@ pub(super) fn check_symmetry<O: DistanceOracle + Default>(scene: &Scene) {
 
 /// Checks that a claim with a used cache is as good as with an empty cache, and that a used oracle gives the same claim
 /// as a new oracle if both caches are empty.
-pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
+pub(super) fn check_independence_of_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     let (mut used, mut cache) = (O::default(), O::Cache::default());
     for scene in scenes {
         let fresh = claim_with_empty_cache::<O>(scene);
@@ -117,8 +117,8 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
         let again = ask(&mut used, scene, &mut cache);
         let unread = ask(&mut used, scene, &mut O::Cache::default());
         assert_eq!(fresh, unread, "{scene:?}");
-        let fresh = check(scene, &fresh);
-        for other in [check(scene, &warm), check(scene, &again)] {
+        let fresh = measure_claim(scene, &fresh);
+        for other in [measure_claim(scene, &warm), measure_claim(scene, &again)] {
             let error = (fresh.distance - other.distance).abs();
             assert!(
                 error <= 1e-12 * scene.size,
@@ -135,8 +135,8 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
 
 /// Checks that on any finite input the claimed points have a finite distance, which is at least the gap along the
 /// claimed axis, up to rounding.
-pub(super) fn accepts_finite_input<O: DistanceOracle + Default>(scene: &Scene) {
-    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
+pub(super) fn check_finite_distance_and_gap<O: DistanceOracle + Default>(scene: &Scene) {
+    let checked = measure_claim(scene, &claim_with_empty_cache::<O>(scene));
     let sound = checked.gap <= checked.distance + 1e-13 * scene.size;
     assert!(
         sound && checked.distance.is_finite(),

@@ -129,19 +129,19 @@ pub(crate) fn random_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
 
 /// Draws random hulls, moved so that a point inside A coincides with a point inside B.
 pub(crate) fn intersecting_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
-    let (a, b) = crossing(rng, a, b);
+    let (a, b) = intersecting_points(rng, a, b);
     Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
 /// Draws intersecting hulls, flattened along two axes by random factors down to 1e-12.
 pub(crate) fn flattened_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
-    let (mut a, mut b) = crossing(rng, a, b);
+    let (mut a, mut b) = intersecting_points(rng, a, b);
     let thin = DVec3::new(1.0, magnitude(rng, -12.0, 0.0), magnitude(rng, -12.0, 0.0));
     a.iter_mut().chain(&mut b).for_each(|x| *x *= thin);
     Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
-fn crossing(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
+fn intersecting_points(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
     let (a, b) = (points(rng, a), points(rng, b));
     let inner = |rng: &mut Pcg64, points: &[DVec3]| {
         let weights: Vec<f64> = points.iter().map(|_| rng.random_range(0.1..1.0)).collect();

@@ -7,21 +7,24 @@ use ccd_core::order::lesser;
 pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
     let mut best = f64::INFINITY;
     for &y in b {
-        best = lesser(best, distance_from_point(y, a));
+        best = lesser(best, distance_from_point_to_hull(y, a));
     }
     for &x in a {
-        best = lesser(best, distance_from_point(x, b));
+        best = lesser(best, distance_from_point_to_hull(x, b));
     }
     for [p, q] in edges(a) {
         for [r, s] in edges(b) {
-            best = lesser(best, crossing(p, q, r, s).unwrap_or(best));
+            best = lesser(
+                best,
+                distance_between_crossing_edges(p, q, r, s).unwrap_or(best),
+            );
         }
     }
     best
 }
 
 /// Returns the distance of a point from the nearest of a hull's points, edges and triangles.
-fn distance_from_point(x: DVec3, points: &[DVec3]) -> f64 {
+fn distance_from_point_to_hull(x: DVec3, points: &[DVec3]) -> f64 {
     let corners = points.iter().map(|p| p.distance(x));
     let feet = edges(points).into_iter().filter_map(|[p, q]| {
         let d = q - p;
@@ -47,7 +50,7 @@ fn height_above_triangle(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> 
 }
 
 /// Returns the distance of two segments' lines; `None` unless their common perpendicular meets both segments inside.
-fn crossing(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> Option<f64> {
+fn distance_between_crossing_edges(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> Option<f64> {
     let (d, e, w) = (q - p, s - r, r - p);
     let n = d.cross(e);
     let along_first = w.cross(e).dot(n) / n.length_squared();

@@ -7,7 +7,7 @@ use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::termination::MarchEnd;
 use crate::tests::setting::{cube, features, moved, needle, point, prepared_polytope, turned};
 use crate::tests::shape;
-use crate::tolerance::CERTAIN_DISTANCE;
+use crate::tolerance::MIN_CERTAIN_DISTANCE;
 use crate::witness::Witness;
 use ccd_core::GiveUpReason;
 use ccd_core::glam::{DQuat, DVec3};
@@ -23,7 +23,7 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             let pair = Pair { a: one, b: other };
             // A stop is only examined if rounding could hide a nearer pair.
             let close =
-                Witness::new(placed, pair).distance() < CERTAIN_DISTANCE * placed.scale.size;
+                Witness::new(placed, pair).distance() < MIN_CERTAIN_DISTANCE * placed.scale.size;
             let tie = close.then_some(MarchEnd::Nearest(pair, Certainty::Tied));
             let ends = [
                 MarchEnd::Cycle(pair),

@@ -1,6 +1,6 @@
 //! Tests the clipping of needles to the prism of a cube's top, and the overlap of parallel segments.
 
-use super::{clip_to_prism, middle_of_overlap};
+use super::{clip_to_prism, parameter_of_overlap_middle};
 use crate::placed::{Line, PlacedPolytope};
 use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
@@ -66,7 +66,7 @@ fn overlaps_of_parallel_segments_have_a_middle(#[case] shift: f64, #[case] middl
         length,
     };
     assert_eq!(
-        middle_of_overlap(&line(0.0, 3.0), &line(shift, 3.0)),
+        parameter_of_overlap_middle(&line(0.0, 3.0), &line(shift, 3.0)),
         middle
     );
 }

@@ -13,7 +13,7 @@ use rstest::rstest;
 
 /// Returns the march's step from the cube's edge along x at y = z = 1 and a needle. Checks that exchanging the two
 /// gives the same step.
-fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
+fn step_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
@@ -30,24 +30,24 @@ fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     there
 }
 
-const CROSSING_NEEDLE: DVec3 = DVec3::new(0.3, 2.0, -2.0);
+const CROSSING_NEEDLE_HALF: DVec3 = DVec3::new(0.3, 2.0, -2.0);
 
 #[rstest]
-#[case(CROSSING_NEEDLE, DVec3::new(0.0, 1.5, 1.5), Sure)]
-#[case(CROSSING_NEEDLE, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
+#[case(CROSSING_NEEDLE_HALF, DVec3::new(0.0, 1.5, 1.5), Sure)]
+#[case(CROSSING_NEEDLE_HALF, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
 // Across and along one face.
 #[case(2.0 * DVec3::Y, DVec3::new(0.0, 1.0, 1.5), Tied)]
 // Parallel needles, on the bisector and above the border of a face.
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.5, 1.5), Sure)]
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.0, 1.5), Tied)]
 // Touching.
-#[case(CROSSING_NEEDLE, DVec3::new(0.0, 1.0, 1.0), Tied)]
+#[case(CROSSING_NEEDLE_HALF, DVec3::new(0.0, 1.0, 1.0), Tied)]
 fn edges_in_both_voronoi_regions_stop_the_march(
     #[case] half: DVec3,
     #[case] at: DVec3,
     #[case] certainty: crate::feature::Certainty,
 ) {
-    assert_eq!(next_for_needle(half, at), MarchStep::Stop(certainty));
+    assert_eq!(step_for_needle(half, at), MarchStep::Stop(certainty));
 }
 
 #[test]
@@ -57,17 +57,17 @@ fn goes_on_to_ends() {
         edge(&cube, DVec3::new(0.0, 1.0, 1.0)),
         vertex(&cube, DVec3::ONE),
     );
-    let beyond = next_for_needle(CROSSING_NEEDLE, DVec3::new(2.0, 1.5, 1.5));
+    let beyond = step_for_needle(CROSSING_NEEDLE_HALF, DVec3::new(2.0, 1.5, 1.5));
     assert_eq!(
         beyond,
         MarchStep::Continue(Feature::Vertex(corner), Feature::Edge(0))
     );
-    let above = next_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(0.1, 1.8, 1.8));
+    let above = step_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(0.1, 1.8, 1.8));
     assert_eq!(
         above,
         MarchStep::Continue(Feature::Edge(e), Feature::Vertex(0))
     );
-    let both = next_for_needle(DVec3::new(0.5, 0.5, 0.5), DVec3::new(2.0, 2.0, 2.0));
+    let both = step_for_needle(DVec3::new(0.5, 0.5, 0.5), DVec3::new(2.0, 2.0, 2.0));
     assert_eq!(
         both,
         MarchStep::Continue(Feature::Vertex(corner), Feature::Vertex(0))
@@ -76,7 +76,7 @@ fn goes_on_to_ends() {
 
 #[test]
 fn goes_on_to_the_face_on_whose_side_it_is() {
-    let above = next_for_needle(DVec3::new(0.3, 2.0, 1e-3), DVec3::new(0.0, 0.5, 1.5));
+    let above = step_for_needle(DVec3::new(0.3, 2.0, 1e-3), DVec3::new(0.0, 0.5, 1.5));
     let face = face(&cube(), DVec3::Z);
     assert_eq!(
         above,
@@ -87,7 +87,7 @@ fn goes_on_to_the_face_on_whose_side_it_is() {
 #[test]
 fn finds_edges_below_both_faces() {
     let at = DVec3::new(0.0, 0.9, 0.9);
-    let MarchStep::LocalMinimum(which, minimum) = next_for_needle(CROSSING_NEEDLE, at) else {
+    let MarchStep::LocalMinimum(which, minimum) = step_for_needle(CROSSING_NEEDLE_HALF, at) else {
         panic!("it is within the cube");
     };
     assert_eq!(

@@ -8,7 +8,7 @@ use rstest::rstest;
 
 /// Returns the march's step from a needle and the cube's top. Checks that moving the cube instead of the needle gives
 /// the same step.
-fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
+fn step_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);
     let top = face(&cube, DVec3::Z);
@@ -29,7 +29,7 @@ fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
 #[case(DVec3::new(0.5, 0.0, 1e-300), 0)]
 fn needles_continue_to_their_lower_end(#[case] half: DVec3, #[case] end: u32) {
     let top = face(&cube(), DVec3::Z);
-    let said = next_for_needle(half, 2.0 * DVec3::Z);
+    let said = step_for_needle(half, 2.0 * DVec3::Z);
     assert_eq!(
         said,
         MarchStep::Continue(Feature::Vertex(end), Feature::Face(top))
@@ -42,7 +42,7 @@ fn needles_continue_to_their_lower_end(#[case] half: DVec3, #[case] end: u32) {
 #[case(DVec3::new(0.1, -5.0, 0.1), DVec3::Y)]
 fn needles_continue_to_the_side_that_cuts_them(#[case] half: DVec3, #[case] side: DVec3) {
     let edge = edge(&cube(), side + DVec3::Z);
-    let said = next_for_needle(half, 2.0 * DVec3::Z);
+    let said = step_for_needle(half, 2.0 * DVec3::Z);
     assert_eq!(
         said,
         MarchStep::Continue(Feature::Edge(0), Feature::Edge(edge))
@@ -52,7 +52,7 @@ fn needles_continue_to_the_side_that_cuts_them(#[case] half: DVec3, #[case] side
 #[test]
 fn goes_on_to_the_nearest_side_from_outside() {
     let edge = edge(&cube(), DVec3::X + DVec3::Z);
-    let said = next_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
+    let said = step_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
     assert_eq!(
         said,
         MarchStep::Continue(Feature::Edge(0), Feature::Edge(edge))
@@ -64,7 +64,7 @@ fn goes_on_to_the_nearest_side_from_outside() {
 // One end on the face, to the bit.
 #[case(DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.25, 0.25, 1.5))]
 fn needles_through_a_face_have_a_common_point(#[case] half: DVec3, #[case] at: DVec3) {
-    let MarchStep::CommonPoint(which, crossing) = next_for_needle(half, at) else {
+    let MarchStep::CommonPoint(which, crossing) = step_for_needle(half, at) else {
         panic!("it goes through the top");
     };
     assert_eq!(
@@ -76,7 +76,7 @@ fn needles_through_a_face_have_a_common_point(#[case] half: DVec3, #[case] at: D
 #[test]
 fn finds_features_behind() {
     let half = DVec3::new(0.5, 0.0, 0.1);
-    let MarchStep::LocalMinimum(which, minimum) = next_for_needle(half, DVec3::ZERO) else {
+    let MarchStep::LocalMinimum(which, minimum) = step_for_needle(half, DVec3::ZERO) else {
         panic!("it is below the top");
     };
     assert_eq!(

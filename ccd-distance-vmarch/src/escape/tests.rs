@@ -6,7 +6,7 @@ use crate::placed::PlacedPolytope;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use ccd_core::glam::DVec3;
 
-fn of_point(at: DVec3) -> Escape {
+fn escape_of_point(at: DVec3) -> Escape {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let minimum = LocalMinimum {
@@ -20,16 +20,16 @@ fn of_point(at: DVec3) -> Escape {
 #[test]
 fn leads_to_the_face_it_is_highest_above() {
     let below = face(&cube(), -DVec3::Z);
-    assert_eq!(of_point(-3.0 * DVec3::Z), Escape::Face(below));
+    assert_eq!(escape_of_point(-3.0 * DVec3::Z), Escape::Face(below));
     let beside = face(&cube(), DVec3::X);
     let at = DVec3::new(5.0, 2.0, 0.0);
-    assert_eq!(of_point(at), Escape::Face(beside));
+    assert_eq!(escape_of_point(at), Escape::Face(beside));
 }
 
 #[test]
 fn proves_features_inside() {
     assert!(matches!(
-        of_point(DVec3::new(0.2, 0.3, 0.4)),
+        escape_of_point(DVec3::new(0.2, 0.3, 0.4)),
         Escape::CommonPoint(_)
     ));
 }
@@ -38,7 +38,7 @@ fn proves_features_inside() {
 fn is_unclear_without_proof_by_exact_signs() {
     // Beyond a face by less than rounding.
     let at = DVec3::new(1.0 + f64::EPSILON, 0.3, 0.4);
-    assert_eq!(of_point(at), Escape::Unclear);
+    assert_eq!(escape_of_point(at), Escape::Unclear);
 }
 
 #[test]

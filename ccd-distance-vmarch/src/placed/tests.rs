@@ -63,5 +63,5 @@ fn worst_placing() {
         (least[0] > 1e-12 * size && least[1] > 1e-12 * size)
             .then(|| share(off, PLACEMENT_ERROR * size))
     });
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }

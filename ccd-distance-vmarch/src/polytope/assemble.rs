@@ -51,7 +51,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
         start: out.vertices[v as usize].point,
         along: unit(points[numbers[w as usize] as usize] - points[numbers[v as usize] as usize]),
         length: points[numbers[w as usize] as usize].distance(points[numbers[v as usize] as usize]),
-        inward: [DVec3::ZERO; 2],
+        inward_directions: [DVec3::ZERO; 2],
         ends: [v, w],
         faces: [NO_FACE; 2],
     };
@@ -95,10 +95,10 @@ fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
             let along = if v < w { edge.along } else { -edge.along };
             let inward = unit(normal.cross(along));
             let slot = usize::from(v > w);
-            edge.inward[slot] = inward;
+            edge.inward_directions[slot] = inward;
             edge.faces[slot] = face;
             out.sides.push(Side {
-                inward,
+                inward_direction: inward,
                 start: edge.start,
                 edge: number as u32,
                 vertex: v,

@@ -26,10 +26,10 @@ impl Polytope {
         }
         let largest = points.iter().map(|p| p.abs().max_element());
         let rounding = COPLANARITY_TOLERANCE * largest.fold(0.0, greater);
-        let ends = match classify_spread(points, rounding) {
-            Spread::Point => return Ok(Self::from_outlines(points, &[0], &[])),
-            Spread::Line(ends) => return Ok(Self::from_outlines(points, &ends, &[])),
-            Spread::PlaneOrSpace(ends) => ends,
+        let ends = match classify_dimension(points, rounding) {
+            PointSetDimension::Point => return Ok(Self::from_outlines(points, &[0], &[])),
+            PointSetDimension::Line(ends) => return Ok(Self::from_outlines(points, &ends, &[])),
+            PointSetDimension::PlaneOrSpace(ends) => ends,
         };
         let facets = match points.len() {
             3 => Facets::from_triangle(points),
@@ -57,14 +57,14 @@ impl Polytope {
 
 /// The dimension of a set of points up to rounding; `Line` and `PlaneOrSpace` hold the indices of two points that are far
 /// apart.
-enum Spread {
+enum PointSetDimension {
     Point,
     Line([u32; 2]),
     PlaneOrSpace([u32; 2]),
 }
 
 /// Returns whether all points are within `rounding` of one point, of one line, or of neither.
-fn classify_spread(points: &[DVec3], rounding: f64) -> Spread {
+fn classify_dimension(points: &[DVec3], rounding: f64) -> PointSetDimension {
     let farthest = |from: DVec3| {
         let distances = points.iter().map(|p| p.distance(from)).zip(0..);
         distances.fold(
@@ -75,15 +75,15 @@ fn classify_spread(points: &[DVec3], rounding: f64) -> Spread {
     let (_, one) = farthest(points[0]);
     let (length, other) = farthest(points[one as usize]);
     if !(length > rounding) {
-        return Spread::Point;
+        return PointSetDimension::Point;
     }
     let ends = [one, other].map(|v| points[v as usize]);
     if points
         .iter()
         .all(|&p| distance_from_line(p, ends) <= rounding)
     {
-        Spread::Line([one, other])
+        PointSetDimension::Line([one, other])
     } else {
-        Spread::PlaneOrSpace([one, other])
+        PointSetDimension::PlaneOrSpace([one, other])
     }
 }

@@ -21,7 +21,7 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
         polytope,
         rounding: rounding * (CONVEXITY_TOLERANCE / COPLANARITY_TOLERANCE),
     };
-    (0..polytope.faces.len() as u32).all(|f| check.is_outer_polygon(f)) && check.is_connected()
+    (0..polytope.faces.len() as u32).all(|f| check.is_hull_face(f)) && check.is_connected()
 }
 
 struct ConvexityCheck<'a> {
@@ -33,7 +33,7 @@ struct ConvexityCheck<'a> {
 
 impl ConvexityCheck<'_> {
     /// Returns whether a face is a planar convex polygon that winds once, with all corners of the polytope behind it.
-    fn is_outer_polygon(&self, face: u32) -> bool {
+    fn is_hull_face(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         let sides = self.polytope.sides_of(face);
         if sides.len() < 3 || normal == DVec3::ZERO {
@@ -44,7 +44,7 @@ impl ConvexityCheck<'_> {
         let slack = self.rounding * (1.0 + self.polytope.reach / width);
         let at = |k: usize| self.corner(sides[k % sides.len()].vertex);
         let first = at(0);
-        let highest = self.corner(self.polytope.extremal(normal));
+        let highest = self.corner(self.polytope.extremal_vertex(normal));
         let behind = normal.dot(highest - first) <= slack;
         behind
             && (0..sides.len()).all(|k| {

@@ -8,18 +8,18 @@ use ccd_core::glam::DVec3;
 /// A direction belongs to the square through which it passes. In most polytopes the vertex of the square is one or two
 /// edges from the extremal one.
 #[derive(Clone, Debug)]
-pub(crate) struct DirectionTable([u32; SQUARES]);
+pub(crate) struct DirectionTable([u32; SQUARE_COUNT]);
 
 /// The number of squares along an edge of the cube.
 const SQUARES_PER_EDGE: usize = 4;
 
 /// The number of squares on all sides of the cube.
-const SQUARES: usize = 6 * SQUARES_PER_EDGE * SQUARES_PER_EDGE;
+const SQUARE_COUNT: usize = 6 * SQUARES_PER_EDGE * SQUARES_PER_EDGE;
 
 impl DirectionTable {
     /// Fills the table by hill climbing, from square to square.
     pub(crate) fn new(polytope: &Polytope) -> Self {
-        let mut corners = [0; SQUARES];
+        let mut corners = [0; SQUARE_COUNT];
         let mut at = 0;
         for (square, corner) in corners.iter_mut().enumerate() {
             at = polytope.hill_climb(at, centre_of_square(square));
@@ -70,7 +70,7 @@ fn centre_of_square(square: usize) -> DVec3 {
 
 impl Polytope {
     /// Returns a corner that is farthest along a direction, up to rounding.
-    pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
+    pub(crate) fn extremal_vertex(&self, direction: DVec3) -> u32 {
         if let Some(table) = &self.direction_table {
             return self.hill_climb(table.start_vertex(direction), direction);
         }

@@ -8,7 +8,7 @@ use ccd_core::{GiveUpReason, Piece};
 use rstest::rstest;
 
 /// Returns how many corners, edges and faces a polytope has.
-fn counts(polytope: &Polytope) -> [usize; 3] {
+fn feature_counts(polytope: &Polytope) -> [usize; 3] {
     [
         polytope.vertices.len(),
         polytope.edges.len(),
@@ -30,14 +30,14 @@ fn assert_valid_polytope(polytope: &Polytope) {
         let [start, end] = edge.ends.map(|v| polytope.vertex(v).point);
         assert_eq!(start, edge.start);
         assert!((start + edge.length * edge.along - end).length() <= slack);
-        for (&f, &inward) in edge.faces.iter().zip(&edge.inward) {
+        for (&f, &inward) in edge.faces.iter().zip(&edge.inward_directions) {
             if f == NO_FACE {
                 assert_eq!(inward, DVec3::ZERO);
                 continue;
             }
             let side = polytope.sides_of(f).iter().find(|side| side.edge == e);
             let side = side.expect("the face has the edge");
-            assert_eq!((side.start, side.inward), (edge.start, inward));
+            assert_eq!((side.start, side.inward_direction), (edge.start, inward));
             assert!((inward.length() - 1.0).abs() < 1e-15);
         }
     }
@@ -55,7 +55,7 @@ fn assert_valid_polytope(polytope: &Polytope) {
         }
     }
     if polytope.faces.len() > 2 {
-        let [v, e, f] = counts(polytope);
+        let [v, e, f] = feature_counts(polytope);
         assert_eq!(v + f, e + 2);
     }
 }
@@ -80,7 +80,7 @@ fn assert_valid_polytope(polytope: &Polytope) {
 #[case(shape::shape_of_points(&[DVec3::X, 2.0 * DVec3::X, 3.0 * DVec3::X, DVec3::ZERO]), [2, 1, 0])]
 fn features_follow_from_points_and_facets(#[case] shape: Shape, #[case] expected: [usize; 3]) {
     let polytope = prepared_polytope(&shape);
-    assert_eq!(counts(&polytope), expected);
+    assert_eq!(feature_counts(&polytope), expected);
     assert_valid_polytope(&polytope);
 }
 
@@ -114,7 +114,7 @@ fn coplanar_facets_are_one_face_and_corners_within_are_none() {
     let shape = subdivided_cube();
     assert_eq!((shape.points.len(), shape.loops.len()), (26, 48));
     let polytope = prepared_polytope(&shape);
-    assert_eq!(counts(&polytope), [8, 12, 6]);
+    assert_eq!(feature_counts(&polytope), [8, 12, 6]);
     assert_valid_polytope(&polytope);
     // Rounded corners are as coplanar as they come.
     let mut rng = Pcg64::seed_from_u64(1);
@@ -123,7 +123,7 @@ fn coplanar_facets_are_one_face_and_corners_within_are_none() {
         let (size, shift) = (magnitude(&mut rng, -6.0, 6.0), vector(&mut rng));
         let moved = subdivided_cube().with_mapped_points(|p| size * (turn * p + shift));
         let polytope = prepared_polytope(&moved);
-        assert_eq!(counts(&polytope), [8, 12, 6]);
+        assert_eq!(feature_counts(&polytope), [8, 12, 6]);
         assert_valid_polytope(&polytope);
     }
 }
@@ -135,14 +135,14 @@ fn superfluous_points_are_left_out() {
     cube.points.push(cube.points[0]);
     cube.points.push(0.5 * DVec3::X);
     cube.loops[0][0] = 8;
-    assert_eq!(counts(&prepared_polytope(&cube)), [8, 12, 6]);
+    assert_eq!(feature_counts(&prepared_polytope(&cube)), [8, 12, 6]);
     // A T-junction: a vertex on an edge of only one face, with a degenerate facet that closes the gap.
     let mut cube = shape::cuboid(DVec3::ONE);
     cube.points.push(DVec3::new(-1.0, -1.0, 0.0));
     cube.loops[0] = vec![0, 8, 4, 6, 2];
     cube.loops.push(vec![0, 4, 8]);
     let polytope = prepared_polytope(&cube);
-    assert_eq!(counts(&polytope), [8, 12, 6]);
+    assert_eq!(feature_counts(&polytope), [8, 12, 6]);
     assert_valid_polytope(&polytope);
 }
 

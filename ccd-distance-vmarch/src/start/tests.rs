@@ -1,6 +1,6 @@
 //! Tests which pair of features a march starts from, for valid, invalid and outdated caches.
 
-use super::{Cache, extremal};
+use super::{Cache, extremal_pair};
 use crate::feature::{Feature, Pair};
 use crate::tests::setting::{cube, face, moved, point, prepared_polytope, vertex};
 use crate::tests::shape;
@@ -77,7 +77,7 @@ fn axes_are_turned_into_bs_frame() {
     let turn = ccd_core::glam::DQuat::from_rotation_z(1.2);
     let placed = crate::tests::setting::turned(&one, &other, turn, 4.0 * DVec3::X);
     let axis = DVec3::new(1.0, 0.4, 0.2);
-    let pair = extremal(&placed, axis);
+    let pair = extremal_pair(&placed, axis);
     let Feature::Vertex(b) = pair.b else {
         panic!("{pair:?}")
     };

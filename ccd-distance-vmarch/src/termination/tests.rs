@@ -20,7 +20,7 @@ fn states_that_come_again_are_noticed() {
                     tail + (k - tail) % length
                 }
             };
-            let noticed = (1..1000).find(|&k| brent.is_repeated(state(at(k))));
+            let noticed = (1..1000).find(|&k| brent.record_and_detect(state(at(k))));
             let noticed = noticed.expect("it goes in a circle");
             assert!(
                 noticed >= length && noticed <= 3 * (tail + length) + 2,
@@ -29,5 +29,5 @@ fn states_that_come_again_are_noticed() {
         }
     }
     let mut brent = BrentCycleDetector::new(state(0));
-    assert!((1..1000).all(|k| !brent.is_repeated(state(k))));
+    assert!((1..1000).all(|k| !brent.record_and_detect(state(k))));
 }

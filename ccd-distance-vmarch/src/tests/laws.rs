@@ -1,6 +1,6 @@
 //! Tests claims about pieces that touch, contain each other, spin, or are invalid.
 
-use super::scene::{self, Body, Kind, Scene};
+use super::scene::{self, Body, PairKind, Scene};
 use super::shape::{self, Pcg64, RngExt, SeedableRng, Shape, direction, magnitude};
 use super::twin::{self, ReferencePolytope};
 use super::{Tally, cases};
@@ -284,7 +284,12 @@ fn changes_of_features_are_exact_to_the_last_bit() {
 #[test]
 fn size_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(6);
-    for kind in [Kind::Random, Kind::Coplanar, Kind::Sliver, Kind::Flat] {
+    for kind in [
+        PairKind::Random,
+        PairKind::Coplanar,
+        PairKind::Sliver,
+        PairKind::Flat,
+    ] {
         let pool = scene::body_pool(kind, &mut rng);
         for _ in 0..300 {
             let scene = scene::draw(kind, &pool, &mut rng);
@@ -313,9 +318,9 @@ fn size_does_not_matter() {
 #[test]
 fn place_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(7);
-    let pool = scene::body_pool(Kind::Random, &mut rng);
+    let pool = scene::body_pool(PairKind::Random, &mut rng);
     for _ in 0..500 {
-        let scene = scene::draw(Kind::Random, &pool, &mut rng);
+        let scene = scene::draw(PairKind::Random, &pool, &mut rng);
         let shift = 1e6 * shape::vector(&mut rng);
         let [a, b] = [scene.a, scene.b]
             .map(|body| Body::new(body.shape.clone().with_mapped_points(|p| p + shift)));
@@ -394,10 +399,10 @@ fn other_oracles_take_over_and_counts_are_kept() {
 #[test]
 fn answers_repeat() {
     let mut rng = Pcg64::seed_from_u64(12);
-    let pool = scene::body_pool(Kind::Coplanar, &mut rng);
+    let pool = scene::body_pool(PairKind::Coplanar, &mut rng);
     let mut used = Vmarch::default();
     for _ in 0..500 {
-        let scene = scene::draw(Kind::Coplanar, &pool, &mut rng);
+        let scene = scene::draw(PairKind::Coplanar, &pool, &mut rng);
         let fresh = Vmarch::default().separation(&scene.pair(), &mut Cache::default());
         assert_eq!(used.separation(&scene.pair(), &mut Cache::default()), fresh);
     }

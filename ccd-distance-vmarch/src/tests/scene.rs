@@ -26,7 +26,7 @@ impl Body {
 
 /// The kinds of pairs from which tests draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum PairKind {
     Random,
     NearParallel,
     Coplanar,
@@ -40,20 +40,20 @@ pub(crate) enum Kind {
 }
 
 /// Draws the bodies from which pairs of a kind are made.
-pub(crate) fn body_pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
+pub(crate) fn body_pool(kind: PairKind, rng: &mut Pcg64) -> Vec<Body> {
     let shapes = match kind {
-        Kind::Random => hulls(rng, &[4, 4, 5, 6, 8, 8, 10, 12, 16, 20, 20, 24]),
-        Kind::NearParallel | Kind::Coplanar => shapes_with_faces(rng),
-        Kind::Sliver => slivers(rng),
-        Kind::Grid => grid_shapes(rng),
-        Kind::Plates => plates(rng),
-        Kind::Prisms => {
+        PairKind::Random => hulls(rng, &[4, 4, 5, 6, 8, 8, 10, 12, 16, 20, 20, 24]),
+        PairKind::NearParallel | PairKind::Coplanar => shapes_with_faces(rng),
+        PairKind::Sliver => slivers(rng),
+        PairKind::Grid => grid_shapes(rng),
+        PairKind::Plates => plates(rng),
+        PairKind::Prisms => {
             let prisms = [3, 5, 8, 16, 40, 100].map(shape::prism).into_iter();
             let antiprisms = [3, 7, 24].map(shape::antiprism);
             let bipyramids = [3, 9, 40].map(shape::bipyramid);
             prisms.chain(antiprisms).chain(bipyramids).collect()
         }
-        Kind::Balls => {
+        PairKind::Balls => {
             let sizes = [(3, 5), (6, 9), (9, 16), (19, 26), (31, 32)];
             let mut out = sizes
                 .map(|(rings, count)| shape::uv_sphere(rings, count))
@@ -62,8 +62,8 @@ pub(crate) fn body_pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
             out.extend(hulls(rng, &[40]));
             out
         }
-        Kind::FewPoints => few_point_shapes(rng),
-        Kind::Flat => {
+        PairKind::FewPoints => few_point_shapes(rng),
+        PairKind::Flat => {
             let mut out = [3, 4, 6, 12, 40].map(shape::polygon).to_vec();
             out.push(shape::polygon(8).triangulated());
             out.push(shape::polygon(5).with_mapped_points(|p| p * DVec3::new(1.0, 1e-5, 1.0)));
@@ -72,7 +72,7 @@ pub(crate) fn body_pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
         }
     };
     // Most pieces have separate frames; some kinds lose their special property if they are turned.
-    let kept = matches!(kind, Kind::Grid | Kind::Coplanar | Kind::Sliver);
+    let kept = matches!(kind, PairKind::Grid | PairKind::Coplanar | PairKind::Sliver);
     let placed = shapes.into_iter().map(|shape| {
         let (turn, shift) = (rotation(rng), vector(rng));
         let placed = |p| if kept { p } else { turn * p + shift };
@@ -186,12 +186,15 @@ impl Scene<'_> {
 }
 
 /// Draws a pair of bodies of a kind, and a pose of B relative to A.
-pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'a> {
+pub(crate) fn draw<'a>(kind: PairKind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'a> {
     let (a, b) = (
         &pool[rng.random_range(0..pool.len())],
         &pool[rng.random_range(0..pool.len())],
     );
-    let aligned = matches!(kind, Kind::NearParallel | Kind::Coplanar | Kind::Grid);
+    let aligned = matches!(
+        kind,
+        PairKind::NearParallel | PairKind::Coplanar | PairKind::Grid
+    );
     let mut rotation = match rng.random_range(0..4) {
         0 if !aligned => DMat3::IDENTITY,
         1 if !aligned => random_axis_aligned_rotation(rng),
@@ -200,7 +203,7 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
         _ => random_axis_aligned_rotation(rng),
     };
     // Rotated so that a face of B is parallel to a face of A, up to a tiny tilt.
-    if kind == Kind::NearParallel {
+    if kind == PairKind::NearParallel {
         if let (Some(n), Some(m)) = (normal(a, rng), normal(b, rng)) {
             let facing = DMat3::from_quat(DQuat::from_rotation_arc(m, -n));
             rotation = if rng.random_bool(0.7) {
@@ -234,8 +237,8 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
 }
 
 /// Returns a position of B at which it is apart from A, and the support gap along the direction of separation.
-fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (DVec3, f64) {
-    let whole = kind == Kind::Grid;
+fn apart(kind: PairKind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (DVec3, f64) {
+    let whole = kind == PairKind::Grid;
     let n = match rng.random_range(0..4) {
         0 => direction(rng),
         1 if has_aligned_axes(kind) => [DVec3::X, DVec3::Y, DVec3::Z][rng.random_range(0..3)],
@@ -270,8 +273,11 @@ fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (D
     (base + n * (gap + high - low - n.dot(base)), gap)
 }
 
-fn has_aligned_axes(kind: Kind) -> bool {
-    matches!(kind, Kind::Grid | Kind::Coplanar | Kind::NearParallel)
+fn has_aligned_axes(kind: PairKind) -> bool {
+    matches!(
+        kind,
+        PairKind::Grid | PairKind::Coplanar | PairKind::NearParallel
+    )
 }
 
 fn normal(body: &Body, rng: &mut Pcg64) -> Option<DVec3> {

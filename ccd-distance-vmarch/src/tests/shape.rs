@@ -103,7 +103,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
                         let on: Vec<u32> = on.collect();
                         let polygon = match on.len() {
                             3 => [p, q, r].map(|v| v as u32).to_vec(),
-                            _ => polygon_corners(points, &on, triangle),
+                            _ => planar_hull_corners(points, &on, triangle),
                         };
                         if !planes.contains(&polygon) {
                             planes.push(polygon);
@@ -120,7 +120,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
 }
 
 /// Returns the corners of the convex hull of points in a plane, counterclockwise from the corner of least index.
-fn polygon_corners(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
+fn planar_hull_corners(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
     let normal = (q - p).cross(r - p);
     let above = p + normal.normalize_or_zero() * (q - p).length();
     let is_side = |v: u32, w: u32| {

@@ -8,7 +8,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
 /// Returns the step for a point and the cube's edge along x at y = z = 1, and asserts that their order does not matter.
-fn of_point(at: DVec3) -> MarchStep {
+fn step_of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
@@ -30,7 +30,7 @@ fn points_in_the_edges_region_stop_the_march(
     #[case] at: DVec3,
     #[case] certainty: crate::feature::Certainty,
 ) {
-    assert_eq!(of_point(at), MarchStep::Stop(certainty));
+    assert_eq!(step_of_point(at), MarchStep::Stop(certainty));
 }
 
 #[rstest]
@@ -39,7 +39,7 @@ fn points_in_the_edges_region_stop_the_march(
 fn points_beyond_an_end_continue_to_it(#[case] at: DVec3, #[case] corner: DVec3) {
     let corner = vertex(&cube(), corner);
     assert_eq!(
-        of_point(at),
+        step_of_point(at),
         MarchStep::Continue(Feature::Vertex(0), Feature::Vertex(corner))
     );
 }
@@ -54,7 +54,7 @@ fn points_beyond_an_end_continue_to_it(#[case] at: DVec3, #[case] corner: DVec3)
 fn points_over_a_face_continue_to_it(#[case] at: DVec3, #[case] normal: DVec3) {
     let face = face(&cube(), normal);
     assert_eq!(
-        of_point(at),
+        step_of_point(at),
         MarchStep::Continue(Feature::Vertex(0), Feature::Face(face))
     );
 }

@@ -8,7 +8,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
 /// Returns the step for a point and the cube's top face, and asserts that their order does not matter.
-fn of_point(at: DVec3) -> MarchStep {
+fn step_of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let top = face(&cube, DVec3::Z);
@@ -32,7 +32,7 @@ fn points_above_the_face_stop_the_march(
     #[case] at: DVec3,
     #[case] certainty: crate::feature::Certainty,
 ) {
-    assert_eq!(of_point(at), MarchStep::Stop(certainty));
+    assert_eq!(step_of_point(at), MarchStep::Stop(certainty));
 }
 
 #[rstest]
@@ -44,7 +44,7 @@ fn points_above_the_face_stop_the_march(
 fn points_continue_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) {
     let edge = edge(&cube(), middle);
     assert_eq!(
-        of_point(at),
+        step_of_point(at),
         MarchStep::Continue(Feature::Vertex(0), Feature::Edge(edge))
     );
 }
@@ -53,7 +53,7 @@ fn points_continue_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle:
 #[case(DVec3::new(0.0, 0.0, 0.9))]
 #[case(DVec3::new(0.0, 0.0, -7.0))]
 fn points_behind_the_face_are_local_minima(#[case] at: DVec3) {
-    let MarchStep::LocalMinimum(which, minimum) = of_point(at) else {
+    let MarchStep::LocalMinimum(which, minimum) = step_of_point(at) else {
         panic!("it is below the top");
     };
     let top = face(&cube(), DVec3::Z);

@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 use rstest::rstest;
 
 /// Returns the step for the cube's corner at (1, 1, 1) and a point, and asserts that their order does not matter.
-fn of_point(at: DVec3) -> MarchStep {
+fn step_of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let corner = vertex(&cube, DVec3::ONE);
@@ -34,7 +34,7 @@ fn points_in_the_corners_region_stop_the_march(
     #[case] at: DVec3,
     #[case] certainty: crate::feature::Certainty,
 ) {
-    assert_eq!(of_point(at), MarchStep::Stop(certainty));
+    assert_eq!(step_of_point(at), MarchStep::Stop(certainty));
 }
 
 #[rstest]
@@ -46,7 +46,7 @@ fn points_in_the_corners_region_stop_the_march(
 fn points_behind_a_plane_continue_to_its_edge(#[case] at: DVec3, #[case] middle: DVec3) {
     let edge = edge(&cube(), middle);
     assert_eq!(
-        of_point(at),
+        step_of_point(at),
         MarchStep::Continue(Feature::Edge(edge), Feature::Vertex(0))
     );
 }

@@ -38,7 +38,7 @@ fn nothing_in_names_ends_an_element() {
     // Its data, and one element for each script.
     assert_eq!(
         html.matches("</script>").count(),
-        1 + scripts().matches("</script>").count()
+        1 + view_scripts().matches("</script>").count()
     );
 }
 

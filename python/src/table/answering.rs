@@ -2,7 +2,7 @@
 
 use super::batch::{IdReading, id_field, unreadable_error};
 use super::input::Reader;
-use super::pieces::{ChunkSize, Piece, Pieces, check};
+use super::pieces::{ChunkSize, RowChunk, RowChunks, check_columns};
 use super::results;
 use arrow_array::RecordBatch;
 use rigid_ccd::answer::Limit;
@@ -23,13 +23,13 @@ pub(crate) struct TableQuestion<'a> {
     pub(crate) question: Question,
     pub(crate) settings: &'a Settings,
     /// The number of threads; `None` is one for each core.
-    pub(crate) threads: Option<u16>,
+    pub(crate) thread_count: Option<u16>,
     /// Whether the results have a column with the time of each query.
     pub(crate) has_micros: bool,
 }
 
 /// The results of a table's rows up to the first row without an answer, and the error that ended the table, if any.
-pub(crate) struct Answered {
+pub(crate) struct TableAnswers {
     pub(crate) results: RecordBatch,
     pub(crate) fault: Option<TableError>,
     /// The remarks on probable mistakes in the rows.
@@ -45,8 +45,8 @@ pub(crate) fn answer(
     reader: Reader,
     stop: &Arc<AtomicBool>,
     done: &AtomicUsize,
-) -> Result<Answered, TableError> {
-    let columns = check(&reader)?;
+) -> Result<TableAnswers, TableError> {
+    let columns = check_columns(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable_error)?);
     let settings = settings_with_stop(asked, stop);
@@ -54,9 +54,9 @@ pub(crate) fn answer(
         settings: &settings,
         ..asked
     };
-    let mut solver = parallel_solver(asked.threads, Solver::new);
+    let mut solver = parallel_solver(asked.thread_count, Solver::new);
     let (size, source) = (ChunkSize::new(solver.threads()), (reader, &columns));
-    let mut pieces = Pieces::new(source, asked.question, IdReading::Skipped, &size, stop)?;
+    let mut pieces = RowChunks::new(source, asked.question, IdReading::Skipped, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = rows(asked, &piece, &columns, solver, stop);
@@ -78,7 +78,7 @@ pub(crate) fn answer(
         .map(|(found, _)| found)
         .take(first)
         .collect();
-    Ok(Answered {
+    Ok(TableAnswers {
         results: results::concatenate(&schema, &answered).map_err(unreadable_error)?,
         remarks: pieces.remarks(&columns),
         fault: pieces.fault,
@@ -91,7 +91,7 @@ pub(crate) fn answer(
 /// would start with cold caches.
 fn rows(
     asked: TableQuestion<'_>,
-    piece: &Piece,
+    piece: &RowChunk,
     columns: &Columns,
     solver: &mut Solver,
     stop: &AtomicBool,

@@ -22,14 +22,14 @@ pub(crate) struct Batch {
     pub(crate) rows: usize,
     /// The column `id` with the caller's own values.
     id: Option<ArrayRef>,
-    names: IdReading,
+    id_reading: IdReading,
     /// The other columns as numbers; `None` in the place of `id`.
-    columns: Vec<Option<Numbers>>,
+    columns: Vec<Option<NumberColumn>>,
 }
 
 /// A column of numbers, converted to float64.
 #[derive(Debug)]
-struct Numbers {
+struct NumberColumn {
     values: Float64Array,
     /// Whole numbers that float64 cannot represent exactly, by row index; `None` if there are none.
     inexact_integers: Option<HashMap<usize, String>>,
@@ -151,14 +151,14 @@ impl Batch {
                 id = Some(column);
                 None
             } else {
-                Some(Numbers::from_column(&column)?)
+                Some(NumberColumn::from_column(&column)?)
             });
         }
         Ok(Batch {
             first,
             rows: batch.num_rows(),
             id,
-            names,
+            id_reading: names,
             columns,
         })
     }
@@ -176,7 +176,7 @@ impl Batch {
     }
 }
 
-impl Numbers {
+impl NumberColumn {
     fn from_column(column: &ArrayRef) -> Result<Self, TableError> {
         let inexact_integers = match column.data_type() {
             DataType::Int64 => inexact_integers::<Int64Type>(column),
@@ -192,7 +192,7 @@ impl Numbers {
             decoded_column(column, &DataType::Float64)
         };
         let values = values.map_err(unreadable_error)?;
-        Ok(Numbers {
+        Ok(NumberColumn {
             values: values.as_primitive::<Float64Type>().clone(),
             inexact_integers,
         })
@@ -218,7 +218,7 @@ impl Record for Row {
     fn text(&self, _: usize) -> Option<String> {
         let id = self.batch.id.as_ref()?;
         let is_null = id.is_null(self.at) || id.data_type().is_null();
-        if self.batch.names == IdReading::Skipped || is_null {
+        if self.batch.id_reading == IdReading::Skipped || is_null {
             return None;
         }
         let options = FormatOptions::default();
@@ -226,7 +226,7 @@ impl Record for Row {
         texts.value(self.at).try_to_string().ok()
     }
 
-    fn is_given(&self, cell: usize) -> bool {
+    fn has_value(&self, cell: usize) -> bool {
         matches!(self.batch.columns.get(cell), Some(Some(column)) if column.values.is_valid(self.at))
     }
 
@@ -272,31 +272,31 @@ fn decoded_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch,
 }
 
 /// An iterator over the rows of a table of paths, which are in one batch.
-pub(crate) struct Rows {
+pub(crate) struct RowReader {
     header: Vec<String>,
-    current: Row,
+    current_row: Row,
     /// The number of rows read so far.
-    read: usize,
+    rows_read: usize,
 }
 
-impl Rows {
+impl RowReader {
     /// Creates the iterator over all rows of a table; ids are read as text.
     pub(crate) fn new(table: &RecordBatch) -> Result<Self, TableError> {
         let batch = Arc::new(Batch::new(table, 0, IdReading::Read)?);
-        Ok(Rows {
+        Ok(RowReader {
             header: header(&table.schema()),
-            current: Row { batch, at: 0 },
-            read: 0,
+            current_row: Row { batch, at: 0 },
+            rows_read: 0,
         })
     }
 
     /// Returns the batch with all of the rows.
     pub(crate) fn batch(&self) -> Arc<Batch> {
-        Arc::clone(&self.current.batch)
+        Arc::clone(&self.current_row.batch)
     }
 }
 
-impl Records for Rows {
+impl Records for RowReader {
     type Record = Row;
 
     fn header(&self) -> Result<Vec<String>, TableError> {
@@ -304,16 +304,16 @@ impl Records for Rows {
     }
 
     fn current(&self) -> &Row {
-        &self.current
+        &self.current_row
     }
 
     fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
-        let row = self.read;
-        if row == self.current.batch.rows {
+        let row = self.rows_read;
+        if row == self.current_row.batch.rows {
             return Ok(None);
         }
-        self.read += 1;
-        self.current.at = row;
+        self.rows_read += 1;
+        self.current_row.at = row;
         let line = row as u64;
         Ok(Some(RowPosition { row, line }))
     }

@@ -2,7 +2,7 @@
 
 use super::capsule;
 use crate::arrays::{kind, numpy_array};
-use crate::errors::{catching_panics, input_error, input_error_from, wrong_type};
+use crate::errors::{input_error, input_error_from, run_catching_panics, wrong_type_error};
 use arrow_array::{
     Array, ArrayRef, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray,
 };
@@ -21,10 +21,10 @@ pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 /// Opens any object with the Arrow PyCapsule protocol, or a dict of arrays. Columns are not copied, except for arrays
 /// that are not contiguous float64.
 pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
-    catching_panics("motions", || open_unguarded(motions))
+    run_catching_panics("motions", || open_without_catching_panics(motions))
 }
 
-fn open_unguarded(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
+fn open_without_catching_panics(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     let failed = |error| input_error_from(motions.py(), "motions", error);
     if motions.hasattr("__arrow_c_stream__")? {
         let read = |table: &Bound<'_, PyAny>| {
@@ -43,7 +43,7 @@ fn open_unguarded(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
     match motions.cast::<PyMapping>() {
         Ok(columns) => Ok(reader_of_batch(batch_of_arrays(columns)?)),
-        Err(_) => Err(wrong_type(
+        Err(_) => Err(wrong_type_error(
             "motions",
             "an Arrow table (pyarrow, polars, pandas, duckdb, ...) or a dict of arrays",
             motions,
@@ -190,7 +190,7 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
             id.extract().ok()
         };
         if !id.is_none() && text.is_none() && number.is_none() {
-            return Err(wrong_type(
+            return Err(wrong_type_error(
                 "column id",
                 "text or a whole number of 64 bits",
                 &id,

@@ -15,21 +15,21 @@ use pyo3_arrow::buffer::PyArrowBuffer;
 /// Empty cells of float64 are NaN, and so are those of whole numbers, unless some have more digits than a float64.
 pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     match column.data_type() {
-        DataType::Float64 => floats(py, column.as_primitive()),
+        DataType::Float64 => float_array(py, column.as_primitive()),
         DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => text_array(py, column),
         _ if column.null_count() > 0 => array_with_empty_cells(py, column),
-        DataType::Float32 => view(py, column),
-        kind if kind.is_integer() => view(py, column),
-        _ => objects(py, column),
+        DataType::Float32 => number_view(py, column),
+        kind if kind.is_integer() => number_view(py, column),
+        _ => object_array(py, column),
     }
 }
 
-fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, PyAny>> {
+fn float_array<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, PyAny>> {
     let mut rows = 0..numbers.len();
     let is_nan = |row| numbers.is_valid(row) || numbers.value(row).is_nan();
     if numbers.null_count() == 0 || rows.all(is_nan) {
         let column: ArrayRef = std::sync::Arc::new(numbers.clone());
-        return view(py, &column);
+        return number_view(py, &column);
     }
     let values: Vec<f64> = numbers
         .iter()
@@ -39,7 +39,7 @@ fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, P
 }
 
 /// Returns a view of a column of numbers, in which nulls have arbitrary values.
-fn view<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+fn number_view<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     let numpy = py.import("numpy")?;
     // Arrow's names of these types are NumPy's, but for the capital letters.
     let dtype = column.data_type().to_string().to_lowercase();
@@ -60,10 +60,10 @@ fn array_with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<B
         // A float64 cannot represent all integers from 2^53 on.
         let most = (1_u64 << 53) as f64;
         if wide.iter().flatten().all(|whole| whole.abs() < most) {
-            return floats(py, wide);
+            return float_array(py, wide);
         }
     }
-    objects(py, column)
+    object_array(py, column)
 }
 
 fn text_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
@@ -72,7 +72,7 @@ fn text_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, Py
     py.import("numpy")?.call_method1("array", (texts, "object"))
 }
 
-fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+fn object_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     if let Some(kind) = unconvertible_type(column.data_type()) {
         return Err(refuse(format!(
             "there are no objects of Python for values of type {kind}; take the table through Arrow, as pyarrow.table(t)"

@@ -1,6 +1,8 @@
 //! Splits a table into pieces, each answered by one thread.
 
-use super::batch::{Batch, IdReading, Row, Rows, check_types, header, unreadable_error, whole};
+use super::batch::{
+    Batch, IdReading, Row, RowReader, check_types, header, unreadable_error, whole,
+};
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use rigid_ccd::Remark;
@@ -14,7 +16,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// The rows that a thread answers in one task.
-pub(crate) enum Piece {
+pub(crate) enum RowChunk {
     /// Some rows of a table of motions, as a range in a batch.
     Motions(Arc<Batch>, Range<usize>),
     /// A path and its id.
@@ -22,24 +24,24 @@ pub(crate) enum Piece {
 }
 
 /// An iterator over the pieces of a table, in order, until the flag `stop` is set.
-pub(crate) struct Pieces<'p> {
-    source: Source,
+pub(crate) struct RowChunks<'p> {
+    source: RowSource,
     size: &'p ChunkSize,
     stop: &'p AtomicBool,
     /// The error of the table that ended the iteration, if any.
     pub(crate) fault: Option<TableError>,
 }
 
-enum Source {
+enum RowSource {
     Motions {
         reader: Reader,
-        names: IdReading,
+        id_reading: IdReading,
         /// The number of rows read so far.
-        read: usize,
+        rows_read: usize,
         /// The remaining rows of the last batch.
         rest: Option<(Arc<Batch>, Range<usize>)>,
     },
-    Paths(Box<MovementRows<Rows>>, Arc<Batch>),
+    Paths(Box<MovementRows<RowReader>>, Arc<Batch>),
 }
 
 /// The number of rows in a piece, adapted to the time that pieces take.
@@ -47,8 +49,8 @@ enum Source {
 /// Many rows in one go keep caches warm: with a quarter of them, a table of bunnies takes 1.5 % more time. Towards the
 /// end of a batch pieces get smaller, so that no thread waits long for the others.
 pub(crate) struct ChunkSize {
-    rows: AtomicUsize,
-    threads: usize,
+    row_count: AtomicUsize,
+    thread_count: usize,
 }
 
 /// The time that answering a piece should take.
@@ -61,36 +63,39 @@ impl ChunkSize {
     /// Creates the size for a number of threads; the first pieces have one row.
     pub(crate) fn new(threads: usize) -> Self {
         let rows = AtomicUsize::new(1);
-        ChunkSize { rows, threads }
+        ChunkSize {
+            row_count: rows,
+            thread_count: threads,
+        }
     }
 
     /// Returns the number of rows of the next piece, if `left` rows remain.
     fn next_row_count(&self, left: usize) -> usize {
-        let share = left.div_ceil(2 * self.threads);
-        self.rows.load(Ordering::Relaxed).min(share)
+        let share = left.div_ceil(2 * self.thread_count);
+        self.row_count.load(Ordering::Relaxed).min(share)
     }
 
     /// Adapts the size of later pieces to the time `taken` that a piece of `rows` rows took.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
         // A small piece at the end of a batch is no reason for smaller pieces.
         if taken < TARGET_CHUNK_DURATION / 2 {
-            self.rows
+            self.row_count
                 .fetch_max(MAX_CHUNK_ROWS.min(2 * rows), Ordering::Relaxed);
         } else if taken > 2 * TARGET_CHUNK_DURATION {
-            self.rows.store((rows / 2).max(1), Ordering::Relaxed);
+            self.row_count.store((rows / 2).max(1), Ordering::Relaxed);
         }
     }
 }
 
 /// Checks the columns of a table, and returns the position of each known column.
-pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
+pub(crate) fn check_columns(reader: &Reader) -> Result<Columns, TableError> {
     let schema = reader.schema();
     let columns = Columns::of(&header(&schema))?;
     check_types(&schema).map_err(TableError::Unreadable)?;
     Ok(columns)
 }
 
-impl<'p> Pieces<'p> {
+impl<'p> RowChunks<'p> {
     /// Creates the iterator over the pieces of a table with checked columns. A table of paths is read to its end, or
     /// until the flag `stop` is set.
     pub(crate) fn new(
@@ -101,21 +106,21 @@ impl<'p> Pieces<'p> {
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
         let source = if columns.is_path_table() {
-            let rows = Rows::new(&whole(reader, stop).map_err(unreadable_error)?)?;
+            let rows = RowReader::new(&whole(reader, stop).map_err(unreadable_error)?)?;
             let batch = rows.batch();
-            Source::Paths(
-                Box::new(MovementRows::of(rows, question.grouping())?),
+            RowSource::Paths(
+                Box::new(MovementRows::of(rows, question.path_grouping())?),
                 batch,
             )
         } else {
-            Source::Motions {
+            RowSource::Motions {
                 reader,
-                names,
-                read: 0,
+                id_reading: names,
+                rows_read: 0,
                 rest: None,
             }
         };
-        Ok(Pieces {
+        Ok(RowChunks {
             source,
             size,
             stop,
@@ -124,20 +129,20 @@ impl<'p> Pieces<'p> {
     }
 }
 
-impl Pieces<'_> {
+impl RowChunks<'_> {
     /// Returns the remarks about the rows read so far; `columns` collects the remarks about motions.
     pub(crate) fn remarks(&self, columns: &Columns) -> Vec<Remark> {
         match &self.source {
-            Source::Motions { .. } => columns.remarks(),
-            Source::Paths(courses, _) => courses.remarks(),
+            RowSource::Motions { .. } => columns.remarks(),
+            RowSource::Paths(courses, _) => courses.remarks(),
         }
     }
 }
 
-impl Iterator for Pieces<'_> {
-    type Item = Piece;
+impl Iterator for RowChunks<'_> {
+    type Item = RowChunk;
 
-    fn next(&mut self) -> Option<Piece> {
+    fn next(&mut self) -> Option<RowChunk> {
         if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
             return None;
         }
@@ -149,14 +154,14 @@ impl Iterator for Pieces<'_> {
     }
 }
 
-impl Source {
+impl RowSource {
     /// Returns the next piece, or `None` at the end; a piece has no rows only for an empty batch.
-    fn next(&mut self, size: &ChunkSize) -> Result<Option<Piece>, TableError> {
+    fn next(&mut self, size: &ChunkSize) -> Result<Option<RowChunk>, TableError> {
         match self {
-            Source::Motions {
+            RowSource::Motions {
                 reader,
-                names,
-                read,
+                id_reading: names,
+                rows_read: read,
                 rest,
             } => {
                 let (batch, rows) = match rest.take() {
@@ -174,9 +179,9 @@ impl Source {
                 };
                 let end = rows.start + size.next_row_count(rows.len());
                 *rest = Some((Arc::clone(&batch), end..rows.end));
-                Ok(Some(Piece::Motions(batch, rows.start..end)))
+                Ok(Some(RowChunk::Motions(batch, rows.start..end)))
             }
-            Source::Paths(courses, batch) => {
+            RowSource::Paths(courses, batch) => {
                 let Some(row) = courses.next().transpose()? else {
                     return Ok(None);
                 };
@@ -185,26 +190,26 @@ impl Source {
                     Err(error) => &error.position,
                 };
                 let id = batch.ids(position.row, 1);
-                Ok(Some(Piece::Path(Box::new(row), id)))
+                Ok(Some(RowChunk::Path(Box::new(row), id)))
             }
         }
     }
 }
 
-impl Piece {
+impl RowChunk {
     /// Returns the number of rows or paths in the piece.
     pub(crate) fn rows(&self) -> usize {
         match self {
-            Piece::Motions(_, rows) => rows.len(),
-            Piece::Path(..) => 1,
+            RowChunk::Motions(_, rows) => rows.len(),
+            RowChunk::Path(..) => 1,
         }
     }
 
     /// Returns the ids of the piece's first `rows` rows.
     pub(crate) fn ids(&self, rows: usize) -> ArrayRef {
         match self {
-            Piece::Motions(batch, range) => batch.ids(range.start, rows),
-            Piece::Path(_, id) => id.slice(0, rows),
+            RowChunk::Motions(batch, range) => batch.ids(range.start, rows),
+            RowChunk::Path(_, id) => id.slice(0, rows),
         }
     }
 
@@ -214,8 +219,8 @@ impl Piece {
         columns: &'p Columns,
     ) -> impl Iterator<Item = CourseRow> + 'p {
         (0..self.rows()).map(move |k| match self {
-            Piece::Motions(batch, rows) => read_row(batch, rows.start + k, columns),
-            Piece::Path(row, _) => (**row).clone(),
+            RowChunk::Motions(batch, rows) => read_row(batch, rows.start + k, columns),
+            RowChunk::Path(row, _) => (**row).clone(),
         })
     }
 }

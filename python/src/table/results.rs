@@ -6,7 +6,7 @@ use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
 use rigid_ccd::batch::Question;
-use rigid_ccd::table::results::{self, Cells, Column, ResultRow};
+use rigid_ccd::table::results::{self, CellGetter, Column, ResultRow};
 use std::sync::Arc;
 
 /// Returns the columns of the results of a question, as in the command, for a given column of ids.
@@ -52,7 +52,7 @@ pub(crate) fn batch(
     let columns = results::columns(question);
     let others = columns[1..]
         .iter()
-        .map(|Column(_, cells)| array(*cells, rows));
+        .map(|Column(_, cells)| column_array(*cells, rows));
     let arrays: Vec<ArrayRef> = std::iter::once(ids).chain(others).collect();
     let fields = columns.iter().zip(&arrays);
     let fields =
@@ -62,17 +62,17 @@ pub(crate) fn batch(
 }
 
 /// Returns the cells of all rows in one column as an array.
-fn array(cells: Cells, rows: &[ResultRow]) -> ArrayRef {
+fn column_array(cells: CellGetter, rows: &[ResultRow]) -> ArrayRef {
     match cells {
-        Cells::Text(of) => Arc::new(StringArray::from_iter(rows.iter().map(of))),
-        Cells::Number(of) => {
+        CellGetter::Text(of) => Arc::new(StringArray::from_iter(rows.iter().map(of))),
+        CellGetter::Number(of) => {
             let nulls: NullBuffer = rows.iter().map(|row| of(row).is_some()).collect();
             // With NaN in empty cells, the values can be read without their validity.
             let values = rows.iter().map(|row| of(row).unwrap_or(f64::NAN));
             let values = values.collect::<Vec<f64>>();
             Arc::new(Float64Array::new(values.into(), Some(nulls)))
         }
-        Cells::Count(of) => {
+        CellGetter::Count(of) => {
             // Counts stay below the budget of 2^63.
             let counts = rows.iter().map(|row| of(row).map(|count| count as i64));
             Arc::new(Int64Array::from_iter(counts))

@@ -19,7 +19,7 @@ pub(super) fn direction(
     poses: [Pose; 2],
     solver: &mut Solver,
 ) -> Option<DVec3> {
-    if let Some(between) = direction_between_cores(pieces, poses, solver) {
+    if let Some(between) = direction_between_ungrown_hulls(pieces, poses, solver) {
         return Some(between);
     }
     let [a, b] = [0, 1].map(|k| PlacedPiece::new(&pieces[k], &poses[k]));
@@ -49,7 +49,7 @@ pub(super) fn direction(
 }
 
 /// Returns the direction between the two hulls before they are grown by their radii; `None` if the hulls overlap.
-fn direction_between_cores(
+fn direction_between_ungrown_hulls(
     pieces: [Piece<'_>; 2],
     poses: [Pose; 2],
     solver: &mut Solver,

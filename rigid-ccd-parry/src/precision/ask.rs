@@ -70,8 +70,8 @@ fn cast_of_motions(
         motions,
         interval,
         target,
-        start,
+        start_policy: start,
         options: *options,
-        contact: CONTACT,
+        default_tolerance: CONTACT,
     }))
 }

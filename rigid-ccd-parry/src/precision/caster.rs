@@ -8,7 +8,7 @@ use super::shapes::{body, half_space};
 #[cfg(feature = "record")]
 use crate::Recording;
 use crate::cast::{Cast, PreparedShape};
-use crate::{CastError, Options, Prepared, ShapeError};
+use crate::{BodyOfShape, CastError, Options, ShapeError};
 use rigid_ccd::Solver;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub struct Caster {
     solver: Solver,
     shapes: HashMap<usize, (SharedShape, PreparedShape)>,
     /// The number of cached bodies after the last removal of unused ones.
-    bodies_after_removal: usize,
+    body_count_after_removal: usize,
 }
 
 impl Caster {
@@ -144,7 +144,7 @@ impl Caster {
     ///
     /// # Errors
     /// [`ShapeError`]; [`ShapeError::HalfSpace`] for half-spaces, which have no body.
-    pub fn body(&mut self, shape: &SharedShape) -> Result<Arc<Prepared>, ShapeError> {
+    pub fn body(&mut self, shape: &SharedShape) -> Result<Arc<BodyOfShape>, ShapeError> {
         match self.prepared_shape(shape)? {
             PreparedShape::Body(body) => Ok(body),
             PreparedShape::HalfSpace(_) => Err(ShapeError::HalfSpace),
@@ -160,7 +160,7 @@ impl Caster {
     pub fn remove_unused_bodies(&mut self) {
         self.shapes
             .retain(|_, (shape, _)| Arc::strong_count(&shape.0) > 1);
-        self.bodies_after_removal = self.shapes.len();
+        self.body_count_after_removal = self.shapes.len();
     }
 
     fn prepared_shape(&mut self, shape: &SharedShape) -> Result<PreparedShape, ShapeError> {
@@ -171,7 +171,7 @@ impl Caster {
             TypedShape::HalfSpace(plane) => PreparedShape::HalfSpace(half_space(plane)?),
             _ => PreparedShape::Body(Arc::new(body(&**shape, &self.options)?)),
         };
-        if self.shapes.len() >= 2 * self.bodies_after_removal + MIN_BODIES_FOR_REMOVAL {
+        if self.shapes.len() >= 2 * self.body_count_after_removal + MIN_BODIES_FOR_REMOVAL {
             self.remove_unused_bodies();
         }
         self.shapes

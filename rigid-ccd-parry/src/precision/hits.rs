@@ -8,7 +8,7 @@ use crate::scene::{CastHit, CastStatus};
 pub(super) fn hit(found: &CastHit) -> ShapeCastHit {
     let [witness1, witness2] = found.witnesses.map(vector);
     let [normal1, normal2] = found.normals.map(vector);
-    let [subshape1, subshape2] = found.numbers;
+    let [subshape1, subshape2] = found.sub_shape_indices;
     ShapeCastHit {
         time_of_impact: time(found.time),
         witness1,

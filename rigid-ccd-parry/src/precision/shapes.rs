@@ -11,7 +11,7 @@ use crate::half_space::HalfSpace;
 use crate::limits::{MAX_NESTING_DEPTH, MAX_VOXEL_COORDINATE};
 use crate::order::{greater, length};
 use crate::tolerance::VOXEL_ROUNDING;
-use crate::{Meshes, Options, Prepared, ShapeError};
+use crate::{BodyOfShape, Meshes, Options, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{InputError, SolidOfRevolution};
 
@@ -34,8 +34,8 @@ use ccd_core::{InputError, SolidOfRevolution};
 /// assert!(wheel.excess() > 0.0 && wheel.excess() < 0.5 / 4000.0);
 /// # Ok::<(), rigid_ccd_parry::ShapeError>(())
 /// ```
-pub fn body(shape: &dyn Shape, options: &Options) -> Result<Prepared, ShapeError> {
-    Prepared::new(&shape_geometry(shape, options)?)
+pub fn body(shape: &dyn Shape, options: &Options) -> Result<BodyOfShape, ShapeError> {
+    BodyOfShape::new(&shape_geometry(shape, options)?)
 }
 
 /// Returns the geometry of a shape in double precision.
@@ -201,7 +201,7 @@ fn push_voxels(form: &mut ShapeGeometry, voxels: &Voxels) -> Result<(), ShapeErr
     // parry finds voxels by rounded divisions.
     let sizes = 1e-30..=1e30;
     if !(edge.to_array().iter().all(|side| sizes.contains(side)) && near(low) && near(high)) {
-        return Err(ShapeError::Grid);
+        return Err(ShapeError::UnresolvableVoxels);
     }
     // The range is compared with rounded positions, and is larger than necessary by a chunk.
     let chunk = IVector::new(8, 8, 8);

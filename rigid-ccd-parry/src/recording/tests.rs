@@ -28,7 +28,7 @@ impl Drop for Folder {
 }
 
 /// Answers the recording in a folder as the command does, and returns the time of the contact, if any.
-fn time_of_contact(folder: &Path, command: &str) -> Option<f64> {
+fn replay_contact_time(folder: &Path, command: &str) -> Option<f64> {
     let words: Vec<&str> = command.split(' ').collect();
     let option = |name: &str| {
         words
@@ -106,7 +106,7 @@ fn a_saved_recording_has_the_answer_of_the_cast() {
             .record(&one, g1, &two, g2, start, end, true)
             .expect("served");
         let command = recording.save(&folder.0).expect("saved");
-        match (time_of_contact(&folder.0, &command), cast) {
+        match (replay_contact_time(&folder.0, &command), cast) {
             (None, None) => misses += 1,
             (Some(time), Some(hit)) => {
                 hits += 1;

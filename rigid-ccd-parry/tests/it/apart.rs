@@ -15,7 +15,7 @@ use rigid_ccd_parry::{Options, f32 as ours32, f64 as ours64};
 /// A random scene with single-precision numbers.
 struct Scene {
     shape_specs: [ShapeSpec; 2],
-    moves: [MotionSpec; 2],
+    motion_specs: [MotionSpec; 2],
     /// The factor on all lengths, a power of two.
     scale: f32,
     shapes: [SharedShape; 2],
@@ -41,7 +41,7 @@ impl Scene {
             motions: moves.map(|moves| double::make::motion(&moves)),
             shapes,
             shape_specs: recipes,
-            moves,
+            motion_specs: moves,
             scale,
         }
     }
@@ -54,7 +54,10 @@ impl Scene {
         [parry3d::query::NonlinearRigidMotion; 2],
     ) {
         let shapes = [0, 1].map(|k| single::make::shape(&self.shape_specs[k]));
-        (shapes, self.moves.map(|moves| single::make::motion(&moves)))
+        (
+            shapes,
+            self.motion_specs.map(|moves| single::make::motion(&moves)),
+        )
     }
 
     /// Returns parry's distance of the shapes at a time; it is 0 if they intersect.
@@ -158,7 +161,7 @@ fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
 struct HitCounts {
     hits: u64,
     misses: u64,
-    starts: u64,
+    hits_at_start: u64,
 }
 
 impl HitCounts {
@@ -175,7 +178,7 @@ impl HitCounts {
     ) {
         let (until, distance_error) = (found.unwrap_or(end), scene.distance_error());
         if found == Some(start) {
-            self.starts += 1;
+            self.hits_at_start += 1;
         } else {
             let by = if target > 0.0 {
                 target - distance_error
@@ -240,7 +243,7 @@ fn nothing_touches_before_a_hit() {
     let HitCounts {
         hits,
         misses,
-        starts,
+        hits_at_start: starts,
     } = count;
     assert!(
         hits > all / 2 && misses > all / 4 && starts < all / 6,
@@ -278,7 +281,7 @@ fn straight_casts_keep_the_target_distance() {
     let HitCounts {
         hits,
         misses,
-        starts,
+        hits_at_start: starts,
     } = count;
     assert!(
         hits > all / 3 && misses > all / 8 && starts < all / 3,

@@ -13,7 +13,7 @@ struct AgreementCounts {
     hits: u32,
     points: u32,
     normals: u32,
-    parts: u32,
+    sub_shapes: u32,
 }
 
 impl AgreementCounts {
@@ -35,7 +35,7 @@ impl AgreementCounts {
         self.points += near(ours.witness1, theirs.witness1) * near(ours.witness2, theirs.witness2);
         self.normals += near(ours.normal1, theirs.normal1) * near(ours.normal2, theirs.normal2);
         let [a, b] = shapes;
-        self.parts += u32::from(
+        self.sub_shapes += u32::from(
             distance_to_sub_shape(a, ours.subshape1, ours.witness1) < 1e-6
                 && distance_to_sub_shape(b, ours.subshape2, ours.witness2) < 1e-6,
         );
@@ -47,7 +47,7 @@ impl AgreementCounts {
         let most = self.hits * 9 / 10;
         assert!(self.hits > 100, "{self:?}");
         assert!(
-            self.points >= most && self.normals >= most && self.parts >= most,
+            self.points >= most && self.normals >= most && self.sub_shapes >= most,
             "{self:?}"
         );
     }

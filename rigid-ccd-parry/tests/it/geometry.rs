@@ -6,10 +6,10 @@ use ccd_core::order::greater;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Shape, SharedShape, TypedShape};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd_parry::{Options, Prepared};
+use rigid_ccd_parry::{BodyOfShape, Options};
 
 /// Returns the extent of a body in a direction.
-fn reach(body: &Prepared, direction: DVec3) -> f64 {
+fn reach(body: &BodyOfShape, direction: DVec3) -> f64 {
     let pieces = body.body().pieces();
     let of_piece = |piece: rigid_ccd::body::Piece<'_>| {
         let points = piece.points.iter().map(|p| p.dot(direction));
@@ -116,7 +116,7 @@ fn single_precision_makes_the_same_bodies() {
             let double = double::make::shape(&recipe);
             let double = rigid_ccd_parry::f64::body(&*double, &options).expect("served");
             // parry keeps voxels in no order.
-            let sorted = |body: &Prepared| {
+            let sorted = |body: &BodyOfShape| {
                 let points = body.body().pieces().points().iter().map(|p| p.to_array());
                 let mut points: Vec<[f64; 3]> = points.collect();
                 points.sort_by(|a, b| a.partial_cmp(b).expect("finite"));

@@ -10,7 +10,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
 /// Returns a number of `SPECIAL_NUMBERS` with probability `share`, and otherwise a number from −2 to 2.
-fn special_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
+fn maybe_special_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
     if rng.random::<f32>() < share {
         SPECIAL_NUMBERS[rng.random_range(0..SPECIAL_NUMBERS.len())]
     } else {
@@ -18,64 +18,69 @@ fn special_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
     }
 }
 
-fn special_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
+fn maybe_special_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
     Vector::new(
-        special_number(rng, share),
-        special_number(rng, share),
-        special_number(rng, share),
+        maybe_special_number(rng, share),
+        maybe_special_number(rng, share),
+        maybe_special_number(rng, share),
     )
 }
 
-fn special_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
-    let [x, y, z, w] = std::array::from_fn(|_| special_number(rng, share));
-    Pose::from_parts(special_vector(rng, share), Rotation::from_xyzw(x, y, z, w))
+fn maybe_special_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
+    let [x, y, z, w] = std::array::from_fn(|_| maybe_special_number(rng, share));
+    Pose::from_parts(
+        maybe_special_vector(rng, share),
+        Rotation::from_xyzw(x, y, z, w),
+    )
 }
 
-fn special_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
+fn maybe_special_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
-        special_pose(rng, share),
-        special_vector(rng, share),
-        special_vector(rng, share),
-        special_vector(rng, share),
+        maybe_special_pose(rng, share),
+        maybe_special_vector(rng, share),
+        maybe_special_vector(rng, share),
+        maybe_special_vector(rng, share),
     )
 }
 
 /// Returns a random shape whose sizes may be invalid, because parry does not check them.
 fn unchecked_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
-    let radius = special_number(rng, share).abs();
+    let radius = maybe_special_number(rng, share).abs();
     match rng.random_range(0..9) {
-        0 => SharedShape::ball(special_number(rng, share)),
+        0 => SharedShape::ball(maybe_special_number(rng, share)),
         1 => SharedShape::new(Cuboid {
-            half_extents: special_vector(rng, share).abs(),
+            half_extents: maybe_special_vector(rng, share).abs(),
         }),
         2 => SharedShape::capsule(
-            special_vector(rng, share),
-            special_vector(rng, share),
+            maybe_special_vector(rng, share),
+            maybe_special_vector(rng, share),
             radius,
         ),
         3 => SharedShape::new(Segment::new(
-            special_vector(rng, share),
-            special_vector(rng, share),
+            maybe_special_vector(rng, share),
+            maybe_special_vector(rng, share),
         )),
         4 => SharedShape::new(Triangle::new(
-            special_vector(rng, share),
-            special_vector(rng, share),
-            special_vector(rng, share),
+            maybe_special_vector(rng, share),
+            maybe_special_vector(rng, share),
+            maybe_special_vector(rng, share),
         )),
         5 => SharedShape::new(Cylinder {
-            half_height: special_number(rng, share),
-            radius: special_number(rng, share),
+            half_height: maybe_special_number(rng, share),
+            radius: maybe_special_number(rng, share),
         }),
         6 => SharedShape::new(Cone {
-            half_height: special_number(rng, share).abs(),
+            half_height: maybe_special_number(rng, share).abs(),
             radius,
         }),
         7 => {
-            let vertices = (0..4).map(|_| special_vector(rng, 0.3 * share)).collect();
+            let vertices = (0..4)
+                .map(|_| maybe_special_vector(rng, 0.3 * share))
+                .collect();
             let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3], [1, 1, 3]]);
             SharedShape::new(mesh.expect("triangles"))
         }
-        _ => SharedShape::halfspace(special_vector(rng, share)),
+        _ => SharedShape::halfspace(maybe_special_vector(rng, share)),
     }
 }
 
@@ -101,7 +106,7 @@ fn odd_numbers_are_answered_or_refused() {
         let [a, b] = [0, 1].map(|_| unchecked_shape(&mut rng, share));
         let found = match seed % 2 {
             0 => {
-                let [m, n] = [0, 1].map(|_| special_motion(&mut rng, share));
+                let [m, n] = [0, 1].map(|_| maybe_special_motion(&mut rng, share));
                 // Millions of turns take long; another test covers the limits.
                 let slow = |motion: NonlinearRigidMotion| NonlinearRigidMotion {
                     angvel: motion
@@ -110,8 +115,8 @@ fn odd_numbers_are_answered_or_refused() {
                     ..motion
                 };
                 let times = [
-                    special_number(&mut rng, share),
-                    special_number(&mut rng, share),
+                    maybe_special_number(&mut rng, share),
+                    maybe_special_number(&mut rng, share),
                 ];
                 let times = times.map(|time| if time.abs() > 1e3 { 2.0 } else { time });
                 let found =
@@ -121,11 +126,11 @@ fn odd_numbers_are_answered_or_refused() {
                 })
             }
             _ => {
-                let poses = [0, 1].map(|_| special_pose(&mut rng, share));
-                let [v, w] = [0, 1].map(|_| special_vector(&mut rng, share));
+                let poses = [0, 1].map(|_| maybe_special_pose(&mut rng, share));
+                let [v, w] = [0, 1].map(|_| maybe_special_vector(&mut rng, share));
                 let options = ShapeCastOptions {
-                    max_time_of_impact: special_number(&mut rng, share),
-                    target_distance: special_number(&mut rng, share).abs(),
+                    max_time_of_impact: maybe_special_number(&mut rng, share),
+                    target_distance: maybe_special_number(&mut rng, share).abs(),
                     stop_at_penetration: seed % 4 == 1,
                     compute_impact_geometry_on_penetration: true,
                 };

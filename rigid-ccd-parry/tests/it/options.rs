@@ -10,7 +10,7 @@ fn pose_at_x(x: f32) -> Pose {
     Pose::translation(x, 0.0, 0.0)
 }
 
-fn sliding_motion(x: f32, speed: f32) -> NonlinearRigidMotion {
+fn linear_motion(x: f32, speed: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(pose_at_x(x), Vector::ZERO, speed * Vector::X, Vector::ZERO)
 }
 
@@ -94,9 +94,9 @@ fn times_count_from_the_start_of_the_motion() {
     let ball = Ball::new(1.0);
     let cast = |from, to| {
         let hit = cast_shapes_nonlinear(
-            &sliding_motion(-4.0, 1.0),
+            &linear_motion(-4.0, 1.0),
             &ball,
-            &sliding_motion(0.0, 0.0),
+            &linear_motion(0.0, 0.0),
             &ball,
             from,
             to,
@@ -129,9 +129,9 @@ fn times_that_are_no_numbers_are_refused() {
         [f32::INFINITY; 2],
     ] {
         let hit = cast_shapes_nonlinear(
-            &sliding_motion(-4.0, 1.0),
+            &linear_motion(-4.0, 1.0),
             &ball,
-            &sliding_motion(0.0, 0.0),
+            &linear_motion(0.0, 0.0),
             &ball,
             from,
             to,
@@ -171,7 +171,7 @@ fn a_limit_is_a_hit_at_a_time_that_is_safe() {
         SharedShape::cuboid(0.5, 0.4, 0.3),
         SharedShape::capsule_y(0.5, 0.2),
     ];
-    let [rests, mut flies] = [sliding_motion(0.0, 0.0), sliding_motion(-3.0, 4.0)];
+    let [rests, mut flies] = [linear_motion(0.0, 0.0), linear_motion(-3.0, 4.0)];
     flies.angvel = Vector::new(1.0, 7.0, 3.0);
     let cast = |budget| {
         let mut caster = Caster::new(Options {
@@ -204,7 +204,7 @@ fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
     let hit = cast_shapes_nonlinear(
         &a,
         &cube,
-        &sliding_motion(1.5, 0.0),
+        &linear_motion(1.5, 0.0),
         &cube,
         0.0,
         f32::MAX,
@@ -228,11 +228,11 @@ fn a_mesh_is_a_surface_unless_the_options_make_it_a_solid() {
             meshes,
             ..Options::default()
         });
-        let flies = sliding_motion(0.0, 1.0);
+        let flies = linear_motion(0.0, 1.0);
         let hit = caster.cast_shapes_nonlinear(
             &flies,
             &ball,
-            &sliding_motion(0.0, 0.0),
+            &linear_motion(0.0, 0.0),
             &mesh(flags, 12),
             0.0,
             9.0,
@@ -286,7 +286,7 @@ fn cylinders_are_early_by_at_most_the_excess() {
         let hit = caster.cast_shapes_nonlinear(
             &flies,
             &wheel,
-            &sliding_motion(0.0, 0.0),
+            &linear_motion(0.0, 0.0),
             &wall,
             0.0,
             9.0,
@@ -306,7 +306,7 @@ fn cylinders_are_early_by_at_most_the_excess() {
     let fine = cast(Excess::RadiusFraction).expect("served");
     assert!(fine <= exact && fine > exact - 1.0 / 4096.0 - 2e-6);
     let refused = cast(Excess::NotAllowed).expect_err("refused");
-    let error = ShapeError::Round;
+    let error = ShapeError::RoundShapeRefused;
     assert_eq!(
         refused,
         CastError::Shape {

@@ -1,7 +1,7 @@
 //! A convex hull around a body, in the frame in which the body rests.
 
 use crate::tuning::MIN_PIECES_TO_SPLIT;
-use ccd_core::fan_of;
+use ccd_core::fan_triangles;
 use ccd_core::order::greater;
 use ccd_core::{Body, Piece, Pieces, SupportScan, Volume};
 use rigid_ccd::Pose;
@@ -67,7 +67,7 @@ fn surface_of(body: &Body) -> Option<Body> {
     if hull.facets.iter().count() < 3 {
         return None;
     }
-    let triangles: Vec<[u32; 3]> = hull.facets.iter().flat_map(fan_of).collect();
+    let triangles: Vec<[u32; 3]> = hull.facets.iter().flat_map(fan_triangles).collect();
     let ids: Vec<u32> = (0..triangles.len() as u32).collect();
     let pieces = Pieces::triangles(&hull.points, &triangles, &ids).ok()?;
     let hierarchy = ccd_decomp::build_hierarchy(&pieces).ok()?;

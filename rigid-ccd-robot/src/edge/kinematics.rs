@@ -1,6 +1,6 @@
 //! The frames of all moving links at one configuration.
 
-use crate::robot::{Robot, Source};
+use crate::robot::{PositionSource, Robot};
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;
@@ -26,7 +26,7 @@ pub(crate) struct MovingJoint {
     /// The number of the frame that holds the joint.
     pub(crate) parent: usize,
     /// How the joint's position comes from a configuration.
-    pub(crate) source: Source,
+    pub(crate) source: PositionSource,
     /// The position of the joint's origin in the parent frame.
     pub(crate) origin: DVec3,
     /// The unit vector along the axis in the parent frame.
@@ -110,7 +110,13 @@ impl Kinematics {
 }
 
 impl MovingJoint {
-    fn new(parent: usize, source: Source, origin: &Pose, axis: DVec3, is_prismatic: bool) -> Self {
+    fn new(
+        parent: usize,
+        source: PositionSource,
+        origin: &Pose,
+        axis: DVec3,
+        is_prismatic: bool,
+    ) -> Self {
         let frame = DMat3::from_quat(origin.rotation());
         let along = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
         let cross = DMat3::from_cols(

@@ -180,7 +180,7 @@ impl<'c> Search<'c> {
     ) -> Result<Option<(f64, Candidate)>, Error> {
         let base = self.candidates.len();
         let middle = 0.5 * (stretch.from + stretch.to);
-        let level = self.settings.instructions.level();
+        let level = self.settings.vector_instructions.level();
         let found = vectorize!(level, _token => self.look(stretch, among));
         let first = match found {
             Found::Contact(pair) => return Ok(Some((middle, pair))),

@@ -52,7 +52,7 @@ impl ChainBetween {
     /// follows another joint is rounded twice.
     ///
     /// # Errors
-    /// [`RobotError::PositionCount`], [`RobotError::Position`].
+    /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].
     pub fn positions(&self, robot: &Robot, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
         robot.check(configuration)?;
         let joints = self.joints.iter();

@@ -39,7 +39,7 @@ fn links(count: usize) -> Vec<Link> {
 /// A random robot, and for each joint the data from which a test computes poses by matrices of its own.
 struct RandomRobot {
     robot: Robot,
-    twins: Vec<ReferenceJoint>,
+    reference_joints: Vec<ReferenceJoint>,
 }
 
 struct ReferenceJoint {
@@ -88,12 +88,15 @@ fn draw(random: &mut Pcg64) -> RandomRobot {
     // A robot may be given in any order.
     joints.rotate_left(3);
     let robot = Robot::new(links(8), joints).unwrap();
-    RandomRobot { robot, twins }
+    RandomRobot {
+        robot,
+        reference_joints: twins,
+    }
 }
 
 impl RandomRobot {
     fn position(&self, joint: usize, of: &dyn Fn(usize) -> f64) -> f64 {
-        match self.twins[joint].followed_joint {
+        match self.reference_joints[joint].followed_joint {
             own if own == joint => of(joint),
             followed => 0.5 - 2.0 * self.position(followed, of),
         }
@@ -104,7 +107,7 @@ impl RandomRobot {
         let Some(joint) = link.checked_sub(1) else {
             return DMat4::IDENTITY;
         };
-        let (twin, position) = (&self.twins[joint], self.position(joint, of));
+        let (twin, position) = (&self.reference_joints[joint], self.position(joint, of));
         let origin =
             DMat4::from_rotation_translation(twin.origin.rotation(), twin.origin.translation());
         let moved = match twin.kind {
@@ -182,9 +185,12 @@ fn stretches_between_branches_hold() {
             let apart = near
                 .transform_point(centre)
                 .distance(there.transform_point(centre));
-            assert!(apart <= stretch.deviation.shift, "{apart:e}, {stretch:?}");
-            if stretch.deviation.shift > 1e-9 {
-                let share = apart / stretch.deviation.shift;
+            assert!(
+                apart <= stretch.deviation_bound.shift,
+                "{apart:e}, {stretch:?}"
+            );
+            if stretch.deviation_bound.shift > 1e-9 {
+                let share = apart / stretch.deviation_bound.shift;
                 nearest = if share > nearest { share } else { nearest };
             }
         }
@@ -246,7 +252,7 @@ fn joints_that_follow_nothing_are_refused() {
         let joints = vec![b, joint("fixed", "link0", "link1", fixed)];
         let error = Robot::new(links(3), joints).unwrap_err();
         assert!(
-            matches!(error, RobotError::FollowsNothing { .. }),
+            matches!(error, RobotError::UnfollowableJoint { .. }),
             "{followed}: {error}"
         );
     }
@@ -265,7 +271,7 @@ fn configurations_that_do_not_fit_are_refused() {
         "joint `elbow`: the joint is at 1.5, but its limits are -1 and 1"
     );
     let error = robot.pose("link1", &[f64::NAN]).unwrap_err();
-    let RobotError::Position { error, .. } = error else {
+    let RobotError::InvalidPosition { error, .. } = error else {
         panic!("{error}");
     };
     assert!(matches!(error, InputError::JointOutOfLimits { .. }));

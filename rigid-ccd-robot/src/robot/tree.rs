@@ -15,12 +15,12 @@ pub(super) struct Tree {
 #[derive(Clone, Copy, Debug)]
 struct Parent {
     joint: usize,
-    parent: usize,
+    link: usize,
 }
 
 /// A joint on the path from one link to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Step {
+pub(super) struct PathJoint {
     pub(super) joint: usize,
     /// Whether the path leads up, from the joint's child link to its parent link.
     pub(super) leads_to_parent: bool,
@@ -47,7 +47,13 @@ impl Tree {
             }
             let (child, parent) = (number(&joint.child)?, number(&joint.parent)?);
             let link = || joint.child.clone();
-            if above[child].replace(Parent { joint: k, parent }).is_some() {
+            if above[child]
+                .replace(Parent {
+                    joint: k,
+                    link: parent,
+                })
+                .is_some()
+            {
                 return Err(RobotError::TwoParents {
                     link: link(),
                     joint: name,
@@ -69,7 +75,7 @@ impl Tree {
             parents: above,
             base,
         };
-        let is_lost = |&link: &usize| tree.ancestors(link).count() > links.len();
+        let is_lost = |&link: &usize| tree.link_and_ancestors(link).count() > links.len();
         match (0..links.len()).find(is_lost) {
             Some(link) => Err(RobotError::Loop { link: name(link) }),
             None => Ok(tree),
@@ -81,43 +87,46 @@ impl Tree {
     }
 
     pub(super) fn parent(&self, link: usize) -> Option<usize> {
-        self.parents[link].map(|above| above.parent)
+        self.parents[link].map(|above| above.link)
     }
 
     /// Returns all links but the base, each with its parent and the joint between them. Parents come first.
     pub(super) fn joints_from_base(&self) -> Vec<(usize, usize, usize)> {
         let mut links: Vec<(usize, usize)> = (0..self.parents.len())
-            .map(|link| (self.ancestors(link).count(), link))
+            .map(|link| (self.link_and_ancestors(link).count(), link))
             .collect();
         links.sort_unstable();
         let above = |&(_, link): &(usize, usize)| {
-            self.parents[link].map(|above| (link, above.parent, above.joint))
+            self.parents[link].map(|above| (link, above.link, above.joint))
         };
         links.iter().filter_map(above).collect()
     }
 
     /// Iterates over a link and its ancestors, up to the base. A loop ends after more links than there are.
-    fn ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
+    fn link_and_ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
         let up = |&link: &usize| self.parent(link);
         std::iter::successors(Some(link), up).take(self.parents.len() + 1)
     }
 
     /// Returns the joints on the path from one link to another, through their nearest common ancestor.
-    pub(super) fn steps_between(&self, from: usize, to: usize) -> Vec<Step> {
-        let targets: Vec<usize> = self.ancestors(to).collect();
+    pub(super) fn path_between(&self, from: usize, to: usize) -> Vec<PathJoint> {
+        let targets: Vec<usize> = self.link_and_ancestors(to).collect();
         let is_common = |link: &usize| targets.contains(link);
         // The base is above both.
-        let common = self.ancestors(from).find(is_common).unwrap_or(self.base);
+        let common = self
+            .link_and_ancestors(from)
+            .find(is_common)
+            .unwrap_or(self.base);
         let steps_to_common = |link: usize, is_up: bool| {
-            self.ancestors(link)
+            self.link_and_ancestors(link)
                 .take_while(move |&link| link != common)
                 .filter_map(move |link| self.parents[link])
-                .map(move |above| Step {
+                .map(move |above| PathJoint {
                     joint: above.joint,
                     leads_to_parent: is_up,
                 })
         };
-        let mut steps: Vec<Step> = steps_to_common(to, false).collect();
+        let mut steps: Vec<PathJoint> = steps_to_common(to, false).collect();
         steps.reverse();
         steps_to_common(from, true).chain(steps).collect()
     }

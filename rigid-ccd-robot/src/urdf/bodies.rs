@@ -1,7 +1,7 @@
 //! Makes bodies of the shapes and meshes of a URDF.
 
 use super::error::UrdfError;
-use super::packages::Packages;
+use super::packages::SearchFolders;
 use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::Body;
 use rigid_ccd::glam::{DAffine3, DVec3};
@@ -23,7 +23,7 @@ pub enum MeshModel {
 
 /// Makes bodies of shapes and meshes; a mesh that occurs several times becomes one shared body.
 pub(super) struct BodyReader<'p> {
-    packages: &'p Packages,
+    packages: &'p SearchFolders,
     model: MeshModel,
     known: RefCell<HashMap<MeshKey, Arc<Body>>>,
 }
@@ -32,7 +32,7 @@ pub(super) struct BodyReader<'p> {
 type MeshKey = (PathBuf, [u64; 3]);
 
 impl<'p> BodyReader<'p> {
-    pub(super) fn new(packages: &'p Packages, model: MeshModel) -> Self {
+    pub(super) fn new(packages: &'p SearchFolders, model: MeshModel) -> Self {
         BodyReader {
             packages,
             model,

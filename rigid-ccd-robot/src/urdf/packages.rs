@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 
 /// The folders that are searched for the packages and files that a URDF names.
 #[derive(Clone, Debug)]
-pub(super) struct Packages {
+pub(super) struct SearchFolders {
     /// The folder of the URDF file, from which relative paths start.
     urdf_folder: PathBuf,
     /// Folders that are packages, or hold packages, in the order in which they are searched.
-    folders: Vec<PathBuf>,
+    package_folders: Vec<PathBuf>,
 }
 
-impl Packages {
+impl SearchFolders {
     /// Lists the folders to search: those of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then all folders above a URDF
     /// file.
-    pub(super) fn around(urdf: &Path) -> Self {
+    pub(super) fn for_urdf(urdf: &Path) -> Self {
         let beside = urdf.parent().unwrap_or(Path::new("")).to_owned();
         let listed = |variable| env::var_os(variable).unwrap_or_default();
         let ros = listed("ROS_PACKAGE_PATH");
@@ -26,19 +26,19 @@ impl Packages {
         // A URDF is usually a few folders below its package.
         let whole = beside.canonicalize().unwrap_or_else(|_| beside.clone());
         folders.extend(whole.ancestors().map(Path::to_owned));
-        Packages {
+        SearchFolders {
             urdf_folder: beside,
-            folders,
+            package_folders: folders,
         }
     }
 
     pub(super) fn prepend_folder(&mut self, folder: PathBuf) {
-        self.folders.insert(0, folder);
+        self.package_folders.insert(0, folder);
     }
 
     /// Returns the path of an existing file, given the name that the URDF has for it.
     pub(super) fn find(&self, uri: &str) -> Result<PathBuf, UrdfError> {
-        let tried = self.candidates(uri);
+        let tried = self.possible_paths(uri);
         match tried.iter().find(|path| path.is_file()) {
             Some(path) => Ok(path.clone()),
             None => Err(UrdfError::MeshNotFound {
@@ -49,7 +49,7 @@ impl Packages {
     }
 
     /// Returns the paths that a name in the URDF may mean, in the order in which they are tried.
-    fn candidates(&self, uri: &str) -> Vec<PathBuf> {
+    fn possible_paths(&self, uri: &str) -> Vec<PathBuf> {
         let in_package = uri
             .strip_prefix("package://")
             .or_else(|| uri.strip_prefix("model://"));
@@ -65,7 +65,7 @@ impl Packages {
                 .into_iter()
                 .flatten()
         };
-        self.folders.iter().flat_map(in_folder).collect()
+        self.package_folders.iter().flat_map(in_folder).collect()
     }
 }
 

@@ -34,7 +34,7 @@ fn folder(joints: &str) -> TempDir {
     folder
 }
 
-const JOINTS: &str = r#"
+const JOINTS_XML: &str = r#"
     <joint name="turns" type="revolute"><parent link="base"/><child link="upper"/>
         <origin xyz="0 0 1" rpy="0.1 0.2 0.3"/><axis xyz="0 0 2"/>
         <limit lower="-1" upper="2" effort="1" velocity="1"/></joint>
@@ -42,13 +42,13 @@ const JOINTS: &str = r#"
         <axis xyz="1 0 0"/><limit lower="0" upper="0.01" effort="1" velocity="1"/>
         <mimic joint="turns" multiplier="2"/></joint>"#;
 
-fn urdf(folder: &TempDir) -> Urdf {
+fn urdf_in_folder(folder: &TempDir) -> Urdf {
     Urdf::at(folder.path().join("arm.urdf"))
 }
 
 #[test]
 fn shapes_have_their_whole_sizes() {
-    let robot = urdf(&folder(JOINTS)).read().unwrap();
+    let robot = urdf_in_folder(&folder(JOINTS_XML)).read().unwrap();
     let spans: Vec<Vec<f64>> = robot
         .links()
         .iter()
@@ -74,11 +74,11 @@ fn shapes_have_their_whole_sizes() {
 
 #[test]
 fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
-    let robot = urdf(&folder(JOINTS)).read().unwrap();
+    let robot = urdf_in_folder(&folder(JOINTS_XML)).read().unwrap();
     let bodies = &robot.links()[2].bodies;
     assert!(Arc::ptr_eq(&bodies[0].body, &bodies[1].body));
     assert_eq!(bodies[0].body.volume(), rigid_ccd::body::Volume::Solid);
-    let hull = urdf(&folder(JOINTS))
+    let hull = urdf_in_folder(&folder(JOINTS_XML))
         .with_mesh_model(MeshModel::OuterHull)
         .read()
         .unwrap();
@@ -87,8 +87,8 @@ fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
 
 #[test]
 fn visuals_are_a_choice() {
-    let robot = urdf(&folder(JOINTS))
-        .with_geometry(Geometry::Visual)
+    let robot = urdf_in_folder(&folder(JOINTS_XML))
+        .with_body_elements(Geometry::Visual)
         .read()
         .unwrap();
     let counts: Vec<usize> = robot.links().iter().map(|link| link.bodies.len()).collect();
@@ -99,7 +99,7 @@ fn visuals_are_a_choice() {
 /// limits.
 #[test]
 fn joints_are_those_of_the_file() {
-    let robot = urdf(&folder(JOINTS)).read().unwrap();
+    let robot = urdf_in_folder(&folder(JOINTS_XML)).read().unwrap();
     assert_eq!(robot.joint_names().collect::<Vec<_>>(), ["turns"]);
     assert_eq!(robot.limits().collect::<Vec<_>>(), [[-1.0, 2.0]]);
     let origin = robot.pose("upper", &[0.0]).unwrap();
@@ -112,10 +112,13 @@ fn joints_are_those_of_the_file() {
 
 #[test]
 fn pairs_come_from_the_srdf() {
-    let folder = folder(JOINTS);
+    let folder = folder(JOINTS_XML);
     let srdf = folder.path().join("arm.srdf");
     fs::write(&srdf, r#"<robot name="arm"><disable_collisions link1="lower" link2="base" reason="Never"/></robot>"#).unwrap();
-    let (urdf, robot) = (urdf(&folder), urdf(&folder).read().unwrap());
+    let (urdf, robot) = (
+        urdf_in_folder(&folder),
+        urdf_in_folder(&folder).read().unwrap(),
+    );
     assert_eq!(
         urdf.link_pairs(&robot, None)
             .unwrap()
@@ -143,7 +146,12 @@ fn pairs_come_from_the_srdf() {
 
 #[test]
 fn errors_name_file_link_and_joint() {
-    let message = |joints: &str| urdf(&folder(joints)).read().unwrap_err().to_string();
+    let message = |joints: &str| {
+        urdf_in_folder(&folder(joints))
+            .read()
+            .unwrap_err()
+            .to_string()
+    };
     let planar =
         r#"<joint name="drives" type="planar"><parent link="base"/><child link="upper"/></joint>"#;
     assert_eq!(
@@ -154,22 +162,22 @@ fn errors_name_file_link_and_joint() {
         message(""),
         "links `base` and `upper` both hang on no joint; a robot has one base"
     );
-    let axis = JOINTS.replace("0 0 2", "0 0 0");
+    let axis = JOINTS_XML.replace("0 0 2", "0 0 0");
     assert!(
         message(&axis).starts_with("joint `turns`: "),
         "{}",
         message(&axis)
     );
 
-    let folder = folder(JOINTS);
+    let folder = folder(JOINTS_XML);
     fs::remove_file(folder.path().join("part.obj")).unwrap();
-    let error = urdf(&folder).read().unwrap_err().to_string();
+    let error = urdf_in_folder(&folder).read().unwrap_err().to_string();
     assert!(
         error.starts_with("link `lower`: `part.obj` is not found; looked for "),
         "{error}"
     );
     fs::write(folder.path().join("part.obj"), "v 0 0\n").unwrap();
-    let error = urdf(&folder).read().unwrap_err().to_string();
+    let error = urdf_in_folder(&folder).read().unwrap_err().to_string();
     assert!(
         error.starts_with("link `lower`: ") && error.contains("part.obj"),
         "{error}"
@@ -177,6 +185,6 @@ fn errors_name_file_link_and_joint() {
     let error = Urdf::at("none.urdf").read().unwrap_err().to_string();
     assert!(error.starts_with("none.urdf: "), "{error}");
     fs::write(folder.path().join("arm.urdf"), "<robot").unwrap();
-    let error = urdf(&folder).read().unwrap_err().to_string();
+    let error = urdf_in_folder(&folder).read().unwrap_err().to_string();
     assert!(error.contains("arm.urdf: "), "{error}");
 }

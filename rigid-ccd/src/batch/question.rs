@@ -52,7 +52,7 @@ impl Question {
     }
 
     /// Returns which rows of a table of paths this question treats as one path.
-    pub fn grouping(self) -> Grouping {
+    pub fn path_grouping(self) -> Grouping {
         match self {
             Question::Distance => Grouping::EachRow,
             _ => Grouping::ById,

@@ -178,24 +178,24 @@ where
 
 impl fmt::Display for ScheduleKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_value(self, f)
+        write_option_name(self, f)
     }
 }
 
 impl fmt::Display for BoundKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_value(self, f)
+        write_option_name(self, f)
     }
 }
 
 impl fmt::Display for OracleKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_value(self, f)
+        write_option_name(self, f)
     }
 }
 
 /// Writes the command-line name of a value.
-fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+fn write_option_name(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     match value.to_possible_value() {
         Some(value) => f.pad(value.get_name()),
         None => Ok(()),

@@ -6,7 +6,7 @@ use crate::table::motions::RowPosition;
 use std::fmt::Display;
 
 /// A counter of rows that cannot be read or answered; it prints the first few as they occur.
-pub struct BadRows {
+pub struct BadRowCounter {
     input: String,
     count: usize,
 }
@@ -14,10 +14,10 @@ pub struct BadRows {
 /// The maximum number of bad rows that are printed one by one.
 const MAX_PRINTED_ROWS: usize = 5;
 
-impl BadRows {
+impl BadRowCounter {
     /// Creates a counter for the table named `input`.
     pub fn new(input: String) -> Self {
-        BadRows { input, count: 0 }
+        BadRowCounter { input, count: 0 }
     }
 
     /// Counts a bad row, and prints the row and its problem unless enough rows have been printed.
@@ -25,14 +25,14 @@ impl BadRows {
         self.count += 1;
         if self.count <= MAX_PRINTED_ROWS {
             let message = format!("{}, {position}: {problem}", self.input);
-            progress.suspend(|| print_error(&message));
+            progress.hide_bar_during(|| print_error(&message));
         }
     }
 
     /// Prints the total number of bad rows, if not all of them were printed.
     pub fn print_total(&self) {
         if self.count > MAX_PRINTED_ROWS {
-            let BadRows { input, count } = self;
+            let BadRowCounter { input, count } = self;
             print_error(&format!(
                 "{input}: {count} bad rows in all; see column `reason` of the results"
             ));

@@ -1,6 +1,6 @@
 //! `ccd completions`: completion scripts for shells.
 
-use super::{Cli, Exit};
+use super::{Cli, RunOutcome};
 use crate::command::output::OutputError;
 use anyhow::Result;
 use clap::{Args, CommandFactory};
@@ -22,10 +22,10 @@ Examples:
   ccd completions zsh > ~/.zfunc/_ccd
   ccd completions fish > ~/.config/fish/completions/ccd.fish";
 
-pub(super) fn run(args: &CompletionsArgs) -> Result<Exit> {
+pub(super) fn run(args: &CompletionsArgs) -> Result<RunOutcome> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "ccd", &mut script);
     let written = io::stdout().write_all(&script);
     written.map_err(OutputError::for_standard_output)?;
-    Ok(Exit::AllAnswered)
+    Ok(RunOutcome::AllAnswered)
 }

@@ -2,7 +2,7 @@
 
 mod statistics;
 
-use super::Exit;
+use super::RunOutcome;
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::named::{ORDERS, named_value_parser};
@@ -106,12 +106,12 @@ enum OutputKind {
 }
 
 /// Runs `ccd decompose`: prepares the mesh, writes the output file if any, and prints the statistics.
-pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
+pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
     let mut source = MeshSource::try_from(args.mesh.clone())?;
     source.adjustments = source
         .adjustments
         .combined_with(&args.meshes.adjustments())?;
-    check_mesh(&source.file)?;
+    refuse_prepared_body(&source.file)?;
     let detail = source.detail(args.detail()?);
     let out = args.out.as_deref().map(|out| claim(out, &source.file));
     let out = out.transpose()?;
@@ -131,7 +131,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
         FormatArg::Json => writeln!(io::stdout(), "{}", serde_json::to_string(&statistics)?),
     };
     printed.map_err(OutputError::for_standard_output)?;
-    Ok(Exit::AllAnswered)
+    Ok(RunOutcome::AllAnswered)
 }
 
 /// Reserves the output file before the decomposition. So a file that cannot be written is reported at once, not after
@@ -142,7 +142,7 @@ fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
     Ok((form, Output::claim(out)?))
 }
 
-fn check_mesh(mesh: &Path) -> Result<()> {
+fn refuse_prepared_body(mesh: &Path) -> Result<()> {
     if mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
         bail!(
             "{}: is already a prepared body; give the mesh it was made from",

@@ -1,6 +1,6 @@
 //! Opens input tables from files or standard input, and names files in messages.
 
-use super::output::{JOURNAL_EXTENSION, is_standard_output, is_standard_stream};
+use super::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
 use crate::table::courses::MovementRows;
 use crate::table::csv_records::CsvRecords;
 use crate::table::motions::MotionRows;
@@ -19,7 +19,7 @@ pub fn refuse_overwriting(
     if is_standard_output(target) {
         return Ok(());
     }
-    if same_file(source, target) {
+    if is_same_file(source, target) {
         bail!("{written} would overwrite the file of {read}; give {written} another file");
     }
     let end = resolve_links(target).unwrap_or_else(|_| target.to_owned());
@@ -27,7 +27,7 @@ pub fn refuse_overwriting(
         let mut name = end.clone().into_os_string();
         name.push(ending);
         let pending = PathBuf::from(name);
-        if same_file(source, &pending) {
+        if is_same_file(source, &pending) {
             let pending = pending.display();
             bail!(
                 "{written} would overwrite {pending}, the file of {read}; give {written} another file"
@@ -60,7 +60,7 @@ pub(super) fn open_movement_rows(path: &Path, grouping: Grouping) -> Result<(Row
 fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
     let name = || input_name(path);
     let advice = "give --motions a CSV file, or - for standard input";
-    if is_standard_stream(path) {
+    if is_dash(path) {
         return Ok((Box::new(io::stdin().lock()), None));
     }
     let open = || -> io::Result<_> {
@@ -80,7 +80,7 @@ fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
 
 /// Returns the name that messages give to an input: its path, or standard input.
 pub fn input_name(path: &Path) -> String {
-    if is_standard_stream(path) {
+    if is_dash(path) {
         "standard input".to_owned()
     } else {
         path.display().to_string()
@@ -88,7 +88,7 @@ pub fn input_name(path: &Path) -> String {
 }
 
 /// Returns whether two paths refer to the same file, which need not exist.
-pub fn same_file(a: &Path, b: &Path) -> bool {
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
     a == b || real_path(a).is_some_and(|a| Some(a) == real_path(b))
 }
 

@@ -1,6 +1,6 @@
 //! `ccd man`: man pages for the command and each subcommand.
 
-use super::{Cli, Exit};
+use super::{Cli, RunOutcome};
 use crate::command::output::OutputError;
 use anyhow::Result;
 use clap::{Args, Command, CommandFactory};
@@ -21,11 +21,11 @@ Examples:
   ccd man ~/.local/share/man/man1
   ccd man . && man ./ccd-query.1";
 
-pub(super) fn run(args: &ManArgs) -> Result<Exit> {
+pub(super) fn run(args: &ManArgs) -> Result<RunOutcome> {
     let mut command = Cli::command().disable_help_subcommand(true);
     command.build();
     write(command, &args.folder)?;
-    Ok(Exit::AllAnswered)
+    Ok(RunOutcome::AllAnswered)
 }
 
 /// Writes the man pages of a command and of all its subcommands into a folder.

@@ -36,7 +36,7 @@ impl MeshArgs {
     pub(super) fn adjustments(&self) -> Adjustments {
         let mut all = Adjustments::NONE;
         if let Some(unit) = self.unit {
-            all = all.converted_to(unit);
+            all = all.with_target_unit(unit);
         }
         // The parser has refused invalid factors.
         all = self
@@ -46,7 +46,11 @@ impl MeshArgs {
         if let Some(axis) = self.mirror {
             all = all.mirrored(axis);
         }
-        if self.surface { all.hollow() } else { all }
+        if self.surface {
+            all.treated_as_hollow()
+        } else {
+            all
+        }
     }
 
     /// Returns the unit of length that `--unit` gives; `None` without this option.

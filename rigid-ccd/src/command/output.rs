@@ -99,11 +99,11 @@ impl Output {
 /// Returns whether a path is `-` or `/dev/stdout`, which stand for standard output. A file to which standard output is
 /// redirected is not replaced.
 pub(super) fn is_standard_output(path: &Path) -> bool {
-    is_standard_stream(path) || path == Path::new("/dev/stdout")
+    is_dash(path) || path == Path::new("/dev/stdout")
 }
 
 /// Returns whether a path is `-`, which stands for standard input or output.
-pub(super) fn is_standard_stream(path: &Path) -> bool {
+pub(super) fn is_dash(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 

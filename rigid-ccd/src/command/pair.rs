@@ -3,7 +3,7 @@
 use super::meshes::MeshArgs;
 use crate::Remark;
 use crate::batch::{Bodies, SolverKind};
-use crate::command::files::{Rows, same_file};
+use crate::command::files::{Rows, is_same_file};
 use crate::command::progress::Progress;
 use crate::command::size::Size;
 use crate::command::{print_error, print_line, print_remarks};
@@ -34,11 +34,15 @@ impl BodiesArgs {
     ///
     /// # Errors
     /// If an option names no body.
-    pub(super) fn files(&self) -> Result<Vec<(&'static str, PathBuf)>> {
+    pub(super) fn files_with_options(&self) -> Result<Vec<(&'static str, PathBuf)>> {
         let mut found = Vec::new();
         for (option, text) in [("--a", &self.a), ("--b", &self.b)] {
             let source: BodySource = text.parse().context(option)?;
-            found.extend(files(&source).into_iter().map(|path| (option, path)));
+            found.extend(
+                files_of_source(&source)
+                    .into_iter()
+                    .map(|path| (option, path)),
+            );
         }
         Ok(found)
     }
@@ -51,7 +55,7 @@ impl BodiesArgs {
         let source_b = source(&self.b).context("--b")?;
         let load = |option, text, source| self.load_body((option, text), source, method, quiet);
         let (a, unit_a) = load("--a", &self.a, &source_a)?;
-        let b = if same_source(&source_a, &source_b) {
+        let b = if is_same_source(&source_a, &source_b) {
             None
         } else {
             Some(load("--b", &self.b, &source_b)?)
@@ -115,7 +119,7 @@ impl Pair {
     /// body.
     pub(super) fn print_remarks(&self, tolerance: f64, rows: &Rows) {
         let Bodies { a, b } = self.bodies();
-        let remark = Remark::check_tolerance(tolerance, [a, b].map(Remark::size));
+        let remark = Remark::remark_on_tolerance(tolerance, [a, b].map(Remark::size));
         print_remarks(remark.into_iter().chain(rows.remarks()));
     }
 
@@ -138,8 +142,8 @@ fn warn_of_mixed_units(
                 "--a is in {a}, --b in {b}, and the numbers of both are kept: give --unit {a} or --unit {b} to convert them"
             ));
         }
-        (Some(unit), None) if is_file(source_b) => ("--a", unit, "--b"),
-        (None, Some(unit)) if is_file(source_a) => ("--b", unit, "--a"),
+        (Some(unit), None) if is_from_file(source_b) => ("--a", unit, "--b"),
+        (None, Some(unit)) if is_from_file(source_a) => ("--b", unit, "--a"),
         _ => return None,
     };
     Some(format!(
@@ -148,7 +152,7 @@ fn warn_of_mixed_units(
     ))
 }
 
-fn is_file(source: &BodySource) -> bool {
+fn is_from_file(source: &BodySource) -> bool {
     matches!(source, BodySource::Mesh(_) | BodySource::Stored(_))
 }
 
@@ -157,19 +161,19 @@ fn with_hull_tree(body: Body) -> Result<Body> {
     Ok(body.with_hull_tree(tree)?)
 }
 
-fn same_source(a: &BodySource, b: &BodySource) -> bool {
+fn is_same_source(a: &BodySource, b: &BodySource) -> bool {
     match (a, b) {
-        (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
+        (BodySource::Stored(a), BodySource::Stored(b)) => is_same_file(a, b),
         (BodySource::Mesh(a), BodySource::Mesh(b)) => {
             let same = a.part == b.part && a.adjustments == b.adjustments;
-            same && same_file(&a.file, &b.file)
+            same && is_same_file(&a.file, &b.file)
         }
         _ => a == b,
     }
 }
 
 /// Returns the files that a body is read from; empty for a primitive.
-fn files(source: &BodySource) -> Vec<PathBuf> {
+fn files_of_source(source: &BodySource) -> Vec<PathBuf> {
     // An unreadable file is reported when its body is made.
     source.file_paths().unwrap_or_else(|_| match source {
         BodySource::Stored(path) => vec![path.clone()],
@@ -181,7 +185,7 @@ fn files(source: &BodySource) -> Vec<PathBuf> {
 /// Returns the checksum of all files of a body; 0 for a primitive or files that cannot be read.
 fn checksum(source: &BodySource) -> u32 {
     let mut sum = crc32fast::Hasher::new();
-    let files = files(source);
+    let files = files_of_source(source);
     let mut add = |path: &PathBuf| fs::read(path).map(|bytes| sum.update(&bytes));
     match files.iter().try_for_each(&mut add) {
         Ok(()) if !files.is_empty() => sum.finalize(),

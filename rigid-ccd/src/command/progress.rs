@@ -15,19 +15,19 @@ use std::time::Duration;
 pub struct Progress {
     bar: ProgressBar,
     steps: Arc<AtomicU64>,
-    total: Total,
+    total: TotalWork,
     /// The number of input bytes that each step of the current batch counts for, if the total is in bytes.
     bytes_per_step: AtomicU64,
     /// The end of the current batch's rows, in bytes of the input, if the total is in bytes.
     end: AtomicU64,
     /// The sender whose drop tells the displaying thread that the work is done.
-    done_signal: Option<Sender<()>>,
+    done_sender: Option<Sender<()>>,
     display_thread: Option<JoinHandle<()>>,
 }
 
 /// The total amount of work, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Total {
+pub enum TotalWork {
     /// A known number of steps.
     Steps(usize),
     /// The length in bytes of an input whose rows the steps answer.
@@ -45,17 +45,17 @@ const SHOW_DELAY: Duration = Duration::from_secs(1);
 const REDRAW_INTERVAL: Duration = Duration::from_millis(120);
 
 /// The time between two printed lines of progress, without a terminal.
-const LINE_INTERVAL: Duration = Duration::from_secs(5);
+const PRINT_INTERVAL: Duration = Duration::from_secs(5);
 
 impl Progress {
     /// Starts to show progress; dropping the returned value ends the display.
-    pub fn new(total: Total) -> Self {
+    pub fn new(total: TotalWork) -> Self {
         let mut progress = Progress::hidden();
         progress.total = total;
         let length = match total {
-            Total::Steps(steps) => Some(steps as u64),
-            Total::Bytes(bytes) => Some(bytes),
-            Total::Unknown | Total::SingleStep => None,
+            TotalWork::Steps(steps) => Some(steps as u64),
+            TotalWork::Bytes(bytes) => Some(bytes),
+            TotalWork::Unknown | TotalWork::SingleStep => None,
         };
         if let Some(length) = length {
             progress.bar.set_length(length);
@@ -73,7 +73,7 @@ impl Progress {
                 bar.enable_steady_tick(REDRAW_INTERVAL);
                 return;
             }
-            while still_working(LINE_INTERVAL) {
+            while still_working(PRINT_INTERVAL) {
                 let _ = writeln!(
                     io::stderr(),
                     "{}: {}",
@@ -84,7 +84,7 @@ impl Progress {
         };
         // Without a thread nothing is shown, but the work is done.
         progress.display_thread = thread::Builder::new().spawn(show).ok();
-        progress.done_signal = Some(working);
+        progress.done_sender = Some(working);
         progress
     }
 
@@ -93,7 +93,7 @@ impl Progress {
         if quiet {
             Progress::hidden()
         } else {
-            Progress::new(length.map_or(Total::Unknown, Total::Bytes))
+            Progress::new(length.map_or(TotalWork::Unknown, TotalWork::Bytes))
         }
     }
 
@@ -102,7 +102,7 @@ impl Progress {
         if quiet {
             return Progress::hidden();
         }
-        let progress = Progress::new(Total::SingleStep);
+        let progress = Progress::new(TotalWork::SingleStep);
         progress.set_message(message);
         progress
     }
@@ -112,10 +112,10 @@ impl Progress {
         Progress {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
             steps: Arc::default(),
-            total: Total::Unknown,
+            total: TotalWork::Unknown,
             bytes_per_step: AtomicU64::new(0),
             end: AtomicU64::new(0),
-            done_signal: None,
+            done_sender: None,
             display_thread: None,
         }
     }
@@ -124,16 +124,16 @@ impl Progress {
     pub fn step(&self) {
         self.steps.fetch_add(1, Ordering::Relaxed);
         match self.total {
-            Total::Steps(_) => self.bar.inc(1),
-            Total::Bytes(_) => self.bar.inc(self.bytes_per_step.load(Ordering::Relaxed)),
-            Total::Unknown | Total::SingleStep => {}
+            TotalWork::Steps(_) => self.bar.inc(1),
+            TotalWork::Bytes(_) => self.bar.inc(self.bytes_per_step.load(Ordering::Relaxed)),
+            TotalWork::Unknown | TotalWork::SingleStep => {}
         }
     }
 
     /// Begins a batch of `steps` steps, which answer the input's rows up to byte `end`; rows before the batch count as
     /// answered.
     pub fn begin_batch(&self, steps: usize, end: u64) {
-        if let Total::Bytes(_) = self.total {
+        if let TotalWork::Bytes(_) = self.total {
             let begin = self.end.swap(end, Ordering::Relaxed);
             self.bar.set_position(begin);
             let bytes = end.saturating_sub(begin) / (steps as u64).max(1);
@@ -142,7 +142,7 @@ impl Progress {
     }
 
     /// Redraws the bar with the current time.
-    pub fn tick(&self) {
+    pub fn redraw_bar(&self) {
         self.bar.tick();
     }
 
@@ -152,14 +152,14 @@ impl Progress {
     }
 
     /// Hides the bar while something else is written to standard error.
-    pub fn suspend(&self, write: impl FnOnce()) {
+    pub fn hide_bar_during(&self, write: impl FnOnce()) {
         self.bar.suspend(write);
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        drop(self.done_signal.take());
+        drop(self.done_sender.take());
         if let Some(showing) = self.display_thread.take() {
             // The thread has no result and does not panic.
             let _ = showing.join();
@@ -168,12 +168,12 @@ impl Drop for Progress {
     }
 }
 
-fn progress_style(total: Total, steps: Arc<AtomicU64>) -> ProgressStyle {
+fn progress_style(total: TotalWork, steps: Arc<AtomicU64>) -> ProgressStyle {
     let template = match total {
-        Total::Steps(_) => "{bar:30} {pos}/{len} {wide_msg}",
-        Total::Bytes(_) => "{bar:30} {percent} % {rows}",
-        Total::Unknown => "{spinner} {rows}",
-        Total::SingleStep => "{spinner} {wide_msg} {elapsed}",
+        TotalWork::Steps(_) => "{bar:30} {pos}/{len} {wide_msg}",
+        TotalWork::Bytes(_) => "{bar:30} {percent} % {rows}",
+        TotalWork::Unknown => "{spinner} {rows}",
+        TotalWork::SingleStep => "{spinner} {wide_msg} {elapsed}",
     };
     ProgressStyle::with_template(template)
         .unwrap_or_else(|_| ProgressStyle::default_bar())
@@ -186,13 +186,13 @@ fn progress_style(total: Total, steps: Arc<AtomicU64>) -> ProgressStyle {
 }
 
 /// Returns the progress as one line of text.
-fn line(bar: &ProgressBar, total: Total, steps: &AtomicU64) -> String {
+fn line(bar: &ProgressBar, total: TotalWork, steps: &AtomicU64) -> String {
     let share = || 100 * bar.position() / bar.length().unwrap_or(1).max(1);
     match total {
-        Total::Steps(steps) => format!("{} of {steps} {}", bar.position(), bar.message()),
-        Total::Bytes(_) => format!("{}, {} %", rate(steps, bar.elapsed()), share()),
-        Total::Unknown => rate(steps, bar.elapsed()),
-        Total::SingleStep => format!("{}, {} s", bar.message(), bar.elapsed().as_secs()),
+        TotalWork::Steps(steps) => format!("{} of {steps} {}", bar.position(), bar.message()),
+        TotalWork::Bytes(_) => format!("{}, {} %", rate(steps, bar.elapsed()), share()),
+        TotalWork::Unknown => rate(steps, bar.elapsed()),
+        TotalWork::SingleStep => format!("{}, {} s", bar.message(), bar.elapsed().as_secs()),
     }
 }
 

@@ -15,7 +15,7 @@ pub(super) use args::QueryArgs;
 use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, RowsPage, title, write_rows};
-use super::{Exit, print_error};
+use super::{RunOutcome, print_error};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion};
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
@@ -33,13 +33,13 @@ use std::num::NonZeroUsize;
 use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
-pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
-    check_file_paths(args)?;
-    check_bound(args)?;
-    check_question(args)?;
-    refuse_unproven_check(args)?;
-    let (mut rows, length) = open_movement_rows(&args.motions, args.ask.grouping())?;
-    check_options_for_paths(args, &rows)?;
+pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
+    refuse_shared_files(args)?;
+    refuse_unused_bound(args)?;
+    refuse_options_unfit_for_question(args)?;
+    refuse_check_without_proof(args)?;
+    let (mut rows, length) = open_movement_rows(&args.motions, args.ask.path_grouping())?;
+    refuse_options_unfit_for_paths(args, &rows)?;
     let places = ClaimedFiles::claim(args)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
@@ -61,7 +61,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     let progress = Progress::for_rows(length, args.quiet);
     let mut run = QueryRun {
         args,
-        answering: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
+        batch_run: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         outputs,
         page_rows: args
             .html
@@ -71,40 +71,44 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     };
     let end = run.answer_rows(&mut rows, start)?;
     run.outputs.finish(end)?;
-    drop(run.answering.progress);
-    run.answering.bad_rows.print_total();
+    drop(run.batch_run.progress);
+    run.batch_run.bad_row_counter.print_total();
     let shown = write_page(args, &pair, run.page_rows.zip(html))?;
     if run.summary.counts.rows() == 0 && earlier.is_none() {
-        report_no_rows(args, start.rows);
+        warn_of_no_rows(args, start.rows);
     }
     if !args.quiet {
         print_summary(args, &run.summary);
         pair.print_remarks(args.tolerance, &rows);
     }
     Ok(match (run_outcome(args, end), shown) {
-        (Exit::AllAnswered, shown) | (_, shown @ Exit::SomeRowsBad) => shown,
+        (RunOutcome::AllAnswered, shown) | (_, shown @ RunOutcome::SomeRowsBad) => shown,
         (bad, _) => bad,
     })
 }
 
 /// Writes the HTML page of the chosen rows, if `--html` is given.
-fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(ChosenRows, Output)>) -> Result<Exit> {
+fn write_page(
+    args: &QueryArgs,
+    pair: &Pair,
+    page: Option<(ChosenRows, Output)>,
+) -> Result<RunOutcome> {
     let Some((chosen, html)) = page else {
-        return Ok(Exit::AllAnswered);
+        return Ok(RunOutcome::AllAnswered);
     };
     let subject = RowsPage {
         title: &title(&args.bodies),
         pair,
-        context: page_context(args),
+        context: query_context(args),
     };
     write_rows(subject, chosen, html, args.quiet)
 }
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
-fn page_context(args: &QueryArgs) -> QueryContext {
+fn query_context(args: &QueryArgs) -> QueryContext {
     let claim = match (args.bound, args.ask) {
-        (Some(BoundKind::Published), _) => TimeMeaning::Published,
-        (_, Question::IsFree) => TimeMeaning::Any,
+        (Some(BoundKind::Published), _) => TimeMeaning::UncertifiedFirstContact,
+        (_, Question::IsFree) => TimeMeaning::SomeContact,
         (_, Question::Distance) => TimeMeaning::MeasurementTime,
         _ if ignores_start_contacts(args) => TimeMeaning::FirstContactAfterParting,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
@@ -112,16 +116,16 @@ fn page_context(args: &QueryArgs) -> QueryContext {
         }
     };
     QueryContext {
-        claim,
+        time_meaning: claim,
         margin: args.margin,
         clearance: args.clearance,
     }
 }
 
 /// Refuses an output that is also an input or another output.
-fn check_file_paths(args: &QueryArgs) -> Result<()> {
+fn refuse_shared_files(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
-    read.extend(args.bodies.files()?);
+    read.extend(args.bodies.files_with_options()?);
     let mut written = vec![("--out", &args.out)];
     written.extend(args.html.iter().map(|path| ("--html", path)));
     written.extend(args.contacts.iter().map(|path| ("--contacts", path)));
@@ -141,7 +145,7 @@ fn check_file_paths(args: &QueryArgs) -> Result<()> {
 }
 
 /// Refuses `--bound` for a schedule that uses no bound on the motion.
-fn check_bound(args: &QueryArgs) -> Result<()> {
+fn refuse_unused_bound(args: &QueryArgs) -> Result<()> {
     match args.bound {
         Some(bound) if !args.schedule.uses_velocity_bound() => {
             bail!("--bound {bound} needs --schedule fast or naive")
@@ -151,7 +155,7 @@ fn check_bound(args: &QueryArgs) -> Result<()> {
 }
 
 /// Refuses options that do not apply to the question of `--ask`.
-fn check_question(args: &QueryArgs) -> Result<()> {
+fn refuse_options_unfit_for_question(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
     if args.clearance.is_some() && !ask.is_for_a_distance() {
         bail!(
@@ -176,7 +180,7 @@ fn check_question(args: &QueryArgs) -> Result<()> {
 }
 
 /// Refuses `--check` with options under which no answer is a proof.
-fn refuse_unproven_check(args: &QueryArgs) -> Result<()> {
+fn refuse_check_without_proof(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
     if !args.check {
         return Ok(());
@@ -193,7 +197,7 @@ fn refuse_unproven_check(args: &QueryArgs) -> Result<()> {
 }
 
 /// Refuses options for tables of motions if the table contains paths.
-fn check_options_for_paths(args: &QueryArgs, rows: &Rows) -> Result<()> {
+fn refuse_options_unfit_for_paths(args: &QueryArgs, rows: &Rows) -> Result<()> {
     if rows.is_path_table() && args.schedule != ScheduleKind::BestFirst {
         bail!(
             "--schedule {} needs a table of motions, not of paths",
@@ -240,7 +244,7 @@ fn timed_question(args: &QueryArgs) -> TimedQuestion {
             start: args.start,
             budget: args.budget,
             deadline: args.deadline,
-            instructions: args.instructions,
+            vector_instructions: args.instructions,
             shortcuts: (args.without.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each)),
             stop: None,
         },
@@ -249,7 +253,7 @@ fn timed_question(args: &QueryArgs) -> TimedQuestion {
 }
 
 /// Warns that no row was answered, and says why.
-fn report_no_rows(args: &QueryArgs, skipped: usize) {
+fn warn_of_no_rows(args: &QueryArgs, skipped: usize) {
     let input = input_name(&args.motions);
     if args.rows.includes_all_rows() {
         print_error(&format!("{input}: has a header, but no rows"));
@@ -273,7 +277,7 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
 }
 
 /// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
-fn run_outcome(args: &QueryArgs, end: Checkpoint) -> Exit {
+fn run_outcome(args: &QueryArgs, end: Checkpoint) -> RunOutcome {
     let failed = end
         .counts
         .nonzero_counts()
@@ -286,8 +290,8 @@ fn run_outcome(args: &QueryArgs, end: Checkpoint) -> Exit {
         ));
     }
     match (end.bad_rows, failed) {
-        (0, 1..) if args.check => Exit::SomeRowsNotFree,
-        (0, _) => Exit::AllAnswered,
-        _ => Exit::SomeRowsBad,
+        (0, 1..) if args.check => RunOutcome::SomeRowsUnproven,
+        (0, _) => RunOutcome::AllAnswered,
+        _ => RunOutcome::SomeRowsBad,
     }
 }

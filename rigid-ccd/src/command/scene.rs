@@ -4,8 +4,8 @@ use super::meshes::MeshArgs;
 use super::numbers::{parse_nonnegative, tolerance};
 use super::output::Output;
 use super::scene_table::{self, SceneArgs};
-use super::table::Table;
-use super::{Exit, print_error};
+use super::table::TableWriter;
+use super::{RunOutcome, print_error};
 use crate::Error;
 use crate::picture::scene_verdict;
 use crate::scene::{Impact, PairError};
@@ -70,7 +70,7 @@ Exit code: 0 if every pair has an answer, 2 for bad input, 1 if nothing can be w
 const OMITTED_COLUMNS: &[&str] = &["id", "iterations", "oracle_calls", "micros"];
 
 /// Runs `ccd scene`: finds the contacts of the bodies in a scene, and writes the table of contacts.
-pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
+pub(super) fn run(args: &SceneCommandArgs) -> Result<RunOutcome> {
     let how = SceneArgs {
         meshes: &args.meshes,
         duration: args.duration,
@@ -97,8 +97,8 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     let ids: Vec<&str> = table.ids().collect();
     let columns = reordered_columns(&[], OMITTED_COLUMNS);
     let header = [vec!["a", "b"], names(&columns)].concat();
-    let mut out = Table::start(out, &header)?;
-    let mut exit = Exit::AllAnswered;
+    let mut out = TableWriter::start(out, &header)?;
+    let mut exit = RunOutcome::AllAnswered;
     for contact in &contacts {
         let bodies = match contact {
             Ok(impact) => impact.bodies,
@@ -106,7 +106,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         };
         let row = row(contact);
         if row.status == Status::Error {
-            exit = Exit::SomeRowsBad;
+            exit = RunOutcome::SomeRowsBad;
         }
         out.row(&(bodies.map(|body| ids[body]), Line(&columns, &row)))?;
     }

@@ -35,7 +35,7 @@ pub(super) struct SceneTable {
     bodies: HashMap<String, Body>,
     files: Vec<PathBuf>,
     /// The messages from loading the bodies' files.
-    reports: Vec<String>,
+    load_messages: Vec<String>,
     /// The remarks about probable mistakes in the motions.
     remarks: Vec<Remark>,
     rows: Vec<BodyRow>,
@@ -59,7 +59,7 @@ pub(super) fn read(
     let mut scene = SceneTable {
         bodies: HashMap::new(),
         files: Vec::new(),
-        reports: Vec::new(),
+        load_messages: Vec::new(),
         remarks,
         rows: Vec::new(),
         duration,
@@ -145,7 +145,8 @@ impl SceneTable {
         let source: BodySource = text.parse()?;
         let detail = how.meshes.pieces.detail();
         let prepared = source.load_adjusted(&how.meshes.adjustments(), detail)?;
-        self.reports.push(format!("{text}: {}", prepared.report));
+        self.load_messages
+            .push(format!("{text}: {}", prepared.report));
         self.bodies.insert(text.to_owned(), prepared.body);
         self.files.extend(source.file_paths()?);
         Ok(())
@@ -153,7 +154,7 @@ impl SceneTable {
 
     /// Prints the messages from loading, the duration if it is the default, and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
-        for report in &self.reports {
+        for report in &self.load_messages {
             print_line(report);
         }
         if self.is_default_duration {
@@ -165,7 +166,7 @@ impl SceneTable {
         let sizes = self.bodies.values().map(Remark::size);
         let least = sizes.filter(|&size| size > 0.0).fold(f64::INFINITY, lesser);
         let remarks = self.remarks.iter().copied();
-        print_remarks(remarks.chain(Remark::check_tolerance(tolerance, [least; 2])));
+        print_remarks(remarks.chain(Remark::remark_on_tolerance(tolerance, [least; 2])));
     }
 
     /// Returns the bodies to draw, in the order of their rows.

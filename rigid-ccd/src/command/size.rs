@@ -13,7 +13,7 @@ use std::fmt;
 pub struct Size(DVec3);
 
 /// The ratio of sizes above which the command warns; millimetres and metres differ by 1000.
-const WARNING_RATIO: f64 = 100.0;
+const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
 
 impl Size {
     /// Returns the side lengths of a body's bounding box.
@@ -33,7 +33,7 @@ impl Size {
         } else {
             ("--b", "--a", of_b / of_a)
         };
-        if ratio > WARNING_RATIO && ratio.is_finite() {
+        if ratio > MAX_USUAL_SIZE_RATIO && ratio.is_finite() {
             print_error(&format!(
                 "{large} is {} times as large as {small} ({a} and {b}): check that both use the same unit of length",
                 RoundedToFourDigits(ratio)

@@ -11,7 +11,7 @@ use std::path::Path;
 ///
 /// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
 /// name ends in `.partial`, and which stays if the run is interrupted. A stream is written directly.
-pub struct Table {
+pub struct TableWriter {
     name: String,
     writer: csv::Writer<MeasuringWriter>,
     claim: Option<Claim>,
@@ -31,10 +31,10 @@ pub struct MeasuringWriter {
     checksum: crc32fast::Hasher,
 }
 
-impl Table {
+impl TableWriter {
     /// Creates a table with its header; an existing file is kept until the new table is complete.
     pub fn create(path: &Path, header: &[&str]) -> Result<Self, OutputError> {
-        Table::start(Output::claim_table(path)?, header)
+        TableWriter::start(Output::claim_table(path)?, header)
     }
 
     /// Starts a table in a reserved output, and discards what an earlier run left there.
@@ -62,7 +62,7 @@ impl Table {
             bytes: 0,
             checksum: crc32fast::Hasher::new(),
         };
-        let mut table = Table::new(name, measured, claim);
+        let mut table = TableWriter::new(name, measured, claim);
         table.write(|writer| writer.write_record(header))?;
         Ok(table)
     }
@@ -89,7 +89,9 @@ impl Table {
             }))
         })();
         match opened {
-            Ok(measured) => Ok(measured.map(|measured| Table::new(name, measured, Some(claim)))),
+            Ok(measured) => {
+                Ok(measured.map(|measured| TableWriter::new(name, measured, Some(claim))))
+            }
             Err(source) => Err(OutputError {
                 place: name,
                 source,
@@ -100,7 +102,7 @@ impl Table {
     fn new(name: String, measured: MeasuringWriter, claim: Option<Claim>) -> Self {
         let mut builder = csv::WriterBuilder::new();
         let builder = builder.has_headers(false).buffer_capacity(1 << 16);
-        Table {
+        TableWriter {
             name,
             writer: builder.from_writer(measured),
             claim,
@@ -112,7 +114,7 @@ impl Table {
         &mut self,
         row: impl FnOnce(&mut csv::Writer<MeasuringWriter>) -> Result<(), csv::Error>,
     ) -> Result<(), OutputError> {
-        row(&mut self.writer).map_err(|error| self.write_error(csv_cause(error)))
+        row(&mut self.writer).map_err(|error| self.output_error(io_error_from_csv(error)))
     }
 
     /// Adds a row, given as serialisable cells.
@@ -128,7 +130,7 @@ impl Table {
     /// Flushes all rows to the file, and returns the length and checksum of the table.
     pub(super) fn flush_and_measure(&mut self) -> Result<WrittenSize, OutputError> {
         let flushed = self.writer.flush();
-        flushed.map_err(|source| self.write_error(source))?;
+        flushed.map_err(|source| self.output_error(source))?;
         if let Some(claim) = &mut self.claim {
             claim.keep_on_drop();
         }
@@ -146,11 +148,11 @@ impl Table {
         self.flush()?;
         match self.claim.take().map_or(Ok(()), Claim::place) {
             Ok(()) => Ok(()),
-            Err(source) => Err(self.write_error(source)),
+            Err(source) => Err(self.output_error(source)),
         }
     }
 
-    fn write_error(&self, source: io::Error) -> OutputError {
+    fn output_error(&self, source: io::Error) -> OutputError {
         OutputError {
             place: self.name.clone(),
             source,
@@ -194,7 +196,7 @@ pub(super) fn measure(
     Ok((written, checksum))
 }
 
-fn csv_cause(error: csv::Error) -> io::Error {
+fn io_error_from_csv(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
         other => io::Error::other(format!("{other:?}")),

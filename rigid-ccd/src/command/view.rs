@@ -3,7 +3,7 @@
 mod args;
 mod chosen;
 
-use args::Subject;
+use args::PageSubject;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::ChosenRows;
 
@@ -11,7 +11,7 @@ use super::files::{input_name, open_movement_rows, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
-use super::{Exit, print_error};
+use super::{RunOutcome, print_error};
 use crate::batch::{Question, SolverKind, TimedQuestion, time};
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
 use crate::table::results::{self, ResultRow};
@@ -26,32 +26,32 @@ use std::path::Path;
 const MAX_ROWS_READ: usize = 10_000;
 
 /// Runs `ccd view`: writes the page of a table of motions or of a scene.
-pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
-    match args.subject() {
-        Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
-        Some(Subject::Scene(path, how)) => {
+pub(super) fn run(args: &ViewArgs) -> Result<RunOutcome> {
+    match args.page_subject() {
+        Some(PageSubject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
+        Some(PageSubject::Scene(path, how)) => {
             view_scene(args, path, how)?;
-            Ok(Exit::AllAnswered)
+            Ok(RunOutcome::AllAnswered)
         }
         None => bail!("give either --a, --b and --motions, or --scene"),
     }
 }
 
-fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exit> {
-    let mut read = bodies.files()?;
+fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<RunOutcome> {
+    let mut read = bodies.files_with_options()?;
     read.push(("--motions", motions.to_owned()));
     read.extend(args.results.iter().map(|path| ("--results", path.clone())));
     for (option, path) in &read {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
-    let (mut rows, _) = open_movement_rows(motions, Question::FirstContact.grouping())?;
+    let (mut rows, _) = open_movement_rows(motions, Question::FirstContact.path_grouping())?;
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = ChosenRows::new(args.ids.clone());
-    let timing = timing(args);
+    let timing = timed_question(args);
     let asked = QueryContext {
-        claim: known
+        time_meaning: known
             .as_ref()
             .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
         margin: args.margin,
@@ -133,9 +133,9 @@ pub(super) fn write_rows(
     mut chosen: ChosenRows,
     out: Output,
     quiet: bool,
-) -> Result<Exit> {
-    let all_found = chosen.missing().next().is_none();
-    for id in chosen.missing() {
+) -> Result<RunOutcome> {
+    let all_found = chosen.ids_without_row().next().is_none();
+    for id in chosen.ids_without_row() {
         print_error(&format!("no row has the id {id:?}"));
     }
     let mut painter = Painter::new(pair.bodies(), asked);
@@ -151,13 +151,13 @@ pub(super) fn write_rows(
     }
     if views.is_empty() {
         print_error("there is no row to show, and no page");
-        return Ok(Exit::SomeRowsBad);
+        return Ok(RunOutcome::SomeRowsBad);
     }
     write_page(&painter.page(title, views), out, quiet)?;
     Ok(if all_found && chosen.are_all_rows_drawable() {
-        Exit::AllAnswered
+        RunOutcome::AllAnswered
     } else {
-        Exit::SomeRowsBad
+        RunOutcome::SomeRowsBad
     })
 }
 
@@ -183,7 +183,7 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     Ok(known)
 }
 
-fn timing(args: &ViewArgs) -> TimedQuestion {
+fn timed_question(args: &ViewArgs) -> TimedQuestion {
     TimedQuestion {
         settings: Settings {
             tolerance: args.tolerance,
@@ -201,7 +201,7 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     }
     let out = Output::claim(&args.out)?;
     let shown = table.bodies_to_draw();
-    let contacts = table.contacts(timing(args).settings);
+    let contacts = table.contacts(timed_question(args).settings);
     let title = input_name(path);
     let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
     if !args.quiet {

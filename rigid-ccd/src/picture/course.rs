@@ -8,8 +8,8 @@ use ccd_view::{Keyframe, ShownMotion};
 ///
 /// # Errors
 /// If a path has no pose at one of its times.
-pub fn course(course: &Movements) -> Result<[ShownMotion; 2], InputError> {
-    let path = match course {
+pub fn shown_motions(movements: &Movements) -> Result<[ShownMotion; 2], InputError> {
+    let path = match movements {
         Movements::Motions(query) => {
             return Ok([ShownMotion::from(&query.a), ShownMotion::from(&query.b)]);
         }

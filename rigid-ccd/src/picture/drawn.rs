@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 /// The number of points that approximate the sphere about each point of a rounded piece.
-const DIRECTIONS: u32 = 320;
+const SPHERE_POINT_COUNT: u32 = 320;
 
 /// Returns the triangles of a body's surface: the faces of its mesh, or the hulls of its pieces.
 pub fn drawn_mesh(body: &Body) -> DrawnMesh {
@@ -128,8 +128,8 @@ impl MeshBuilder {
 /// Returns evenly distributed unit vectors on a spiral from pole to pole.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
-    (0..DIRECTIONS).map(move |k| {
-        let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(DIRECTIONS);
+    (0..SPHERE_POINT_COUNT).map(move |k| {
+        let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(SPHERE_POINT_COUNT);
         let (sine, cosine) = (golden * f64::from(k)).sin_cos();
         let radius = (1.0 - z * z).sqrt();
         DVec3::new(radius * cosine, radius * sine, z)

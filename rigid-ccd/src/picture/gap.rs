@@ -5,7 +5,7 @@ use crate::batch::Bodies;
 use crate::table::courses::Movements;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, InputError, Settings, Stretch};
-use ccd_view::{Gap, GapPoint};
+use ccd_view::{Gap, GapSample};
 use std::time::{Duration, Instant};
 
 /// The maximum number of poses, besides the start, at which a query's bodies are also drawn as translucent ghosts.
@@ -39,7 +39,7 @@ impl GapOverTime {
 
     /// Returns the times at which the bodies are also drawn as translucent ghosts: steps more than a twelfth of
     /// `duration` apart.
-    pub fn ghosts(&self, duration: f64) -> Vec<f64> {
+    pub fn ghost_times(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
         for &step in &self.steps {
             if drawn
@@ -79,7 +79,7 @@ pub fn gap(
     let mut survey = GapSampler {
         solver,
         bodies,
-        course,
+        movements: course,
         proven_distance: greater(floor, 0.0),
         deadline: Instant::now() + TIME_LIMIT,
     };
@@ -97,28 +97,28 @@ pub fn gap(
 struct GapSampler<'a> {
     solver: &'a mut Solver,
     bodies: Bodies<'a>,
-    course: &'a Movements,
+    movements: &'a Movements,
     proven_distance: f64,
     deadline: Instant,
 }
 
 /// Bounds that hold between two times: of the closing speed of two bodies, and of their deviation from their motions.
 #[derive(Clone, Copy, Debug)]
-struct ClosingSpeed {
+struct ApproachBounds {
     speed: f64,
     deviation: f64,
 }
 
 impl GapSampler<'_> {
     /// Advances conservatively from the start until the bodies may touch, then measures at the end.
-    fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
-        let end = self.course.duration();
+    fn advance(&mut self) -> Result<(Vec<GapSample>, Vec<f64>), InputError> {
+        let end = self.movements.duration();
         let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
         while points.len() < MAX_ADVANCEMENT_STEPS && Instant::now() < self.deadline {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let ClosingSpeed { speed, deviation } = self.closing_speed(time, end)?;
+            let ApproachBounds { speed, deviation } = self.approach_bounds(time, end)?;
             let next = time + (point.lower - deviation) / speed;
             // At a contact the steps become shorter than rounding.
             if !(point.lower > deviation && next > time && next < end) {
@@ -133,10 +133,10 @@ impl GapSampler<'_> {
     }
 
     /// Measures the distance at more times, each in the middle of the interval with the largest gain.
-    fn add_measurements(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
+    fn add_measurements(&mut self, points: &mut Vec<GapSample>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
-            worths.push(self.gain(points[k - 1], points[k])?);
+            worths.push(self.area_between_bounds(points[k - 1], points[k])?);
         }
         while points.len() < MAX_MEASUREMENTS && Instant::now() < self.deadline {
             let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
@@ -145,8 +145,8 @@ impl GapSampler<'_> {
             };
             let (before, after) = (points[worst], points[worst + 1]);
             let middle = self.measure(0.5 * before.time + 0.5 * after.time)?;
-            worths[worst] = self.gain(before, middle)?;
-            worths.insert(worst + 1, self.gain(middle, after)?);
+            worths[worst] = self.area_between_bounds(before, middle)?;
+            worths.insert(worst + 1, self.area_between_bounds(middle, after)?);
             points.insert(worst + 1, middle);
         }
         Ok(())
@@ -154,50 +154,52 @@ impl GapSampler<'_> {
 
     /// Returns the gain of one more measurement between two others: an upper bound of the area between the distance and
     /// its proven lower bound.
-    fn gain(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
+    fn area_between_bounds(&self, before: GapSample, after: GapSample) -> Result<f64, InputError> {
         let time = after.time - before.time;
-        if !(time > 1e-6 * self.course.duration()) {
+        if !(time > 1e-6 * self.movements.duration()) {
             return Ok(0.0);
         }
-        let ClosingSpeed { speed, deviation } = self.closing_speed(before.time, after.time)?;
+        let ApproachBounds { speed, deviation } = self.approach_bounds(before.time, after.time)?;
         let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
     }
 
-    fn measure(&mut self, time: f64) -> Result<GapPoint, InputError> {
-        let [a, b] = self.course.poses(time)?;
+    fn measure(&mut self, time: f64) -> Result<GapSample, InputError> {
+        let [a, b] = self.movements.poses(time)?;
         let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
         let closest = &answer.outcome;
         let (lower, upper) = (greater(closest.lower(), 0.0), closest.upper());
         let upper = if upper.is_finite() { upper } else { lower };
-        Ok(GapPoint { time, lower, upper })
+        Ok(GapSample { time, lower, upper })
     }
 
     /// Bounds the closing speed of the bodies between two times, and their deviation from the motions there.
-    fn closing_speed(&self, from: f64, to: f64) -> Result<ClosingSpeed, InputError> {
-        let [a, b] = self.course.trajectories();
+    fn approach_bounds(&self, from: f64, to: f64) -> Result<ApproachBounds, InputError> {
+        let [a, b] = self.movements.trajectories();
         let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);
         let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
-        Ok(ClosingSpeed {
+        Ok(ApproachBounds {
             speed: (shift + turns + gains) * ROUNDING_FACTOR,
             // Bound the deviation both at the measured times and between them.
-            deviation: 2.0 * (a.deviation.at(reach_a) + b.deviation.at(reach_b)) * ROUNDING_FACTOR,
+            deviation: 2.0
+                * (a.deviation_bound.at(reach_a) + b.deviation_bound.at(reach_b))
+                * ROUNDING_FACTOR,
         })
     }
 
     /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
     /// measurement, but not below what is proven for all times.
-    fn proven(&self, points: &[GapPoint]) -> Result<Vec<[f64; 2]>, InputError> {
+    fn proven(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
         let floor = self.proven_distance;
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let ClosingSpeed { speed, deviation } = self.closing_speed(one.time, two.time)?;
-            let height = |point: GapPoint| greater(point.lower - deviation, floor);
+            let ApproachBounds { speed, deviation } = self.approach_bounds(one.time, two.time)?;
+            let height = |point: GapSample| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);
             // Add the point at which both lines meet, or those at which they meet the floor.

@@ -133,7 +133,7 @@ fn nothing_touches_before_the_last_step() {
             // The contact may be early by up to the tolerance.
             assert!(last <= hit.time + 1e-2, "{k}: {last} {}", hit.time);
         }
-        assert!(found.ghosts(query.duration).len() <= 13);
+        assert!(found.ghost_times(query.duration).len() <= 13);
     }
     assert!(contacts > 15, "{contacts}");
 }
@@ -228,7 +228,7 @@ fn keys_lead_where_the_engine_goes() {
             let turned = Pose::new(DVec3::X, half).unwrap();
             way.a = Poses::new(vec![(0.0, Pose::IDENTITY), (1.5, turned)]).unwrap();
         }
-        let shown = serde_json::to_value(&course(&way).unwrap()[0]).unwrap();
+        let shown = serde_json::to_value(&shown_motions(&way).unwrap()[0]).unwrap();
         let keys = shown["keys"].as_array().unwrap();
         let vector = |value: &serde_json::Value| {
             DVec3::from_array([0, 1, 2].map(|n| value[n].as_f64().unwrap()))

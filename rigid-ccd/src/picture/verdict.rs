@@ -6,7 +6,7 @@ use crate::table::results::{ResultRow, Status};
 #[derive(Clone, Copy, Debug)]
 pub struct QueryContext {
     /// The meaning of the answer's time.
-    pub claim: TimeMeaning,
+    pub time_meaning: TimeMeaning,
     /// The margin of the query, in the scene's unit of length.
     pub margin: f64,
     /// The required distance that the query's answer is compared with, if any.
@@ -21,11 +21,11 @@ pub enum TimeMeaning {
     /// The time of the [first](TimeMeaning::FirstContact) contact, where a contact at the start is ignored until the bodies part.
     FirstContactAfterParting,
     /// The time of some contact, perhaps not the first one.
-    Any,
+    SomeContact,
     /// The time at which the distance was measured.
     MeasurementTime,
     /// The time of the first contact according to the published bound, which is not certified.
-    Published,
+    UncertifiedFirstContact,
     /// A time from a table of results; the question and the bound of that table are unknown.
     TableTime,
 }
@@ -56,7 +56,7 @@ pub(super) fn verdict(
             let (contact, after) = (contact(row), describe_after_start_contact(row));
             format!("{how} at the start: {contact}.{after}")
         }
-        Status::Measured if asked.claim == TimeMeaning::MeasurementTime => {
+        Status::Measured if asked.time_meaning == TimeMeaning::MeasurementTime => {
             format!("At {time}: {}.", describe_distance(row))
         }
         Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
@@ -78,8 +78,8 @@ pub(super) fn verdict(
             ),
         },
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
-        Status::Unresolved => match asked.claim {
-            TimeMeaning::Published => {
+        Status::Unresolved => match asked.time_meaning {
+            TimeMeaning::UncertifiedFirstContact => {
                 format!("Not resolved ({reason}) after {time}. Not certified.")
             }
             TimeMeaning::TableTime => {
@@ -122,7 +122,7 @@ fn describe_later_contact(row: &ResultRow, asked: QueryContext, time: &str) -> S
         )
     };
     let touching = contact(row);
-    match (asked.claim, row.last_time) {
+    match (asked.time_meaning, row.last_time) {
         (TimeMeaning::FirstContact, None) => {
             format!("{first} at {time}: {touching}. Proven: {before}.")
         }
@@ -133,10 +133,10 @@ fn describe_later_contact(row: &ResultRow, asked: QueryContext, time: &str) -> S
         (TimeMeaning::FirstContactAfterParting, _) => format!(
             "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
         ),
-        (TimeMeaning::Any | TimeMeaning::MeasurementTime, _) => {
+        (TimeMeaning::SomeContact | TimeMeaning::MeasurementTime, _) => {
             format!("{at} at {time}: {touching}. There may be an earlier one.")
         }
-        (TimeMeaning::Published, _) => {
+        (TimeMeaning::UncertifiedFirstContact, _) => {
             format!("{at} at {time}: {touching}. Not certified: it may be late.")
         }
         (TimeMeaning::TableTime, _) => format!("{at} at {time}, as the table says: {touching}."),
@@ -145,12 +145,12 @@ fn describe_later_contact(row: &ResultRow, asked: QueryContext, time: &str) -> S
 
 fn describe_free_bodies(asked: QueryContext, end: f64, proven: Option<f64>) -> String {
     let end = number(end);
-    match (asked.claim, proven.filter(|gap| *gap > 0.0)) {
+    match (asked.time_meaning, proven.filter(|gap| *gap > 0.0)) {
         (_, Some(gap)) => format!(
             "No contact, to the end at {end}. Proven: never nearer than {}.",
             number(gap)
         ),
-        (TimeMeaning::Published, None) => {
+        (TimeMeaning::UncertifiedFirstContact, None) => {
             format!("No contact found, to the end at {end}. Not certified.")
         }
         (TimeMeaning::TableTime, None) => {

@@ -12,18 +12,18 @@ fn a_tolerance_as_large_as_a_part_is_remarked_upon() {
     let wall = size(Body::cuboid([1.0, 1.0, 0.00001]).unwrap());
     assert_eq!(wall, 2.0);
     for sizes in [[part, wall], [wall, part]] {
-        let remark = Remark::check_tolerance(0.001, sizes).unwrap();
+        let remark = Remark::remark_on_tolerance(0.001, sizes).unwrap();
         assert!(
             remark
                 .to_string()
                 .ends_with(": 0.001, and the body is 0.001 long"),
             "{remark}"
         );
-        assert_eq!(Remark::check_tolerance(0.00009, sizes), None);
+        assert_eq!(Remark::remark_on_tolerance(0.00009, sizes), None);
     }
     // Thin walls are usual, and so are points.
-    assert_eq!(Remark::check_tolerance(0.001, [wall, wall]), None);
-    assert_eq!(Remark::check_tolerance(0.001, [0.0, wall]), None);
+    assert_eq!(Remark::remark_on_tolerance(0.001, [wall, wall]), None);
+    assert_eq!(Remark::remark_on_tolerance(0.001, [0.0, wall]), None);
     assert_eq!(size(Body::sphere(0.0).unwrap()), 0.0);
 }
 
@@ -37,18 +37,18 @@ fn degrees_are_remarked_upon() {
         ([0.0, 0.0, 9.0], 10.0),
         ([0.0, 0.0, 90.0], 0.7),
     ] {
-        let remark = Remark::check_spin(spin, duration);
+        let remark = Remark::remark_on_spin(spin, duration);
         assert!(
             matches!(remark, Some(Remark::AngularVelocityInDegrees { .. })),
             "{spin:?} {duration}"
         );
     }
-    let remark = Remark::check_spin([0.0, 0.0, 90.0], 1.0)
+    let remark = Remark::remark_on_spin([0.0, 0.0, 90.0], 1.0)
         .unwrap()
         .to_string();
     assert!(remark.contains("(0, 0, 90) makes 14.3 turns"), "{remark}");
     for position in [90.0, -45.0, 180.0, 360.0, -720.0] {
-        assert!(Remark::check_joint(position).is_some(), "{position}");
+        assert!(Remark::remark_on_joint(position).is_some(), "{position}");
     }
 }
 
@@ -81,12 +81,12 @@ fn radians_are_not() {
         1e5,
     ] {
         for spin in [[0.0, 0.0, rate], [-rate, 0.0, 0.0]] {
-            assert_eq!(Remark::check_spin(spin, 1.0), None, "{rate}");
+            assert_eq!(Remark::remark_on_spin(spin, 1.0), None, "{rate}");
         }
-        assert_eq!(Remark::check_joint(rate), None, "{rate}");
+        assert_eq!(Remark::remark_on_joint(rate), None, "{rate}");
     }
-    assert_eq!(Remark::check_spin([0.0, 0.0, 90.0], 0.1), None);
-    assert_eq!(Remark::check_spin([f64::NAN, 0.0, 90.0], 1.0), None);
+    assert_eq!(Remark::remark_on_spin([0.0, 0.0, 90.0], 0.1), None);
+    assert_eq!(Remark::remark_on_spin([f64::NAN, 0.0, 90.0], 1.0), None);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn quaternions_of_another_length_are_remarked_upon() {
         [1e-200, 0.0, 0.0, 0.0],
         [0.0, 1e300, 0.0, 0.0],
     ] {
-        assert!(Remark::check_quaternion(parts).is_some(), "{parts:?}");
+        assert!(Remark::remark_on_quaternion(parts).is_some(), "{parts:?}");
     }
     for parts in [
         [1.0, 0.0, 0.0, 0.0],
@@ -106,6 +106,6 @@ fn quaternions_of_another_length_are_remarked_upon() {
         [-0.5, 0.5, -0.5, 0.5],
         [0.0, 0.0, 0.0, 1.05],
     ] {
-        assert_eq!(Remark::check_quaternion(parts), None, "{parts:?}");
+        assert_eq!(Remark::remark_on_quaternion(parts), None, "{parts:?}");
     }
 }

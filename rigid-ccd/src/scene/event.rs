@@ -98,7 +98,7 @@ impl Event {
     }
 
     /// Returns the event with its own time set to 0, and the time of its hit unchanged.
-    pub(super) fn at_start(self) -> Self {
+    pub(super) fn with_time_zero(self) -> Self {
         Event { time: 0.0, ..self }
     }
 

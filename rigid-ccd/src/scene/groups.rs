@@ -6,7 +6,7 @@
 /// use rigid_ccd::scene::Groups;
 /// let ship = Groups { memberships: 0b01, filter: 0b10 };
 /// let shot = Groups { memberships: 0b10, filter: 0b01 };
-/// assert!(ship.pairs_with(shot) && !ship.pairs_with(ship));
+/// assert!(ship.may_pair_with(shot) && !ship.may_pair_with(ship));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Groups {
@@ -24,7 +24,7 @@ impl Groups {
     };
 
     /// Returns whether two bodies form a pair: the filter of each has a group of the other.
-    pub fn pairs_with(self, other: Groups) -> bool {
+    pub fn may_pair_with(self, other: Groups) -> bool {
         self.memberships & other.filter != 0 && other.memberships & self.filter != 0
     }
 }

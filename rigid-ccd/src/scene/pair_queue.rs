@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// The share of the duration by which a pair is advanced before another pair takes its turn. It is so large that pairs
 /// are seldom put back, and so small that little is proven beyond the answer.
-const ADVANCE_SHARE: f64 = 1.0 / 16.0;
+const TURN_DURATION_SHARE: f64 = 1.0 / 16.0;
 
 /// The maximum number of finished searches whose memory a worker keeps for reuse.
 const MAX_SPARE_SEARCHES: usize = 1024;
@@ -63,10 +63,10 @@ impl<'r, 'a> PairQueue<'r, 'a> {
         waiting.push(entry);
     }
 
-    /// Returns the time up to which a pair at `time` is advanced next; infinite for [`Goal::All`], which needs the
+    /// Returns the time up to which a pair at `time` is advanced next; infinite for [`Goal::AllPairs`], which needs the
     /// pair's whole answer.
     fn next_target_time(&self, time: f64, others: f64, limit: f64) -> f64 {
-        let slice = greater(others, time + ADVANCE_SHARE * self.duration);
+        let slice = greater(others, time + TURN_DURATION_SHARE * self.duration);
         let until = match self.goal {
             Goal::AllPairs => f64::INFINITY,
             Goal::First(_) | Goal::FirstOfEachBody(_) => lesser(slice, limit.next_up()),
@@ -143,7 +143,7 @@ impl WorkerMemory {
         if let Some(search) = search
             && self.spare_searches.len() < MAX_SPARE_SEARCHES
         {
-            self.spare_searches.push(search.into_memory());
+            self.spare_searches.push(search.into_schedule());
         }
     }
 }

@@ -23,7 +23,7 @@ impl Trajectory for TimeShiftedTrajectory<'_> {
             turn: length(stretch.motion.spin()) * time_error,
         };
         Ok(Stretch {
-            deviation: stretch.deviation + rounding,
+            deviation_bound: stretch.deviation_bound + rounding,
             ..stretch
         })
     }

@@ -93,7 +93,7 @@ impl Scene<'_> {
     /// assert!(shot.pose(stop.time).translation().x < -0.01);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
+    pub fn find_stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
         let given = self.settings.clone();
         self.settings = with_half_tolerance_as_margin(&given);
         let clock = TimeLimits::new(duration, &self.settings);
@@ -117,13 +117,13 @@ fn with_half_tolerance_as_margin(given: &Settings) -> Settings {
     }
 }
 
-/// The state of [`Scene::stops`]: the bodies that have stopped so far, and a solver for the contacts still to come.
+/// The state of [`Scene::find_stops`]: the bodies that have stopped so far, and a solver for the contacts still to come.
 struct StopSearch<'s, 'a> {
     scene: &'s Scene<'a>,
     /// For each body, the indices of the bodies that it may touch.
     partners: Vec<Vec<usize>>,
     stops: Vec<Stop>,
-    clock: TimeLimits,
+    time_limits: TimeLimits,
     schedule: BestFirst<Direct>,
     oracle: Direct,
 }
@@ -148,7 +148,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             scene,
             partners,
             stops: vec![goes_on; scene.len()],
-            clock,
+            time_limits: clock,
             schedule: BestFirst::default(),
             oracle: Direct::default(),
         }
@@ -224,7 +224,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     fn future_contact(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
-            event.at_start()
+            event.with_time_zero()
         } else {
             event
         };
@@ -244,13 +244,13 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         });
         let [a, b] = [0, 1].map(|k| self.movement_from(&shifted[k], bodies[k]));
         let (a, b) = (a?, b?);
-        let duration = self.clock.duration;
+        let duration = self.time_limits.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
         let rounding = rounding(body(0), &a, duration)? + rounding(body(1), &b, duration)?;
         let stray = self.deviation_at_stop(bodies[0])? + self.deviation_at_stop(bodies[1])?;
         let settings = Settings {
             margin: self.scene.settings.margin + rounding + stray,
-            deadline: self.clock.left(),
+            deadline: self.time_limits.left(),
             ..self.scene.settings.clone()
         };
         let query = Query::new((body(0), a), (body(1), b), duration - time, &settings)?;
@@ -280,7 +280,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         }
         let (member, time) = (&self.scene.members[index], self.stops[index].time);
         let stretch = member.movement.stretch(time, time)?;
-        Ok(stretch.deviation.at(reach(member.body, &stretch)))
+        Ok(stretch.deviation_bound.at(reach(member.body, &stretch)))
     }
 
     fn moves(&self, index: usize) -> bool {
@@ -301,7 +301,7 @@ fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, 
     let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
     let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
     let reach = reach(body, &stretch);
-    let stray = stretch.deviation.at(reach);
+    let stray = stretch.deviation_bound.at(reach);
     Ok(stray + RETIMED_POSE_ERROR_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }
 

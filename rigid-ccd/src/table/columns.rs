@@ -76,7 +76,7 @@ impl TableKind {
         [Side::A, Side::B].into_iter().take(self.prefixes().len())
     }
 
-    /// Returns the known columns that hold a quantity's components, as indices into [`Form::names`]; empty if tables of
+    /// Returns the known columns that hold a quantity's components, as indices into [`TableKind::names`]; empty if tables of
     /// this kind do not have it.
     pub(in crate::table) fn column_range(self, side: Side, quantity: Quantity) -> Range<usize> {
         let within = match (self, quantity) {
@@ -133,7 +133,7 @@ impl TableKind {
 /// The header of a table of motions, of paths or of a scene: which of the known columns it has, and at which index.
 #[derive(Debug)]
 pub struct Columns {
-    form: TableKind,
+    table_kind: TableKind,
     names: Vec<String>,
     /// For each known column, the index of its cell in a row; `None` if the table does not have it.
     cells: Vec<Option<usize>>,
@@ -180,7 +180,7 @@ impl Columns {
             }
         }
         let columns = Columns {
-            form,
+            table_kind: form,
             names,
             cells,
             len: header.len(),
@@ -205,7 +205,7 @@ impl Columns {
             .into_iter()
             .chain(of_spin);
         let is_there = |&slot: &usize| self.cells[slot].is_some();
-        for side in self.form.sides() {
+        for side in self.table_kind.sides() {
             for (given, needed) in needs.clone() {
                 let given = self.column_range(side, given).find(is_there);
                 let mut needed = self.column_range(side, needed);
@@ -223,7 +223,7 @@ impl Columns {
 
     /// Returns whether the rows are the poses of paths.
     pub fn is_path_table(&self) -> bool {
-        self.form == TableKind::Paths
+        self.table_kind == TableKind::Paths
     }
 
     /// Returns the remarks about the rows read so far, one of each kind.
@@ -235,9 +235,9 @@ impl Columns {
         &self.remark_collector
     }
 
-    /// Returns the known columns that hold a quantity's components, as [`Form::column_range`] does.
+    /// Returns the known columns that hold a quantity's components, as [`TableKind::column_range`] does.
     pub(in crate::table) fn column_range(&self, side: Side, quantity: Quantity) -> Range<usize> {
-        self.form.column_range(side, quantity)
+        self.table_kind.column_range(side, quantity)
     }
 
     /// Returns the number of columns in the table's header.
@@ -255,7 +255,7 @@ impl Columns {
     }
 
     /// Returns the name of the column whose cell has a given index in the row.
-    pub(in crate::table) fn name_at(&self, index: usize) -> &str {
+    pub(in crate::table) fn name_of_column_with_cell(&self, index: usize) -> &str {
         let slot = self.cells.iter().position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
     }
@@ -295,7 +295,7 @@ fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> Tab
             nearest: Some(TIME_COLUMN_NAME.to_owned()),
         };
     }
-    if let Some(prefix) = prefix_of_angle(&lower, form) {
+    if let Some(prefix) = body_prefix_of_angle_column(&lower, form) {
         let column = column.to_owned();
         return TableError::Angle { column, prefix };
     }
@@ -317,7 +317,7 @@ fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> Tab
 
 /// Returns the body's prefix in a column name that is typical of an Euler angle or a rotation vector; `None` for other
 /// names.
-fn prefix_of_angle(lower: &str, form: TableKind) -> Option<&'static str> {
+fn body_prefix_of_angle_column(lower: &str, form: TableKind) -> Option<&'static str> {
     let (prefixes, usual): (&[&str], _) = match form {
         TableKind::Motions | TableKind::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),
         TableKind::Scene => (&["end_"], ""),
@@ -325,11 +325,11 @@ fn prefix_of_angle(lower: &str, form: TableKind) -> Option<&'static str> {
     let found = prefixes.iter().find(|prefix| lower.starts_with(*prefix));
     let prefix = found.copied().unwrap_or(usual);
     let name = lower.strip_prefix(prefix).unwrap_or(lower);
-    ANGLE_NAMES.contains(&name).then_some(prefix)
+    ANGLE_COLUMN_NAMES.contains(&name).then_some(prefix)
 }
 
 /// Typical names of columns of angles, without the body's prefix.
-const ANGLE_NAMES: [&str; 27] = [
+const ANGLE_COLUMN_NAMES: [&str; 27] = [
     "rx", "ry", "rz", "roll", "pitch", "yaw", "heading", "rpy", "euler", "alpha", "beta", "gamma",
     "phi", "theta", "psi", "rot_x", "rot_y", "rot_z", "rotx", "roty", "rotz", "euler_x", "euler_y",
     "euler_z", "angle_x", "angle_y", "angle_z",

@@ -24,7 +24,7 @@ pub(crate) enum ContactListError {
     Input(#[from] InputError),
     /// The contacts cannot be listed.
     #[error("{0}; raise --budget, or reduce --tolerance")]
-    Contacts(#[from] ContactsError),
+    ContactsNotListable(#[from] ContactsError),
 }
 
 /// Lists all pairs of features in contact at the time of an answer's contact, nearest first; empty for other answers.

@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
 use super::motions::{MotionRows, Motions};
-use super::paths::{Grouping, Path, Paths};
+use super::paths::{Grouping, Path, PathReader};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
@@ -86,7 +86,7 @@ impl Movements {
 pub struct MovementRows<S> {
     rows: MotionRows<S>,
     /// The state of reading a table of paths; `None` for a table of motions.
-    paths: Option<Paths>,
+    path_reader: Option<PathReader>,
 }
 
 /// The motions or paths of a query with its position in the table, or the error of a bad row.
@@ -110,15 +110,18 @@ impl<S: Records> MovementRows<S> {
     pub fn of(mut records: S, grouping: Grouping) -> Result<Self, TableError> {
         let columns = Columns::of(&records.header()?)?;
         let paths = columns.is_path_table();
-        let paths = paths.then(|| Paths::new(&mut records, grouping));
+        let paths = paths.then(|| PathReader::new(&mut records, grouping));
         let paths = paths.transpose()?;
         let rows = MotionRows { records, columns };
-        Ok(MovementRows { rows, paths })
+        Ok(MovementRows {
+            rows,
+            path_reader: paths,
+        })
     }
 
     /// Returns whether the table is a table of paths, not of motions.
     pub fn is_path_table(&self) -> bool {
-        self.paths.is_some()
+        self.path_reader.is_some()
     }
 
     /// Skips rows, or paths in a table of paths, without parsing them, and returns the number skipped.
@@ -126,7 +129,7 @@ impl<S: Records> MovementRows<S> {
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
     pub fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
-        match &mut self.paths {
+        match &mut self.path_reader {
             None => self.rows.skip_rows(rows),
             Some(paths) => paths.skip_paths(&mut self.rows, rows),
         }
@@ -134,7 +137,7 @@ impl<S: Records> MovementRows<S> {
 
     /// Returns the number of bytes of the input up to the end of the last row, or of the last path.
     pub fn bytes(&self) -> u64 {
-        let of_paths = self.paths.as_ref().map(|paths| paths.bytes);
+        let of_paths = self.path_reader.as_ref().map(|paths| paths.bytes);
         of_paths.unwrap_or_else(|| self.rows.bytes())
     }
 
@@ -145,12 +148,12 @@ impl<S: Records> MovementRows<S> {
 
     /// Returns a checksum of the header and of all rows so far.
     pub fn checksum(&self) -> u32 {
-        let of_paths = self.paths.as_ref().map(|paths| paths.checksum);
+        let of_paths = self.path_reader.as_ref().map(|paths| paths.checksum);
         of_paths.unwrap_or_else(|| self.rows.checksum())
     }
 
     fn read(&mut self) -> Result<Option<CourseRow>, TableError> {
-        Ok(match &mut self.paths {
+        Ok(match &mut self.path_reader {
             None => (self.rows.next().transpose()?)
                 .map(|row| row.map(|(position, motions)| (position, Movements::Motions(motions)))),
             Some(paths) => (paths.next(&mut self.rows)?)

@@ -3,7 +3,7 @@
 use crate::table::columns::Columns;
 use crate::table::error::{RowProblem, TableError};
 use crate::table::foreign;
-use crate::table::lines::Lines;
+use crate::table::lines::LineEndReader;
 use crate::table::position::RowPosition;
 use crate::table::quotes::QuoteTracker;
 use crate::table::records::{Record, Records};
@@ -23,7 +23,7 @@ pub struct CsvRecords<R> {
     checksum: crc32fast::Hasher,
 }
 
-type Reader<R> = csv::Reader<io::Chain<QuoteTracker<Lines<R>>, &'static [u8]>>;
+type Reader<R> = csv::Reader<io::Chain<QuoteTracker<LineEndReader<R>>, &'static [u8]>>;
 
 impl<R: Read> CsvRecords<R> {
     /// Opens the table, and reads its header as the current record.
@@ -31,7 +31,7 @@ impl<R: Read> CsvRecords<R> {
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
     pub fn new(input: R) -> Result<Self, TableError> {
-        let input = Lines::new(input).map_err(csv::Error::from)?;
+        let input = LineEndReader::new(input).map_err(csv::Error::from)?;
         let mut reader = csv::ReaderBuilder::new()
             .flexible(true)
             .has_headers(false)
@@ -119,13 +119,13 @@ impl Record for csv::ByteRecord {
         }
         match self.iter().position(|cell| str::from_utf8(cell).is_err()) {
             Some(cell) => Err(RowProblem::NotText {
-                column: columns.name_at(cell).to_owned(),
+                column: columns.name_of_column_with_cell(cell).to_owned(),
             }),
             None => Ok(()),
         }
     }
 
-    fn is_given(&self, cell: usize) -> bool {
+    fn has_value(&self, cell: usize) -> bool {
         !trimmed_cell(self, cell).is_empty()
     }
 

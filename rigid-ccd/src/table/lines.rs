@@ -5,9 +5,9 @@ use std::io::{self, Read};
 /// A reader that converts every line end (`\n`, `\r\n`, `\r`) to `\n`, so that lines can be counted, and drops byte order
 /// marks at the start.
 #[derive(Debug)]
-pub struct Lines<R> {
+pub struct LineEndReader<R> {
     input: io::Chain<io::Cursor<Vec<u8>>, R>,
-    after_carriage_return: bool,
+    is_after_carriage_return: bool,
     /// The number of bytes read from the input.
     bytes: u64,
     /// The number of these bytes that were dropped: those of byte order marks, and one for each `\r\n`.
@@ -16,7 +16,7 @@ pub struct Lines<R> {
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-impl<R: Read> Lines<R> {
+impl<R: Read> LineEndReader<R> {
     /// Creates a reader of `input`, and reads past byte order marks at its start.
     ///
     /// # Errors
@@ -33,9 +33,9 @@ impl<R: Read> Lines<R> {
             marks += most;
             start.clear();
         }
-        Ok(Lines {
+        Ok(LineEndReader {
             input: io::Cursor::new(start).chain(input),
-            after_carriage_return: false,
+            is_after_carriage_return: false,
             bytes: marks,
             dropped_bytes: marks,
         })
@@ -47,21 +47,21 @@ impl<R: Read> Lines<R> {
     }
 }
 
-impl<R: Read> Read for Lines<R> {
+impl<R: Read> Read for LineEndReader<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         loop {
             let read = self.input.read(out)?;
             self.bytes += read as u64;
             // Most tables have no `\r`, and a search for it is many times as fast as the loop below.
-            if !self.after_carriage_return && !out[..read].contains(&b'\r') {
+            if !self.is_after_carriage_return && !out[..read].contains(&b'\r') {
                 return Ok(read);
             }
             let mut kept = 0;
             for k in 0..read {
-                let (byte, second) = (out[k], self.after_carriage_return && out[k] == b'\n');
-                self.after_carriage_return = byte == b'\r';
+                let (byte, second) = (out[k], self.is_after_carriage_return && out[k] == b'\n');
+                self.is_after_carriage_return = byte == b'\r';
                 if !second {
-                    out[kept] = if self.after_carriage_return {
+                    out[kept] = if self.is_after_carriage_return {
                         b'\n'
                     } else {
                         byte

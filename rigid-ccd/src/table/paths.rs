@@ -48,7 +48,7 @@ pub enum Grouping {
 /// Columns go by name, in any order: `id`, `t`, poses and centres as in a table of motions, and angular velocities until
 /// the next row. Rows of one path follow each other, in the order of their times.
 #[derive(Debug)]
-pub(super) struct Paths {
+pub(super) struct PathReader {
     grouping: Grouping,
     /// The number of paths read.
     paths: usize,
@@ -66,14 +66,14 @@ pub(super) struct Paths {
 /// The paths of both bodies of a query, with the place of their first row in the table, or the error of a bad row.
 pub(super) type PathRow = Result<(RowPosition, Path), RowError>;
 
-impl Paths {
+impl PathReader {
     /// Starts to read the paths of a table after its header.
     ///
     /// # Errors
     /// The first row cannot be read.
     pub(super) fn new(records: &mut impl Records, grouping: Grouping) -> Result<Self, TableError> {
         let (checksum, bytes) = (records.checksum(), records.bytes());
-        Ok(Paths {
+        Ok(PathReader {
             next: records.advance()?,
             grouping,
             paths: 0,
@@ -147,7 +147,7 @@ impl Paths {
         let read = self.read(rows, |position, columns, record| {
             if bad.is_none() {
                 let found =
-                    row::poses(columns, record).and_then(|row| check_row_is_later(&poses, row));
+                    row::poses(columns, record).and_then(|row| check_row_follows(&poses, row));
                 match found {
                     Ok(row) => poses.push(row),
                     Err(problem) => bad = Some((position, problem)),
@@ -186,7 +186,7 @@ struct FirstRow {
 
 /// Returns `row`, or an error if it cannot follow the rows before it. Its time must be later, also after the first time
 /// is subtracted; its orientation and its centre of rotation must fit the row before.
-fn check_row_is_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem> {
+fn check_row_follows(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
     };
@@ -272,15 +272,15 @@ impl Path {
 
     /// Converts a time measured from the start to the table's time, rounded down.
     pub fn table_time_rounded_down(&self, time: f64) -> f64 {
-        self.table_time(time, -1.0)
+        self.table_time_rounded_towards(time, -1.0)
     }
 
     /// Converts a time measured from the start to the table's time, rounded up.
     pub fn table_time_rounded_up(&self, time: f64) -> f64 {
-        self.table_time(time, 1.0)
+        self.table_time_rounded_towards(time, 1.0)
     }
 
-    fn table_time(&self, time: f64, direction: f64) -> f64 {
+    fn table_time_rounded_towards(&self, time: f64, direction: f64) -> f64 {
         if self.start == 0.0 {
             return time;
         }

@@ -9,7 +9,7 @@ use std::io::{self, Read};
 #[derive(Debug)]
 pub struct QuoteTracker<R> {
     input: R,
-    state: State,
+    state: QuoteState,
     /// The current line, counted from 1.
     line: u64,
     /// The line on which the last quoted cell began.
@@ -18,9 +18,9 @@ pub struct QuoteTracker<R> {
 
 /// The state of the reader between two bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
+enum QuoteState {
     /// The next byte is the first of a cell, the only place where a quote opens.
-    Start,
+    CellStart,
     /// The next byte is within a cell without quotes, or after the closing quote.
     Unquoted,
     /// The next byte is between quotes.
@@ -34,7 +34,7 @@ impl<R> QuoteTracker<R> {
     pub fn new(input: R) -> Self {
         QuoteTracker {
             input,
-            state: State::Start,
+            state: QuoteState::CellStart,
             line: 1,
             quote_line: 0,
         }
@@ -50,20 +50,20 @@ impl<R> QuoteTracker<R> {
     /// Such a record has closed its quotes. An open quote belongs to a later record, on a later line,
     /// unless the record ended with the table.
     pub fn open_quote_line(&self, line: u64) -> Option<u64> {
-        (self.state == State::Quoted && self.quote_line < line).then_some(self.quote_line)
+        (self.state == QuoteState::Quoted && self.quote_line < line).then_some(self.quote_line)
     }
 
     fn track_byte(&mut self, byte: u8) {
         self.state = match (self.state, byte) {
-            (State::Start, b'"') => {
+            (QuoteState::CellStart, b'"') => {
                 self.quote_line = self.line;
-                State::Quoted
+                QuoteState::Quoted
             }
-            (State::AfterClosingQuote, b'"') => State::Quoted,
-            (State::Quoted, b'"') => State::AfterClosingQuote,
-            (State::Quoted, _) => State::Quoted,
-            (_, b',' | b'\n') => State::Start,
-            _ => State::Unquoted,
+            (QuoteState::AfterClosingQuote, b'"') => QuoteState::Quoted,
+            (QuoteState::Quoted, b'"') => QuoteState::AfterClosingQuote,
+            (QuoteState::Quoted, _) => QuoteState::Quoted,
+            (_, b',' | b'\n') => QuoteState::CellStart,
+            _ => QuoteState::Unquoted,
         };
         self.line += u64::from(byte == b'\n');
     }
@@ -73,7 +73,10 @@ impl<R: Read> Read for QuoteTracker<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let read = self.input.read(out)?;
         let mut bytes = &out[..read];
-        let within_quotes = matches!(self.state, State::Quoted | State::AfterClosingQuote);
+        let within_quotes = matches!(
+            self.state,
+            QuoteState::Quoted | QuoteState::AfterClosingQuote
+        );
         // Most tables have no quotes, and a search for them is many times as fast as tracking each byte.
         if !within_quotes && !bytes.contains(&b'"') {
             let Some((_, before)) = bytes.split_last() else {

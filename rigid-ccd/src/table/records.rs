@@ -46,7 +46,7 @@ pub trait Record {
     }
 
     /// Returns whether a cell is not empty.
-    fn is_given(&self, cell: usize) -> bool;
+    fn has_value(&self, cell: usize) -> bool;
 
     /// Returns the finite number in a cell; `None` if the cell is empty.
     ///

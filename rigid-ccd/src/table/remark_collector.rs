@@ -17,7 +17,7 @@ pub(in crate::table) struct RemarkCollector {
 impl RemarkCollector {
     /// Adds a remark if a quaternion w, x, y, z is far from unit length.
     pub(in crate::table) fn note_quaternion(&self, parts: [f64; 4]) {
-        if let Some(remark) = Remark::check_quaternion(parts) {
+        if let Some(remark) = Remark::remark_on_quaternion(parts) {
             self.quaternion.get_or_init(|| remark);
         }
     }
@@ -27,7 +27,7 @@ impl RemarkCollector {
         if !Remark::is_fast_rotation(motion.spin(), duration) {
             return;
         }
-        match Remark::check_spin(motion.spin(), duration) {
+        match Remark::remark_on_spin(motion.spin(), duration) {
             Some(remark) => {
                 self.spin.get_or_init(|| remark);
             }

@@ -8,7 +8,7 @@ mod status;
 
 #[cfg(feature = "command")]
 pub(crate) use columns::reordered_columns;
-pub use columns::{COLUMNS, COUNTER_COLUMNS, Cells, Column, Line, columns, names};
+pub use columns::{COLUMNS, COUNTER_COLUMNS, CellGetter, Column, Line, columns, names};
 pub use status::Status;
 
 use crate::batch::question::Question;
@@ -31,7 +31,7 @@ pub struct ClearanceComparison {
 
 impl ClearanceComparison {
     /// Returns the reason for a clearance that is neither proven kept nor proven violated.
-    fn reason_unverified(&self) -> String {
+    fn reason_clearance_undecided(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
         match self.clearance {
             _ if self.excess > 0.0 => format!(
@@ -139,7 +139,7 @@ impl ResultRow {
             micros: Some(micros),
             reason: match (outcome.limit(), status) {
                 (Some(limit), _) => Some(limit.to_string()),
-                (None, Status::Unverified) => Some(compared.reason_unverified()),
+                (None, Status::Unverified) => Some(compared.reason_clearance_undecided()),
                 (None, _) => None,
             },
             counters: Some(answer.stats),

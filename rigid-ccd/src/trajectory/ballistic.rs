@@ -1,7 +1,7 @@
 //! The trajectory of a thrown body.
 
 use super::U;
-use super::checks::finite_vector;
+use super::checks::check_finite_vector;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -37,7 +37,7 @@ impl Ballistic {
     pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Ballistic {
             start_motion: thrown,
-            acceleration: finite_vector(acceleration, "acceleration")?,
+            acceleration: check_finite_vector(acceleration, "acceleration")?,
         })
     }
 }
@@ -55,9 +55,9 @@ impl SmoothTrajectory for Ballistic {
         Motion::about(start, velocity, thrown.spin(), thrown.centre())
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
+    fn acceleration_bounds(&self, _: f64, _: f64) -> AccelerationBounds {
         AccelerationBounds {
-            linear: length(self.acceleration),
+            linear_acceleration: length(self.acceleration),
             angular_acceleration: 0.0,
         }
     }
@@ -70,7 +70,7 @@ impl SmoothTrajectory for Ballistic {
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let acceleration = Acceleration {
             vector: self.acceleration,
-            jerk: 0.0,
+            jerk_bound: 0.0,
         };
         Ok((self.tangent_motion(time)?, Some(acceleration)))
     }

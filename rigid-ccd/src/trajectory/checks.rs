@@ -16,7 +16,7 @@ pub(super) fn out_of_range_error(
 }
 
 /// Returns a vector, or an error that calls it `what` if one of its components is not finite.
-pub(super) fn finite_vector(
+pub(super) fn check_finite_vector(
     vector: impl Into<[f64; 3]>,
     what: &'static str,
 ) -> Result<DVec3, InputError> {
@@ -42,7 +42,7 @@ pub(super) fn check_duration(duration: f64) -> Result<(), InputError> {
 }
 
 /// Refuses a time that is not finite, or not later than the time before it.
-pub(super) fn check_later(
+pub(super) fn check_time_is_later(
     what: &'static str,
     time: f64,
     before: Option<f64>,

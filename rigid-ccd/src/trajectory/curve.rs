@@ -1,7 +1,7 @@
 //! Curves in space: Bézier curves and B-splines.
 
 use super::U;
-use super::checks::{check_duration, finite_vector, out_of_range_error};
+use super::checks::{check_duration, check_finite_vector, out_of_range_error};
 use super::segments::{self, Segments, greater_bound};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -116,7 +116,7 @@ impl Curve {
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
             vector: segment.derivative(2, segment.share(time)),
-            jerk: segment.derivative_bound(3, from, to),
+            jerk_bound: segment.derivative_bound(3, from, to),
         })
     }
 
@@ -199,6 +199,6 @@ fn control_points(
     check_duration(duration)?;
     points
         .iter()
-        .map(|&point| finite_vector(point, "point"))
+        .map(|&point| check_finite_vector(point, "point"))
         .collect()
 }

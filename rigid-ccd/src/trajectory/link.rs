@@ -57,7 +57,7 @@ impl Chain {
     /// each joint, fixed ones included.
     ///
     /// # Errors
-    /// [`InputError::NoSuchLink`], [`InputError::JointCount`] for more or fewer positions than joints,
+    /// [`InputError::NoSuchLink`], [`InputError::JointCountMismatch`] for more or fewer positions than joints,
     /// [`InputError::OutOfRange`] for a duration that is not positive, [`InputError::JointOutOfLimits`] for a position
     /// outside of its joint's limits.
     pub fn link<'c>(
@@ -76,7 +76,7 @@ impl Chain {
         }
         for positions in [from, to] {
             if positions.len() != joints.len() {
-                return Err(InputError::JointCount {
+                return Err(InputError::JointCountMismatch {
                     positions: positions.len(),
                     joints: joints.len(),
                 });
@@ -136,13 +136,13 @@ impl<'c> Link<'c> {
     }
 
     /// Returns the pose, the velocities and the accelerations of the link at a time.
-    fn state(&self, time: f64) -> Result<State, InputError> {
-        let mut state = State::at_rest(match self.seen_from {
+    fn state(&self, time: f64) -> Result<LinkState, InputError> {
+        let mut state = LinkState::at_rest(match self.seen_from {
             Some(_) => Pose::IDENTITY,
             None => self.chain.base(),
         });
         for (joint, position, rate) in self.joints(time) {
-            state.pass_joint(joint, position, rate)?;
+            state.move_past_joint(joint, position, rate)?;
         }
         Ok(state)
     }
@@ -154,12 +154,12 @@ impl<'c> Link<'c> {
         for ((joint, start, rate), (first, last)) in starts.zip(self.positions(from, to)) {
             let largest = greater(first.abs(), last.abs());
             let positions = PositionBounds {
-                largest,
-                largest_with_start: greater(largest, start.abs()),
+                max_position: largest,
+                max_position_with_start: greater(largest, start.abs()),
                 first,
                 rate: rate.abs(),
             };
-            moved.pass_joint(joint, &positions);
+            moved.move_past_joint(joint, &positions);
         }
         moved
     }
@@ -176,7 +176,7 @@ impl SmoothTrajectory for Link<'_> {
         self.state(time)?.to_motion()
     }
 
-    fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds {
+    fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds {
         self.link_bounds(from, to).accelerations
     }
 
@@ -189,7 +189,7 @@ impl SmoothTrajectory for Link<'_> {
         let state = self.state(time)?;
         let acceleration = Acceleration {
             vector: state.acceleration,
-            jerk: self.link_bounds(from, to).jerks.linear,
+            jerk_bound: self.link_bounds(from, to).jerks.linear_acceleration,
         };
         Ok((state.to_motion()?, Some(acceleration)))
     }
@@ -213,24 +213,24 @@ impl SmoothTrajectory for Link<'_> {
 }
 
 /// The pose, the velocities and the accelerations of a link at one time, accumulated joint by joint.
-struct State {
+struct LinkState {
     pose: Pose,
     velocity: DVec3,
     spin: DVec3,
     acceleration: DVec3,
     /// The angular acceleration `ω̇` of the link, in radians per unit of time squared.
-    angular: DVec3,
+    angular_acceleration: DVec3,
 }
 
-impl State {
+impl LinkState {
     /// Creates the state of a link at rest.
     fn at_rest(pose: Pose) -> Self {
-        State {
+        LinkState {
             pose,
             velocity: DVec3::ZERO,
             spin: DVec3::ZERO,
             acceleration: DVec3::ZERO,
-            angular: DVec3::ZERO,
+            angular_acceleration: DVec3::ZERO,
         }
     }
 
@@ -239,30 +239,35 @@ impl State {
     }
 
     /// Updates the state from the link before a joint to the link after it.
-    fn pass_joint(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
+    fn move_past_joint(
+        &mut self,
+        joint: &Joint,
+        position: f64,
+        rate: f64,
+    ) -> Result<(), InputError> {
         let before = self.pose;
         self.pose = before.compose(&joint.unchecked_pose(position)?);
         let arm = self.pose.translation() - before.translation();
         // The arm moves with the link before its freedom, or with the link after it.
         match joint.direction() {
             Direction::Forward => {
-                self.add_arm(arm);
+                self.add_arm_motion(arm);
                 let held = before.compose(joint.origin());
                 self.add_joint_motion(joint.kind(), held.rotation(), rate);
             }
             Direction::Backward => {
                 self.add_joint_motion(joint.kind(), before.rotation(), -rate);
-                self.add_arm(arm);
+                self.add_arm_motion(arm);
             }
         }
         Ok(())
     }
 
     /// Adds the velocity and the acceleration due to the rotation of `arm`, a vector fixed to the link.
-    fn add_arm(&mut self, arm: DVec3) {
+    fn add_arm_motion(&mut self, arm: DVec3) {
         let turning = self.spin.cross(arm);
         self.velocity += turning;
-        self.acceleration += self.angular.cross(arm) + self.spin.cross(turning);
+        self.acceleration += self.angular_acceleration.cross(arm) + self.spin.cross(turning);
     }
 
     /// Adds the motion of a joint about or along its axis; `held` rotates the axis into the frame of the state.
@@ -271,7 +276,7 @@ impl State {
             JointKind::Fixed => {}
             JointKind::Revolute(axis) => {
                 let turn = held * axis * rate;
-                self.angular += self.spin.cross(turn);
+                self.angular_acceleration += self.spin.cross(turn);
                 self.spin += turn;
             }
             JointKind::Prismatic(axis) => {

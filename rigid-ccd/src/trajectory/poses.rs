@@ -5,7 +5,7 @@ mod segment;
 pub(crate) use segment::{MAX_RESIDUAL_ROTATION, residual_rotation};
 
 use super::U;
-use super::checks::{check_later, finite_vector, out_of_range_error};
+use super::checks::{check_finite_vector, check_time_is_later, out_of_range_error};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -52,7 +52,7 @@ impl Poses {
         }
         let mut before = None;
         for &(time, _) in &poses {
-            check_later("time of a pose", time, before.replace(time))?;
+            check_time_is_later("time of a pose", time, before.replace(time))?;
         }
         Ok(Poses {
             poses,
@@ -66,7 +66,7 @@ impl Poses {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = finite_vector(centre, "centre")?;
+        let centre = check_finite_vector(centre, "centre")?;
         Ok(Poses { centre, ..self })
     }
 
@@ -106,7 +106,7 @@ impl Poses {
         let spins: Vec<DVec3> = spins.into_iter().map(DVec3::from).collect();
         for (two, &spin) in self.poses.windows(2).zip(&spins) {
             let [(begin, from), (end, to)] = [two[0], two[1]];
-            finite_vector(spin, "angular velocity")?;
+            check_finite_vector(spin, "angular velocity")?;
             let left = length(residual_rotation([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
             if spin != DVec3::ZERO && !(left <= MAX_RESIDUAL_ROTATION) {
@@ -202,7 +202,7 @@ impl Poses {
             last = (time, deviation);
         }
         Ok(Stretch {
-            deviation: stray,
+            deviation_bound: stray,
             ..Stretch::exact(motion)
         })
     }
@@ -233,14 +233,14 @@ impl Trajectory for Poses {
             let mut stretch = Stretch::exact(motion);
             // The integral of the deviation of the angular velocity is quadratic in time.
             if acceleration > 0.0 {
-                stretch.deviation.turn = 0.5 * acceleration * (to - from) * (to - from);
+                stretch.deviation_bound.turn = 0.5 * acceleration * (to - from) * (to - from);
             }
             stretch
         } else {
             self.chord(from, to)?
         };
         Ok(Stretch {
-            deviation: stretch.deviation + self.rounding(from, to),
+            deviation_bound: stretch.deviation_bound + self.rounding(from, to),
             ..stretch
         })
     }

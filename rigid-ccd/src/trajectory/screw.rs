@@ -1,6 +1,6 @@
 //! Motions that rotate about an axis and advance along it.
 
-use super::checks::{finite_vector, out_of_range_error};
+use super::checks::{check_finite_vector, out_of_range_error};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use ccd_core::{InputError, Motion, Pose};
@@ -39,6 +39,6 @@ pub fn screw(
 
 /// Returns the unit vector along an axis, or an error for an axis without a direction.
 pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
-    let axis = finite_vector(axis, "axis")?;
+    let axis = check_finite_vector(axis, "axis")?;
     unit(axis).ok_or_else(|| out_of_range_error("the length of an axis", 0.0, "positive"))
 }

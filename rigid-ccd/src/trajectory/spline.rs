@@ -1,6 +1,6 @@
 //! The trajectory of a body that follows a curve and rotates.
 
-use super::checks::finite_vector;
+use super::checks::check_finite_vector;
 use super::curve::Curve;
 use super::turns::OrientationCurve;
 use ccd_core::glam::DVec3;
@@ -20,7 +20,7 @@ use ccd_core::{
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
     curve: Curve,
-    turns: OrientationCurve,
+    orientation_curve: OrientationCurve,
     centre: DVec3,
 }
 
@@ -29,7 +29,7 @@ impl Spline {
     pub fn new(curve: Curve, turns: OrientationCurve) -> Self {
         Spline {
             curve,
-            turns,
+            orientation_curve: turns,
             centre: DVec3::ZERO,
         }
     }
@@ -39,23 +39,23 @@ impl Spline {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = finite_vector(centre, "centre")?;
+        let centre = check_finite_vector(centre, "centre")?;
         Ok(Spline { centre, ..self })
     }
 }
 
 impl SmoothTrajectory for Spline {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
-        let (rotation, spin) = self.turns.at(time);
+        let (rotation, spin) = self.orientation_curve.at(time);
         let origin = self.curve.position(time) - rotation * self.centre;
         let start = Pose::new(origin, rotation)?;
         Motion::about(start, self.curve.velocity(time), spin, self.centre)
     }
 
-    fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds {
+    fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds {
         AccelerationBounds {
-            linear: self.curve.acceleration(from, to),
-            angular_acceleration: self.turns.acceleration(from, to),
+            linear_acceleration: self.curve.acceleration(from, to),
+            angular_acceleration: self.orientation_curve.acceleration(from, to),
         }
     }
 
@@ -72,12 +72,12 @@ impl SmoothTrajectory for Spline {
     fn rounding(&self, _: f64, _: f64) -> DeviationBound {
         DeviationBound {
             shift: self.curve.rounding(),
-            turn: self.turns.rounding(),
+            turn: self.orientation_curve.rounding(),
         }
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        self.turns
+        self.orientation_curve
             .corner(from, to)
             .or_else(|| self.curve.corner(from, to))
     }

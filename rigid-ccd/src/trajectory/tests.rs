@@ -89,7 +89,7 @@ enum AxisChoice {
     AlongCoordinates,
 }
 
-fn arm(rng: &mut Rng, count: usize, axes: AxisChoice) -> Chain {
+fn random_chain(rng: &mut Rng, count: usize, axes: AxisChoice) -> Chain {
     let joint = |k: usize| {
         let axis = match axes {
             AxisChoice::Any => vector(rng, 1.0),
@@ -269,7 +269,7 @@ fn links_behind_joints_that_are_held() {
         let joints: Result<Vec<_>, InputError> = joints.into_iter().collect();
         let mut angle = || rng.random_range(-2.0..2.0);
         let (first, held, last) = (angle(), angle(), angle());
-        Ok(OwnedLink {
+        Ok(ChainOwningLink {
             chain: Chain::new(Pose::IDENTITY, joints?),
             positions: [vec![0.0, held, 0.0], vec![first, held, last]],
             link: 3,
@@ -283,7 +283,7 @@ fn links_behind_joints_that_are_held() {
 fn reversed_joints_undo_joints() {
     let mut rng = Rng::seed_from_u64(8);
     for _ in 0..200 {
-        let out = arm(&mut rng, 4, AxisChoice::Any).joints().to_vec();
+        let out = random_chain(&mut rng, 4, AxisChoice::Any).joints().to_vec();
         let back = out.iter().rev().cloned().map(Joint::reversed);
         let there_and_back = Chain::new(Pose::IDENTITY, out.iter().cloned().chain(back).collect());
         let [first, last] = [(); 2].map(|()| -> Vec<f64> {
@@ -292,7 +292,9 @@ fn reversed_joints_undo_joints() {
         });
         let link = there_and_back.link(8, &first, &last, 2.0).unwrap();
         let Stretch {
-            motion, deviation, ..
+            motion,
+            deviation_bound: deviation,
+            ..
         } = link.stretch(0.7, 0.7).unwrap();
         let start = motion.start();
         assert!(start.translation().length() <= deviation.shift);
@@ -306,7 +308,7 @@ fn reversed_joints_undo_joints() {
 fn a_joint_moves_through_its_poses() {
     let mut rng = Rng::seed_from_u64(9);
     for k in 0..400 {
-        let joint = arm(&mut rng, 4, AxisChoice::Any).joints()[k % 4].clone();
+        let joint = random_chain(&mut rng, 4, AxisChoice::Any).joints()[k % 4].clone();
         let [first, last] = [(); 2].map(|()| rng.random_range(-2.0..2.0));
         let motion = joint.motion(first, last, 2.0).unwrap();
         let share = rng.random_range(0.0..1.0);
@@ -323,17 +325,17 @@ fn a_joint_moves_through_its_poses() {
 }
 
 /// A link that owns its chain, so that it has no lifetime parameter.
-struct OwnedLink {
+struct ChainOwningLink {
     chain: Chain,
     positions: [Vec<f64>; 2],
     link: usize,
     seen_from: Option<usize>,
 }
 
-impl OwnedLink {
+impl ChainOwningLink {
     fn draw(rng: &mut Rng, axes: AxisChoice) -> Result<Self, InputError> {
         let count = rng.random_range(1..8);
-        let chain = arm(rng, count, axes);
+        let chain = random_chain(rng, count, axes);
         let first: Vec<f64> = (0..count).map(|_| rng.random_range(-2.0..2.0)).collect();
         // Some joints do not move.
         let last = first.iter().map(|&first| {
@@ -345,7 +347,7 @@ impl OwnedLink {
         });
         let positions = [first.clone(), last.collect()];
         let link = rng.random_range(0..=count);
-        Ok(OwnedLink {
+        Ok(ChainOwningLink {
             chain,
             positions,
             link,
@@ -354,7 +356,7 @@ impl OwnedLink {
     }
 }
 
-impl Trajectory for OwnedLink {
+impl Trajectory for ChainOwningLink {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = &self.positions;
         let link = self.chain.link(self.link, first, last, 2.0)?;
@@ -368,21 +370,21 @@ impl Trajectory for OwnedLink {
 #[test]
 fn links() {
     check("link of a chain", 0.2, |rng| {
-        OwnedLink::draw(rng, AxisChoice::Any)
+        ChainOwningLink::draw(rng, AxisChoice::Any)
     });
 }
 
 #[test]
 fn links_with_parallel_axes() {
     check("link, parallel axes", 0.5, |rng| {
-        OwnedLink::draw(rng, AxisChoice::Parallel)
+        ChainOwningLink::draw(rng, AxisChoice::Parallel)
     });
 }
 
 #[test]
 fn links_with_axes_across() {
     check("link, axes across", 0.5, |rng| {
-        OwnedLink::draw(rng, AxisChoice::AlongCoordinates)
+        ChainOwningLink::draw(rng, AxisChoice::AlongCoordinates)
     });
 }
 
@@ -393,7 +395,7 @@ fn a_false_bound_is_found() {
     impl Trajectory for FalselyBoundedSpline {
         fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
             let mut stretch = self.0.stretch(from, to)?;
-            stretch.deviation.shift *= 0.9;
+            stretch.deviation_bound.shift *= 0.9;
             Ok(stretch)
         }
     }
@@ -421,7 +423,7 @@ fn stretches_between_knots_accelerate() {
 fn links_seen_from_links_are_where_they_are_in_the_world() {
     let mut rng = Rng::seed_from_u64(3);
     for _ in 0..200 {
-        let owned = OwnedLink::draw(&mut rng, AxisChoice::Any).unwrap();
+        let owned = ChainOwningLink::draw(&mut rng, AxisChoice::Any).unwrap();
         let other = owned.link / 2;
         let [first, last] = &owned.positions;
         let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();
@@ -440,7 +442,7 @@ fn tangents_have_the_velocities_of_poses() {
     let step = 1e-6;
     for _ in 0..100 {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
-        let chain = arm(&mut rng, 5, AxisChoice::Any);
+        let chain = random_chain(&mut rng, 5, AxisChoice::Any);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
         let turns = OrientationCurve::slerp(&keys(&mut rng, 6)).unwrap();
         let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);

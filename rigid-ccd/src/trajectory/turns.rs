@@ -1,7 +1,7 @@
 //! Orientations over time: slerp through given orientations.
 
 use super::U;
-use super::checks::{check_later, out_of_range_error};
+use super::checks::{check_time_is_later, out_of_range_error};
 use super::rotation::rotation_vector;
 use super::segments::{Segment, Segments};
 use ccd_core::glam::{DQuat, DVec3};
@@ -102,7 +102,7 @@ fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, In
     for &(time, key) in keys {
         let unit = Pose::new(DVec3::ZERO, DQuat::from_array(key))?.rotation();
         let last = units.last().copied();
-        check_later(
+        check_time_is_later(
             "time of an orientation",
             time,
             last.map(|(before, _)| before),

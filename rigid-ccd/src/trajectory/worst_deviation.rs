@@ -123,7 +123,7 @@ impl Search<'_> {
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
         Ok(Worst {
-            ratio: (deviation - rounding) / stretch.deviation.at(reach),
+            ratio: (deviation - rounding) / stretch.deviation_bound.at(reach),
             from,
             to,
             time,

@@ -296,7 +296,7 @@ fn unreadable_stored_bodies_are_reported() {
 #[test]
 fn help_lists_the_statistics() {
     for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "excess")] {
-        let output = CommandCall::with_args(&["decompose", option]).ends(0);
+        let output = CommandCall::with_args(&["decompose", option]).expect_exit_code(0);
         let text = String::from_utf8(output.stdout).unwrap();
         assert_contains(&text, expected);
     }
@@ -305,7 +305,7 @@ fn help_lists_the_statistics() {
 #[test]
 fn a_missing_folder_is_reported_before_the_work() {
     let scene = Scene::new("decompose-no-folder");
-    let mesh = scene.file("t.obj", crate::TETRAHEDRON);
+    let mesh = scene.file("t.obj", crate::TETRAHEDRON_OBJ);
     for name in ["t.obj", "t.ccd"] {
         let out = scene.directory.join("gone").join(name);
         let run = CommandCall::with_args(&["decompose", mesh.to_str().unwrap()]);

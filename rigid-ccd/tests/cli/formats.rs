@@ -55,7 +55,7 @@ fn glb() -> Vec<u8> {
 }
 
 /// Returns an OBJ with a cube of length 20 about the origin.
-fn die_obj() -> String {
+fn large_cube_obj() -> String {
     let vertices = corners().map(|[x, y, z]| format!("v {} {} {}\n", 10.0 * x, 10.0 * y, 10.0 * z));
     let faces = FACES
         .chunks(3)
@@ -125,13 +125,13 @@ fn an_unknown_part_lists_those_there_are() {
             CommandCall::query(&["--a", BALL_SPEC, "--b", &body]).stdin(FALLING_BALL_MOTION),
             CommandCall::with_args(&["decompose", &body]),
         ] {
-            let output = run.ends(2);
+            let output = run.expect_exit_code(2);
             let expected =
                 format!("scene.glb: has no part {missing:?}; its parts are 0 \"base\", 1 \"lid\"");
             assert_contains(&stderr(&output), &expected);
         }
     }
-    let plain = scene.file("plain.obj", crate::TETRAHEDRON);
+    let plain = scene.file("plain.obj", crate::TETRAHEDRON_OBJ);
     let output = CommandCall::with_args(&["decompose", &part(&plain, "lid")]).output();
     assert_contains(&stderr(&output), "it has one, without a name: 0");
 }
@@ -141,7 +141,7 @@ fn an_unknown_part_lists_those_there_are() {
 fn a_mark_in_the_name_of_a_file_is_kept() {
     let scene = Scene::new("parts-marks");
     for file in ["part#1.obj", "#.obj", "scene.glb#lid.obj"] {
-        let path = scene.file(file, crate::TETRAHEDRON);
+        let path = scene.file(file, crate::TETRAHEDRON_OBJ);
         let rows = CommandCall::query(&["--a", name(&path), "--b", BALL_SPEC])
             .stdin("b_pz\n9\n")
             .expect_rows();
@@ -154,7 +154,7 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
 #[test]
 fn files_are_adjusted_by_words_after_their_names_and_by_options() {
     let scene = Scene::new("adjusted");
-    let path = scene.file("part.obj", crate::TETRAHEDRON);
+    let path = scene.file("part.obj", crate::TETRAHEDRON_OBJ);
     for (words, options, top) in [
         ("", &[][..], 1.0),
         ("@scale=2", &[], 2.0),
@@ -187,7 +187,7 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
             CommandCall::with_args(&["decompose", &body]),
             CommandCall::with_args(&["decompose", name(&path), option]),
         ] {
-            run.ends(2);
+            run.expect_exit_code(2);
         }
     }
 }
@@ -195,7 +195,7 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
 #[test]
 fn a_body_inside_a_hollow_surface_touches_nothing() {
     let scene = Scene::new("hollow");
-    let path = scene.file("part.obj", crate::TETRAHEDRON);
+    let path = scene.file("part.obj", crate::TETRAHEDRON_OBJ);
     let hollow = format!("{}@surface", name(&path));
     let inside = "b_px,b_py,b_pz\n.1,.1,.1\n";
     for (body, option, status) in [
@@ -211,7 +211,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
         );
     }
     let out = scene.directory.join("hollow.ccd");
-    CommandCall::with_args(&["decompose", &hollow, "--out", name(&out)]).ends(0);
+    CommandCall::with_args(&["decompose", &hollow, "--out", name(&out)]).expect_exit_code(0);
     let rows = CommandCall::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
     assert_eq!(rows.expect_rows()[0].text("status"), "free");
     // A prepared body is not adjusted.
@@ -226,7 +226,9 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
         let run = CommandCall::query(&["--a", BALL_SPEC, "--b", body, "--tolerance", "1e-7"]);
-        let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").ends(0);
+        let output = run
+            .stdin("a_px,a_vx,duration\n-4,1,4\n")
+            .expect_exit_code(0);
         assert_contains(&stderr(&output), "sticking out by up to");
         let rows = crate::parse(&output.stdout);
         // The cone's radius equals its height, so that the slant is at 45 degrees.
@@ -245,7 +247,7 @@ fn cylinders_and_cones_are_bodies() {
 fn units_are_converted() {
     let scene = Scene::new("units");
     let cube = scene.bytes("cube.glb", &glb());
-    let die = scene.file("die.obj", &die_obj());
+    let die = scene.file("die.obj", &large_cube_obj());
     let (cube, die) = (part(&cube, "base"), format!("{}@mm", name(&die)));
     // The die, of 20 mm, stands on the cube, of 1000 mm, with a gap of 30 mm.
     let above = |unit: f64| {
@@ -257,7 +259,7 @@ fn units_are_converted() {
             CommandCall::query(&["--a", &cube, "--b", &die, "--unit", unit, "--tolerance"])
                 .args(&[&(1e-4 / metres).to_string()])
                 .stdin(&above(metres))
-                .ends(0);
+                .expect_exit_code(0);
         let message = stderr(&output);
         let rows = crate::parse(&output.stdout);
         assert_eq!(rows[0].text("status"), "contact", "{unit}: {message}");
@@ -275,7 +277,7 @@ fn units_are_converted() {
 fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
     let scene = Scene::new("units-kept");
     let cube = part(&scene.bytes("cube.glb", &glb()), "base");
-    let die = scene.file("die.obj", &die_obj());
+    let die = scene.file("die.obj", &large_cube_obj());
     let query = |a: &str, b: &str| {
         CommandCall::query(&["--a", a, "--b", b])
             .stdin("b_pz\n50\n")
@@ -288,7 +290,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
         "--a is in m, --b in mm, and the numbers of both are kept: give --unit m or --unit mm";
     assert_contains(&message, expected);
     // A primitive is in the user's unit; a file is in an unknown one.
-    let plain = scene.file("plain.obj", crate::TETRAHEDRON);
+    let plain = scene.file("plain.obj", crate::TETRAHEDRON_OBJ);
     for (other, is_told) in [(BALL_SPEC, false), (name(&plain), true)] {
         let message = stderr(&query(&cube, other));
         assert_eq!(message.contains("give --unit"), is_told, "{message}");
@@ -308,7 +310,7 @@ fn a_part_is_prepared_and_stored() {
     let output =
         CommandCall::with_args(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
             .args(&[name(&stored), "--format", "json"])
-            .ends(0);
+            .expect_exit_code(0);
     let statistics: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(statistics["mesh"], part(&file, "lid"));
     assert_eq!(statistics["unit"], "mm");

@@ -16,14 +16,14 @@ mod view;
 use command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 
 /// The path of the command under test.
-const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
+const PROGRAM_PATH: &str = env!("CARGO_BIN_EXE_ccd");
 
 /// The options for a cube that falls at speed 4 onto a slab whose top is 2.5 below the cube.
 const CUBE_AND_SLAB_OPTIONS: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const FALLING_CUBE_MOTION: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
-const DROP_TIME: f64 = 2.5 / 4.0;
+const DROP_CONTACT_TIME: f64 = 2.5 / 4.0;
 
-const TETRAHEDRON: &str =
+const TETRAHEDRON_OBJ: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 impl CommandCall {
@@ -35,7 +35,7 @@ impl CommandCall {
 
 impl Row {
     /// Checks that the time of contact is not late, and early by at most the time to cross the tolerance.
-    pub(crate) fn assert_in_time(&self, exact: f64, closing_speed: f64) {
+    pub(crate) fn assert_time_within_tolerance(&self, exact: f64, closing_speed: f64) {
         let early = exact - self.number("time");
         assert!(
             (-1e-12..=1e-3 / closing_speed).contains(&early),
@@ -56,7 +56,7 @@ fn a_box_falls_onto_a_box() {
     assert_eq!(rows.len(), 1);
     let row = &rows[0];
     assert_eq!((row.text("id"), row.text("status")), ("drop", "contact"));
-    row.assert_in_time(DROP_TIME, 4.0);
+    row.assert_time_within_tolerance(DROP_CONTACT_TIME, 4.0);
     assert!(row.number("distance_upper") <= 1e-3);
     assert!(row.number("distance_lower") <= row.number("distance_upper"));
     assert!(row.number("normal_z") < -0.999);
@@ -84,7 +84,7 @@ fn every_schedule_and_oracle_gives_the_answer() {
                 .stdin(FALLING_CUBE_MOTION)
                 .expect_rows();
             assert_eq!(rows[0].text("status"), "contact", "{schedule} {oracle}");
-            let late = rows[0].number("time") - DROP_TIME;
+            let late = rows[0].number("time") - DROP_CONTACT_TIME;
             assert!(
                 (-1e-6..=1e-12).contains(&late),
                 "{schedule} {oracle}: {late}"
@@ -113,7 +113,7 @@ fn every_status_occurs() {
 #[test]
 fn an_unresolved_row_is_a_result() {
     let scene = Scene::new("unresolved");
-    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let mesh = mesh.to_str().unwrap();
     let motions = "a_px,a_vx,a_wz\n5,-5,9\n";
     let rows = CommandCall::query(&["--a", mesh, "--b", mesh, "--budget", "1"])
@@ -148,7 +148,7 @@ fn margins_are_kept_and_leave_ignores_contacts_at_the_start() {
         .args(&["--margin", "0.5"])
         .stdin(FALLING_CUBE_MOTION)
         .expect_rows();
-    with_margin[0].assert_in_time(2.0 / 4.0, 4.0);
+    with_margin[0].assert_time_within_tolerance(2.0 / 4.0, 4.0);
     let parting = "a_pz,a_vz\n1.5,1\n";
     let reported = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(parting)
@@ -166,7 +166,7 @@ fn files_are_read_and_written() {
     let scene = Scene::new("files");
     let motions = scene.file("motions.csv", FALLING_CUBE_MOTION);
     let results = scene.directory.join("results.csv");
-    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let run =
         CommandCall::with_args(&["query", "--a", mesh.to_str().unwrap(), "--b", "sphere:0.5"])
             .args(&[
@@ -176,19 +176,19 @@ fn files_are_read_and_written() {
                 results.to_str().unwrap(),
             ])
             .stdin("");
-    let output = run.ends(0);
+    let output = run.expect_exit_code(0);
     assert_eq!(output.stdout, b"");
     let rows = parse(&std::fs::read(&results).unwrap());
     assert_eq!(rows[0].text("status"), "contact");
     // From z = 4 its base comes down to the ball's top at 0.5.
-    rows[0].assert_in_time(3.5 / 4.0, 4.0);
+    rows[0].assert_time_within_tolerance(3.5 / 4.0, 4.0);
     assert_eq!(rows[0].text("feature_b"), "v0");
 }
 
 #[test]
 fn the_same_file_twice_is_loaded_once() {
     let scene = Scene::new("once");
-    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let other_name = scene.directory.join(".").join("tetrahedron.obj");
     let bodies = [
         "--a",
@@ -198,14 +198,14 @@ fn the_same_file_twice_is_loaded_once() {
     ];
     let output = CommandCall::query(&bodies)
         .stdin("a_px,a_vx\n3,-3\n")
-        .ends(0);
+        .expect_exit_code(0);
     assert_eq!(stderr(&output).matches(", solid").count(), 1);
 }
 
 #[test]
 fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() {
     let scene = Scene::new("threads");
-    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let bodies = ["--a", mesh.to_str().unwrap(), "--b", "capsule:0.2,0.7"];
     let mut motions = "a_px,a_py,a_vx,a_wx,a_wy,b_wz\n".to_owned();
     for k in 0..64 {
@@ -240,7 +240,7 @@ fn raised_tolerances_are_reported() {
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--tolerance", "1e-12"])
         .stdin(far)
-        .ends(0);
+        .expect_exit_code(0);
     assert_contains(&stderr(&output), "--tolerance 1e-12 cannot be certified");
 }
 
@@ -259,7 +259,7 @@ fn results_never_overwrite_their_motions() {
         let (motions, target) = (named(motions), named(target));
         std::fs::write(&motions, FALLING_CUBE_MOTION).unwrap();
         for more in [&[][..], &["--resume"]] {
-            let output = std::process::Command::new(PROGRAM)
+            let output = std::process::Command::new(PROGRAM_PATH)
                 .args(["query", "--a", "box:1,1,1", "--b", "box:1,1,1"])
                 .args(["--motions", &motions, option, &target])
                 .args(more)
@@ -288,7 +288,7 @@ fn tables_do_not_overwrite_each_other_by_any_spelling() {
     ] {
         let folder = scene.directory.file_name().unwrap().to_str().unwrap();
         let contacts = contacts.replace("{}", folder);
-        let output = std::process::Command::new(PROGRAM)
+        let output = std::process::Command::new(PROGRAM_PATH)
             .current_dir(&scene.directory)
             .args([
                 "query",
@@ -339,7 +339,7 @@ fn the_summary_counts_rows_and_quiet_omits_it() {
 fn a_table_without_rows_gives_a_header() {
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin("id\n")
-        .ends(0);
+        .expect_exit_code(0);
     let header = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(
         header.starts_with("id,status,time,distance_lower,"),
@@ -354,7 +354,7 @@ fn a_table_without_rows_gives_a_header() {
 #[test]
 fn help_shows_examples() {
     for args in [&["--help"][..], &["query", "--help"], &["query", "-h"]] {
-        let output = CommandCall::with_args(args).stdin("").ends(0);
+        let output = CommandCall::with_args(args).stdin("").expect_exit_code(0);
         assert!(
             String::from_utf8(output.stdout)
                 .unwrap()

@@ -10,7 +10,7 @@ fn query_messages(table: &str) -> String {
     let output = CommandCall::query(&SPHERES_OPTIONS)
         .args(&["--quiet"])
         .stdin(table)
-        .ends(2);
+        .expect_exit_code(2);
     stderr(&output)
 }
 
@@ -138,7 +138,7 @@ fn selected_rows_have_the_same_answers() {
     for bad in ["3", "4..4", "a..b", "-1..2"] {
         CommandCall::query(&SPHERES_OPTIONS)
             .args(&["--rows", bad])
-            .ends(2);
+            .expect_exit_code(2);
     }
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }
@@ -149,7 +149,7 @@ fn nothing_in_a_file_controls_the_terminal() {
     let scene = Scene::new("escapes");
     let table = "id,a_px\n\"\u{1b}]0;owned\u{7}\",\u{1b}[2Jx\nb,\"1\n\rccd: all rows are free\"\n";
     let motions = scene.file("\u{1b}[31mred.csv", table);
-    let mesh = [crate::TETRAHEDRON, "\u{1b}[5m 1\n"].concat();
+    let mesh = [crate::TETRAHEDRON_OBJ, "\u{1b}[5m 1\n"].concat();
     let mesh = scene.file("part.obj", &mesh);
     let message = CommandCall::with_args(&["query", "--b", "box:1,1,1"])
         .args(&[
@@ -172,7 +172,7 @@ fn nothing_in_a_file_controls_the_terminal() {
 #[test]
 fn ignored_input_is_reported_with_quiet_too() {
     let scene = Scene::new("unread");
-    let mesh = [crate::TETRAHEDRON, "l 1 2\n"].concat();
+    let mesh = [crate::TETRAHEDRON_OBJ, "l 1 2\n"].concat();
     let mesh = scene.file("part.obj", &mesh);
     let output =
         CommandCall::query(&["--a", mesh.to_str().unwrap(), "--b", "box:1,1,1", "--quiet"])
@@ -239,7 +239,7 @@ fn traps_are_remarked_upon_once() {
 #[test]
 fn a_single_known_unit_is_reported_once() {
     let scene = Scene::new("mixed-units");
-    let mesh = scene.file("part.obj", crate::TETRAHEDRON);
+    let mesh = scene.file("part.obj", crate::TETRAHEDRON_OBJ);
     let plain = mesh.to_str().unwrap();
     let in_mm = format!("{plain}@mm");
     let large = format!("{plain}@scale=1000");

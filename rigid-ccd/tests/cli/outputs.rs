@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const MOTIONS: &str = "id,a_pz,a_vz\nhit,4,-4\nfree,9,-1\n";
+const MOTIONS_CSV: &str = "id,a_pz,a_vz\nhit,4,-4\nfree,9,-1\n";
 
 /// Writes the input files of the tests: a ball of many triangles, a table of 2 motions, one of 4,000 motions, and a
 /// scene.
@@ -30,7 +30,7 @@ fn write_inputs(scene: &Scene) {
         }
     }
     scene.file("ball.obj", &ball);
-    scene.file("motions.csv", MOTIONS);
+    scene.file("motions.csv", MOTIONS_CSV);
     let mut many = String::from("id,a_pz,a_vz\n");
     for k in 0..4000 {
         many += &format!("row{k},4,-4\n");
@@ -290,7 +290,7 @@ mod full {
         let limit = "trap '' XFSZ; ulimit -f 8; exec \"$@\"";
         Command::new("sh")
             .current_dir(&scene.directory)
-            .args(["-c", limit, "sh", crate::PROGRAM])
+            .args(["-c", limit, "sh", crate::PROGRAM_PATH])
             .args(command.split(' '))
             .output()
             .unwrap()
@@ -353,7 +353,7 @@ mod full {
                     "-c",
                     "exec \"$@\" >>all.csv 3>>all.csv",
                     "sh",
-                    crate::PROGRAM,
+                    crate::PROGRAM_PATH,
                 ])
                 .args(query.split(' '))
                 .arg(out)

@@ -1,7 +1,7 @@
 //! Tests `ccd query --ask` for motions and for paths.
 
 use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
-use crate::{CUBE_AND_SLAB_OPTIONS, DROP_TIME, FALLING_CUBE_MOTION};
+use crate::{CUBE_AND_SLAB_OPTIONS, DROP_CONTACT_TIME, FALLING_CUBE_MOTION};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;
 use std::fs;
@@ -13,13 +13,13 @@ const PASSING_MOTION: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
 
 /// A table of a path from time 10 on: a cube comes down onto a slab, stays for a unit of time, and leaves. It touches
 /// from 12.5 to 15.
-const VISIT_PATH: &str = "id,t,a_px,a_pz\n\
+const TOUCH_AND_LEAVE_PATH: &str = "id,t,a_px,a_pz\n\
                      visit,10,0,4\n\
                      visit,13,0,1\n\
                      visit,14,5,1\n\
                      visit,18,5,3\n";
-const VISIT_START_TIME: f64 = 12.5;
-const VISIT_END_TIME: f64 = 15.0;
+const TOUCH_START_TIME: f64 = 12.5;
+const TOUCH_END_TIME: f64 = 15.0;
 
 fn ask(question: &str, bodies: &[&str], table: &str) -> CommandCall {
     CommandCall::query(bodies)
@@ -38,7 +38,7 @@ fn a_contact_is_found_at_any_time() {
     let row = only_row(&ask("is-free", &CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
-    assert!((DROP_TIME - 1e-3..=1.0).contains(&time), "{time}");
+    assert!((DROP_CONTACT_TIME - 1e-3..=1.0).contains(&time), "{time}");
     assert!(row.number("distance_upper") <= 1e-3);
     let row = only_row(&ask("is-free", &BALLS_OPTIONS, PASSING_MOTION));
     assert_eq!((row.text("status"), row.text("time")), ("free", "1.0"));
@@ -50,7 +50,7 @@ fn an_interval_holds_the_contact() {
     let through = "a_pz,a_vz,duration\n4,-4,3\n";
     let row = only_row(&ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, through));
     assert_eq!(row.text("status"), "contact");
-    row.assert_in_time(DROP_TIME, 4.0);
+    row.assert_time_within_tolerance(DROP_CONTACT_TIME, 4.0);
     let late = row.number("last_time") - 5.5 / 4.0;
     assert!((0.0..=1e-3 / 4.0).contains(&late), "{late} late");
 }
@@ -173,24 +173,36 @@ fn the_distance_is_that_of_the_start() {
 
 #[test]
 fn paths_answer_every_question() {
-    let row = only_row(&ask("first-contact", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
+    let row = only_row(&ask(
+        "first-contact",
+        &CUBE_AND_SLAB_OPTIONS,
+        TOUCH_AND_LEAVE_PATH,
+    ));
     assert_eq!((row.text("id"), row.text("status")), ("visit", "contact"));
-    row.assert_in_time(VISIT_START_TIME, 1.0);
+    row.assert_time_within_tolerance(TOUCH_START_TIME, 1.0);
 
-    let row = only_row(&ask("is-free", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
+    let row = only_row(&ask(
+        "is-free",
+        &CUBE_AND_SLAB_OPTIONS,
+        TOUCH_AND_LEAVE_PATH,
+    ));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
     assert!(
-        (VISIT_START_TIME - 1e-3..=VISIT_END_TIME + 2e-3).contains(&time),
+        (TOUCH_START_TIME - 1e-3..=TOUCH_END_TIME + 2e-3).contains(&time),
         "{time}"
     );
 
-    let row = only_row(&ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
-    row.assert_in_time(VISIT_START_TIME, 1.0);
-    let late = row.number("last_time") - VISIT_END_TIME;
+    let row = only_row(&ask(
+        "contact-interval",
+        &CUBE_AND_SLAB_OPTIONS,
+        TOUCH_AND_LEAVE_PATH,
+    ));
+    row.assert_time_within_tolerance(TOUCH_START_TIME, 1.0);
+    let late = row.number("last_time") - TOUCH_END_TIME;
     assert!((-1e-9..=2e-3).contains(&late), "{late} late");
 
-    let over = VISIT_PATH.replace(",1\n", ",2\n");
+    let over = TOUCH_AND_LEAVE_PATH.replace(",1\n", ",2\n");
     let row = only_row(&ask("closest-approach", &CUBE_AND_SLAB_OPTIONS, &over));
     let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
     assert!(
@@ -205,7 +217,7 @@ fn paths_answer_every_question() {
 
 #[test]
 fn distances_are_those_of_every_row_of_a_path() {
-    let rows = ask("distance", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH).expect_rows();
+    let rows = ask("distance", &CUBE_AND_SLAB_OPTIONS, TOUCH_AND_LEAVE_PATH).expect_rows();
     let times: Vec<f64> = rows.iter().map(|row| row.number("time")).collect();
     assert_eq!(times, [10.0, 13.0, 14.0, 18.0]);
     let statuses: Vec<&str> = rows.iter().map(|row| row.text("status")).collect();
@@ -223,8 +235,12 @@ fn contacts_of_a_path_are_listed() {
     let scene = Scene::new("contacts-of-a-path");
     let contacts = scene.directory.join("contacts.csv");
     let contacts_name = contacts.to_str().unwrap();
-    let run = ask("first-contact", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH)
-        .args(&["--contacts", contacts_name]);
+    let run = ask(
+        "first-contact",
+        &CUBE_AND_SLAB_OPTIONS,
+        TOUCH_AND_LEAVE_PATH,
+    )
+    .args(&["--contacts", contacts_name]);
     let found = only_row(&run);
     let rows = parse(&fs::read(&contacts).unwrap());
     assert_eq!(rows.len(), 4, "the corners of the cube");
@@ -314,7 +330,7 @@ fn options_without_a_use_are_refused() {
     ] {
         let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .args(options)
-            .stdin(VISIT_PATH)
+            .stdin(TOUCH_AND_LEAVE_PATH)
             .expect_messages(2);
         assert_contains(&message, refusal);
     }
@@ -366,7 +382,7 @@ fn a_check_fails_unless_every_row_is_proven() {
     CommandCall::query(&BALLS_OPTIONS)
         .args(&["--check"])
         .stdin(&two)
-        .ends(2);
+        .expect_exit_code(2);
     for (options, refusal) in [
         (&["--ask", "distance"][..], "--check needs --clearance"),
         (
@@ -393,7 +409,7 @@ fn a_finished_check_fails_again() {
         .args(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--out", out.to_str().unwrap()]);
     assert_eq!(run.output().status.code(), Some(3));
-    run.args(&["--resume"]).ends(3);
+    run.args(&["--resume"]).expect_exit_code(3);
 }
 
 /// Returns a tube about z as the text of an OBJ file.

@@ -29,7 +29,7 @@ pub(crate) fn query(scene: &Scene, options: &[&str]) -> Command {
     let usual = DEFAULT_OPTIONS
         .iter()
         .filter(|[name, _]| !options.contains(name));
-    let mut command = Command::new(crate::PROGRAM);
+    let mut command = Command::new(crate::PROGRAM_PATH);
     command
         .current_dir(&scene.directory)
         .args(["query", "--no-micros"])
@@ -322,10 +322,10 @@ fn a_changed_mesh_is_reported_with_its_option() {
     let scene = Scene::new("changed-mesh");
     let mesh = path(&scene, "part.obj");
     let options = ["--a", "part.obj"];
-    fs::write(&mesh, crate::TETRAHEDRON).unwrap();
+    fs::write(&mesh, crate::TETRAHEDRON_OBJ).unwrap();
     let table = "a_pz\n9\n";
     assert!(run_to_end(query(&scene, &options), table).status.success());
-    fs::write(&mesh, crate::TETRAHEDRON.replace("v 1 0 0", "v 2 0 0")).unwrap();
+    fs::write(&mesh, crate::TETRAHEDRON_OBJ.replace("v 1 0 0", "v 2 0 0")).unwrap();
     let mut command = query(&scene, &options);
     command.arg("--resume");
     let output = run_to_end(command, table);
@@ -346,11 +346,11 @@ fn folders_and_inputs_are_never_overwritten() {
     let output = run_to_end(query(&scene, &["--out", ""]), one);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     let mesh = path(&scene, "part.obj");
-    fs::write(&mesh, crate::TETRAHEDRON).unwrap();
+    fs::write(&mesh, crate::TETRAHEDRON_OBJ).unwrap();
     let over = ["--out", "part.obj", "--a", "part.obj"];
     let output = run_to_end(query(&scene, &over), one);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert_eq!(read(&mesh), crate::TETRAHEDRON);
+    assert_eq!(read(&mesh), crate::TETRAHEDRON_OBJ);
 }
 
 #[cfg(unix)]

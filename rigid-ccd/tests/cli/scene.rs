@@ -12,7 +12,7 @@ const BODIES_TABLE: &str = "body,id,px,pz,vz\n\
     sphere:.5,away,5,4,1\n";
 
 fn contacts(run: &CommandCall) -> Vec<Row> {
-    let output = run.ends(0);
+    let output = run.expect_exit_code(0);
     parse(&output.stdout)
 }
 
@@ -41,7 +41,7 @@ fn pairs_that_touch_are_listed_in_order_of_time() {
         .iter()
         .zip([(3.0 / 3.5, 3.5), (6.5 / 5.5, 5.5), (1.25, 2.0)])
     {
-        row.assert_in_time(exact, speed);
+        row.assert_time_within_tolerance(exact, speed);
         assert!(row.number("distance_lower") <= row.number("distance_upper"));
         assert!(row.number("distance_upper") <= 1e-3);
     }
@@ -94,7 +94,7 @@ fn contacts_at_the_start_and_bad_motions_have_their_status() {
         "--out",
         out.to_str().unwrap(),
     ]);
-    run.ends(2);
+    run.expect_exit_code(2);
     let rows = parse(&std::fs::read(&out).unwrap());
     assert_eq!(rows[0].text("status"), "error");
     assert!(!rows[0].text("reason").is_empty());
@@ -105,7 +105,7 @@ fn a_scene_is_not_overwritten() {
     let scene = Scene::new("scene-over");
     let bodies = scene.file("scene.csv", BODIES_TABLE);
     let bodies = bodies.to_str().unwrap();
-    CommandCall::with_args(&["scene", bodies, "--out", bodies]).ends(2);
+    CommandCall::with_args(&["scene", bodies, "--out", bodies]).expect_exit_code(2);
     assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES_TABLE);
 }
 
@@ -175,7 +175,7 @@ fn an_end_pose_is_reached_at_the_end() {
         "--duration",
         "2",
     ]));
-    rows[0].assert_in_time(1.5, 4.0);
+    rows[0].assert_time_within_tolerance(1.5, 4.0);
     for (code, message) in run_scene_and_view(bodies, &["--duration", "0"]) {
         assert_eq!(code, Some(2), "{message}");
         assert_contains(&message, "row 0 (line 2): --duration: 0 is not");

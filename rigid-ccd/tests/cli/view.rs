@@ -12,11 +12,11 @@ fn view(folder: &Path, more: &[&str]) -> Value {
     CommandCall::with_args(&["view"])
         .args(more)
         .folder(folder)
-        .ends(0);
-    data(&folder.join("view.html"))
+        .expect_exit_code(0);
+    embedded_views(&folder.join("view.html"))
 }
 
-fn data(page: &Path) -> Value {
+fn embedded_views(page: &Path) -> Value {
     let html = std::fs::read_to_string(page).unwrap();
     let (_, rest) = html.split_once("id=\"views\">").unwrap();
     serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
@@ -103,7 +103,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         .expect_messages(2);
     assert_contains(&message, "no row has the id \"gone\"");
     assert_eq!(
-        names(&data(&scene.directory.join("view.html"))),
+        names(&embedded_views(&scene.directory.join("view.html"))),
         ["hit (contact)", "never (free)"]
     );
     let nothing = [
@@ -137,8 +137,8 @@ fn results_are_shown_as_they_are() {
     CommandCall::with_args(&["query"])
         .args(&query)
         .folder(&scene.directory)
-        .ends(0);
-    let page = data(&scene.directory.join("page.html"));
+        .expect_exit_code(0);
+    let page = embedded_views(&scene.directory.join("page.html"));
     let args = [
         &CUBE_AND_SLAB_OPTIONS[..],
         &["--motions", &motions, "--results", "results.csv"],
@@ -209,7 +209,7 @@ fn results_of_other_bodies_are_not_shown() {
     let output = CommandCall::with_args(&view)
         .args(&["--results", "results.csv"])
         .folder(&scene.directory)
-        .ends(2);
+        .expect_exit_code(2);
     assert_contains(&stderr(&output), "row hit: at 0.62");
     assert_contains(&stderr(&output), "other bodies");
     let other = file(&scene, "other.csv", "id,a_pz\nelse,4\n");
@@ -236,8 +236,8 @@ fn verdict(scene: &Scene, more: &[&str]) -> String {
     CommandCall::with_args(&["query"])
         .args(&args)
         .folder(&scene.directory)
-        .ends(0);
-    let page = data(&scene.directory.join("x.html"));
+        .expect_exit_code(0);
+    let page = embedded_views(&scene.directory.join("x.html"));
     views(&page)[0]["verdict"].as_str().unwrap().to_owned()
 }
 
@@ -332,7 +332,7 @@ fn rows_that_are_no_queries_are_left_out_and_counted() {
         .expect_messages(2);
     assert_contains(&message, "2 rows are no valid queries");
     assert_eq!(
-        names(&data(&scene.directory.join("view.html"))),
+        names(&embedded_views(&scene.directory.join("view.html"))),
         ["hit (contact)"]
     );
 }
@@ -424,7 +424,7 @@ fn a_page_overwrites_nothing_that_is_read() {
     ] {
         CommandCall::with_args(&args)
             .folder(&scene.directory)
-            .ends(2);
+            .expect_exit_code(2);
         assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS_TABLE);
     }
     for args in [
@@ -434,6 +434,6 @@ fn a_page_overwrites_nothing_that_is_read() {
     ] {
         CommandCall::with_args(args)
             .folder(&scene.directory)
-            .ends(2);
+            .expect_exit_code(2);
     }
 }

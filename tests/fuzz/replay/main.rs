@@ -91,7 +91,7 @@ fn replay_target(target: Target) {
     assert!(!corpus.is_empty(), "no corpus of {}", target.name);
     let mut mutator = Mutator::new(number_from_environment("CCD_TEST_SEED", 1), &corpus);
     for number in 0..CHANGED_FILES_PER_CORPUS * number_from_environment("CCD_TEST_CASES", 1) {
-        let bytes = mutator.next_file();
+        let bytes = mutator.next_changed_file();
         run(target, &bytes, &format!("change {number}"));
     }
 }

@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 /// A generator of randomly changed corpus files: it replaces, removes and repeats bytes, and inserts parts of other
 /// files.
 pub(crate) struct Mutator<'a> {
-    random: Pcg64,
+    rng: Pcg64,
     corpus: &'a [Vec<u8>],
 }
 
@@ -18,10 +18,13 @@ const MEANINGFUL_BYTES: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eE
 impl<'a> Mutator<'a> {
     pub(crate) fn new(seed: u64, corpus: &'a [Vec<u8>]) -> Self {
         let random = Pcg64::seed_from_u64(seed);
-        Mutator { random, corpus }
+        Mutator {
+            rng: random,
+            corpus,
+        }
     }
 
-    pub(crate) fn next_file(&mut self) -> Vec<u8> {
+    pub(crate) fn next_changed_file(&mut self) -> Vec<u8> {
         let mut bytes = self.pick_file().to_vec();
         for _ in 0..1 + self.random_below(MAX_CHANGES) {
             self.change(&mut bytes);
@@ -39,7 +42,7 @@ impl<'a> Mutator<'a> {
         let end = at + self.random_below(bytes.len() - at + 1);
         match self.random_below(7) {
             0 => {
-                let byte = self.random.random();
+                let byte = self.rng.random();
                 bytes.splice(at..bytes.len().min(at + 1), [byte]);
             }
             1 => {
@@ -73,6 +76,6 @@ impl<'a> Mutator<'a> {
     }
 
     fn random_below(&mut self, end: usize) -> usize {
-        self.random.random_range(0..end)
+        self.rng.random_range(0..end)
     }
 }

@@ -1,7 +1,7 @@
 //! A query as plain numbers, and its form as files and a command line.
 
 use crate::nearest::Triangle;
-use crate::raw_motion::{Goal, RawMotion, RawPose};
+use crate::raw_motion::{MotionSpec, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use std::fmt::Write;
 #[derive(Clone, Debug)]
 pub struct Case {
     pub shapes: [Shape; 2],
-    pub courses: [RawMotion; 2],
+    pub motions: [RawMotion; 2],
     pub duration: f64,
     pub config: Settings,
     /// The expected result, as far as the generator knows it.
@@ -18,7 +18,7 @@ pub struct Case {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expectation {
-    Nothing,
+    Unknown,
     /// The bodies separate or keep their distance, so that there is no contact.
     Free,
     /// The bodies certainly come nearer than allowed before the given time.
@@ -30,12 +30,12 @@ pub enum Expectation {
 pub struct Shape {
     pub vertices: Vec<[f64; 3]>,
     pub faces: Vec<[u32; 3]>,
-    pub form: Form,
+    pub mesh_class: MeshClass,
 }
 
 /// The properties that a mesh is known to have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Form {
+pub enum MeshClass {
     #[default]
     TriangleSoup,
     /// The mesh is closed, oriented outward and without flaws, so that patches can be made of it.
@@ -65,7 +65,7 @@ impl Shape {
         Shape {
             vertices: (0..8).map(corner).collect(),
             faces: faces.collect(),
-            form: Form::Convex,
+            mesh_class: MeshClass::Convex,
         }
     }
 
@@ -91,14 +91,14 @@ impl Shape {
         self.vertices.extend(&other.vertices);
         self.faces
             .extend(other.faces.iter().map(|f| f.map(|v| v + base)));
-        self.form = Form::TriangleSoup;
+        self.mesh_class = MeshClass::TriangleSoup;
         self
     }
 
     /// Returns the shape with all faces reversed.
     pub fn flipped(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
-        self.form = Form::TriangleSoup;
+        self.mesh_class = MeshClass::TriangleSoup;
         self
     }
 
@@ -125,7 +125,7 @@ impl Case {
                 row.push(format!("{value:e}"));
             }
         };
-        for (letter, course) in ['a', 'b'].into_iter().zip(&self.courses) {
+        for (letter, course) in ['a', 'b'].into_iter().zip(&self.motions) {
             let RawPose {
                 position,
                 quaternion,
@@ -133,12 +133,12 @@ impl Case {
             put(letter, "px py pz", &position);
             put(letter, "qw qx qy qz", &quaternion);
             put(letter, "cx cy cz", &course.centre);
-            match course.goal {
-                Goal::Velocities { linear, spin } => {
+            match course.spec {
+                MotionSpec::Velocities { linear, spin } => {
                     put(letter, "vx vy vz", &linear);
                     put(letter, "wx wy wz", &spin);
                 }
-                Goal::End(RawPose {
+                MotionSpec::EndPose(RawPose {
                     position,
                     quaternion,
                 }) => {

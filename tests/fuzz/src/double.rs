@@ -9,25 +9,25 @@ use std::sync::LazyLock;
 
 /// The number `hi + lo`, where `hi` is the sum rounded to f64. It has about 32 digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Double {
+pub struct DoubleDouble {
     hi: f64,
     lo: f64,
 }
 
 /// Returns the sum of two numbers, as the rounded sum and its error.
 #[inline]
-fn two_sum(a: f64, b: f64) -> Double {
+fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
     let of_b = hi - a;
     let lo = (a - (hi - of_b)) + (b - of_b);
-    Double { hi, lo }
+    DoubleDouble { hi, lo }
 }
 
 /// Computes [`two_sum`] faster, for `a` of larger magnitude than `b`.
 #[inline]
-fn quick_two_sum(a: f64, b: f64) -> Double {
+fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
-    Double {
+    DoubleDouble {
         hi,
         lo: b - (hi - a),
     }
@@ -35,21 +35,21 @@ fn quick_two_sum(a: f64, b: f64) -> Double {
 
 /// Returns the product of two numbers, as the rounded product and its error, unless the error underflows.
 #[inline]
-fn two_prod(a: f64, b: f64) -> Double {
+fn two_prod(a: f64, b: f64) -> DoubleDouble {
     let hi = a * b;
-    Double {
+    DoubleDouble {
         hi,
         lo: a.mul_add(b, -hi),
     }
 }
 
-impl Double {
+impl DoubleDouble {
     pub const fn new(hi: f64) -> Self {
-        Double { hi, lo: 0.0 }
+        DoubleDouble { hi, lo: 0.0 }
     }
 
     /// Returns the sine and the cosine, by reduction to quarter turns and power series.
-    pub fn sin_cos(self) -> (Double, Double) {
+    pub fn sin_cos(self) -> (DoubleDouble, DoubleDouble) {
         // π/2 in three parts.
         const HALF_PI: [f64; 3] = [
             std::f64::consts::FRAC_PI_2,
@@ -63,7 +63,7 @@ impl Double {
         let square = r * r;
         let factors = &*INVERSE_FACTORIALS;
         let series = |first: usize| {
-            let (mut sum, mut n) = (Double::default(), 26 + first);
+            let (mut sum, mut n) = (DoubleDouble::default(), 26 + first);
             while n > first {
                 sum = factors[n] - sum * square;
                 n -= 2;
@@ -80,25 +80,25 @@ impl Double {
     }
 
     /// Returns the angle with the given sine and cosine: the f64 angle, improved by one Newton step.
-    pub fn angle(sin: Double, cos: Double) -> Double {
-        let near = Double::new(sin.hi.atan2(cos.hi));
+    pub fn angle(sin: DoubleDouble, cos: DoubleDouble) -> DoubleDouble {
+        let near = DoubleDouble::new(sin.hi.atan2(cos.hi));
         let (s, c) = near.sin_cos();
         near + (sin * c - cos * s)
     }
 }
 
-static INVERSE_FACTORIALS: LazyLock<[Double; 29]> = LazyLock::new(|| {
-    let mut all = [Double::new(1.0); 29];
+static INVERSE_FACTORIALS: LazyLock<[DoubleDouble; 29]> = LazyLock::new(|| {
+    let mut all = [DoubleDouble::new(1.0); 29];
     for n in 1..29 {
-        all[n] = all[n - 1] / Double::new(n as f64);
+        all[n] = all[n - 1] / DoubleDouble::new(n as f64);
     }
     all
 });
 
-impl Number for Double {
+impl Number for DoubleDouble {
     #[inline]
     fn from_f64(x: f64) -> Self {
-        Double::new(x)
+        DoubleDouble::new(x)
     }
 
     #[inline]
@@ -109,14 +109,14 @@ impl Number for Double {
     #[inline]
     fn sqrt(self) -> Self {
         if !(self.hi > 0.0) {
-            return Double::default();
+            return DoubleDouble::default();
         }
-        let near = Double::new(self.hi.sqrt());
+        let near = DoubleDouble::new(self.hi.sqrt());
         near + (self - near * near) / (near + near)
     }
 }
 
-impl Add for Double {
+impl Add for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -127,19 +127,19 @@ impl Add for Double {
     }
 }
 
-impl Neg for Double {
+impl Neg for DoubleDouble {
     type Output = Self;
 
     #[inline]
     fn neg(self) -> Self {
-        Double {
+        DoubleDouble {
             hi: -self.hi,
             lo: -self.lo,
         }
     }
 }
 
-impl Sub for Double {
+impl Sub for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -148,7 +148,7 @@ impl Sub for Double {
     }
 }
 
-impl Mul for Double {
+impl Mul for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -158,20 +158,20 @@ impl Mul for Double {
     }
 }
 
-impl Div for Double {
+impl Div for DoubleDouble {
     type Output = Self;
 
     #[inline]
     fn div(self, other: Self) -> Self {
         let first = self.hi / other.hi;
-        let rest = self - other * Double::new(first);
+        let rest = self - other * DoubleDouble::new(first);
         let second = rest.hi / other.hi;
-        let rest = rest - other * Double::new(second);
-        quick_two_sum(first, second) + Double::new(rest.hi / other.hi)
+        let rest = rest - other * DoubleDouble::new(second);
+        quick_two_sum(first, second) + DoubleDouble::new(rest.hi / other.hi)
     }
 }
 
-impl PartialOrd for Double {
+impl PartialOrd for DoubleDouble {
     #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         match self.hi.partial_cmp(&other.hi)? {

@@ -1,6 +1,6 @@
 //! Runs the engine through its public interface.
 
-use crate::case::{Case, Form, Shape};
+use crate::case::{Case, MeshClass, Shape};
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, Body, DistanceOracle, MovingBody, OrElse, Polytope, Schedule, Settings};
@@ -56,7 +56,7 @@ impl Bodies {
         config: &'a Settings,
     ) -> Result<ccd_core::Query<'a>, String> {
         let moving = |k: usize| -> Result<MovingBody<'_>, String> {
-            let motion = case.courses[k]
+            let motion = case.motions[k]
                 .motion(case.duration)
                 .map_err(|e| e.to_string())?;
             Ok(MovingBody::from((&self.bodies[k], motion)))
@@ -75,16 +75,18 @@ pub enum Trees {
 
 fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
     let vertices = || shape.vertices.iter().map(|&v| DVec3::from(v)).collect();
-    if shape.form == Form::Points {
+    if shape.mesh_class == MeshClass::Points {
         let polytope = Polytope {
             points: vertices(),
             ..Polytope::default()
         };
         return Body::polytope(polytope).map_err(|e| e.to_string());
     }
-    let detail = match (kind, shape.form) {
-        (Kind::Hull, Form::Convex) => Detail::Hull,
-        (Kind::Patches, Form::Convex | Form::Solid) => Detail::Patches(Default::default()),
+    let detail = match (kind, shape.mesh_class) {
+        (Kind::Hull, MeshClass::Convex) => Detail::Hull,
+        (Kind::Patches, MeshClass::Convex | MeshClass::Solid) => {
+            Detail::Patches(Default::default())
+        }
         _ => Detail::Triangles,
     };
     let mesh = TriangleMesh::new(vertices(), &shape.faces).map_err(|e| e.to_string())?;
@@ -101,18 +103,20 @@ fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
 
 impl Method {
     pub fn solve(self, problem: &ccd_core::Query<'_>) -> Answer {
-        fn by<O: DistanceOracle + Default, S: Schedule<O>>(
+        fn solve_with_schedule<O: DistanceOracle + Default, S: Schedule<O>>(
             mut schedule: S,
             problem: &ccd_core::Query<'_>,
         ) -> Answer {
             schedule.first_contact(problem, &mut O::default()).unwrap()
         }
         match self {
-            Method::Direct => by(BestFirst::<Direct>::default(), problem),
-            Method::Gjk => by(BestFirst::<Gjk>::default(), problem),
-            Method::Vmarch => by(BestFirst::<OrElse<Vmarch, Gjk>>::default(), problem),
-            Method::Naive => by(Naive::<Direct>::default(), problem),
-            Method::Fast => by(Fast::<Gjk>::default(), problem),
+            Method::Direct => solve_with_schedule(BestFirst::<Direct>::default(), problem),
+            Method::Gjk => solve_with_schedule(BestFirst::<Gjk>::default(), problem),
+            Method::Vmarch => {
+                solve_with_schedule(BestFirst::<OrElse<Vmarch, Gjk>>::default(), problem)
+            }
+            Method::Naive => solve_with_schedule(Naive::<Direct>::default(), problem),
+            Method::Fast => solve_with_schedule(Fast::<Gjk>::default(), problem),
         }
     }
 

@@ -3,19 +3,19 @@
 mod start;
 
 use crate::case::{Case, Expectation};
-use crate::double::Double;
+use crate::double::DoubleDouble;
 use crate::engine::{Bodies, Method};
 use crate::nearest::{Triangle, distance, penetration_depth};
-use crate::referee::{Evidence, Limit, Scene};
+use crate::referee::{ContactLimit, Scene, Violation};
 use crate::solid::{PointLocation, Solid, distance_to_surface};
-use crate::vector::{Number, Vector, larger, minimum};
+use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
-use start::Start;
+use start::StartState;
 
 /// The allowed decrease of the distance from that at the start under `StartPolicy::Leave`, in units of the rounding
 /// bound.
-const MAX_RESTING_DECREASE: f64 = 1.0;
+const MAX_START_DISTANCE_DECREASE: f64 = 1.0;
 
 /// A kind of fault of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,7 +59,7 @@ pub struct Judge<'a> {
     scene: Scene,
     /// The least tolerance that the engine accepts, which bounds the rounding errors of its distances.
     rounding: f64,
-    start: Start,
+    start: StartState,
     /// The closed surfaces of both bodies at the start.
     placed: [Solid; 2],
     volumes: [Volume; 2],
@@ -71,7 +71,7 @@ impl<'a> Judge<'a> {
     pub fn new(case: &'a Case, volumes: [Volume; 2], rounding: f64) -> Self {
         let scene = Scene::new(case);
         let placed = [0, 1].map(|side| Solid::new(scene.triangles_at(side, 0.0)));
-        let start = Start::new(&scene, &placed, volumes, rounding);
+        let start = StartState::new(&scene, &placed, volumes, rounding);
         Judge {
             case,
             scene,
@@ -112,7 +112,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns the limits of distance and of penetration depth at which the bodies count as nearer than allowed.
-    fn contact_limit(&self, given: &[MethodAnswer<'_>]) -> Limit {
+    fn contact_limit(&self, given: &[MethodAnswer<'_>]) -> ContactLimit {
         let margin = self.case.config.margin;
         let tolerance = given
             .iter()
@@ -120,16 +120,18 @@ impl<'a> Judge<'a> {
             .fold(self.rounding, larger);
         let begun = self.start.distance <= margin + tolerance;
         match self.case.config.start {
-            StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => Limit {
-                threshold: self.required_distance(margin),
-                depth: self.rounding,
-            },
+            StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
+                ContactLimit {
+                    threshold: self.required_distance(margin),
+                    depth: self.rounding,
+                }
+            }
             _ => {
                 let gaps = given.iter().filter_map(|g| match g.answer.outcome {
                     Outcome::Free { proven_gap } => Some(proven_gap),
                     _ => None,
                 });
-                Limit {
+                ContactLimit {
                     threshold: gaps.fold(margin, larger),
                     depth: 0.0,
                 }
@@ -137,7 +139,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn faults_of_answer(&self, given: &MethodAnswer<'_>, evidence: Option<Evidence>) -> Faults {
+    fn faults_of_answer(&self, given: &MethodAnswer<'_>, evidence: Option<Violation>) -> Faults {
         let answer = &given.answer;
         let mut faults = self.check_expected_outcome(&answer.outcome);
         let mut say = |fault, text| faults.push((fault, text));
@@ -145,10 +147,10 @@ impl<'a> Judge<'a> {
         let proven = self.proven_free_until(&answer.outcome);
         let before = evidence.filter(|e| e.time < proven || proven == self.case.duration);
         let below_margin =
-            |e: &Evidence| !(e.distance > 0.0) || e.distance < self.required_distance(margin);
+            |e: &Violation| !(e.distance > 0.0) || e.distance < self.required_distance(margin);
         let early = before.filter(below_margin);
-        let known = |e: Evidence| {
-            let Evidence {
+        let known = |e: Violation| {
+            let Violation {
                 time,
                 distance,
                 depth,
@@ -204,9 +206,9 @@ impl<'a> Judge<'a> {
     /// `StartPolicy::Leave`. Then it is at most the distance at the start, less rounding.
     fn required_distance(&self, margin: f64) -> f64 {
         match self.case.config.start {
-            StartPolicy::Leave => minimum(
+            StartPolicy::Leave => smaller(
                 margin,
-                self.start.distance - MAX_RESTING_DECREASE * self.rounding,
+                self.start.distance - MAX_START_DISTANCE_DECREASE * self.rounding,
             ),
             StartPolicy::Report => margin,
         }
@@ -214,7 +216,7 @@ impl<'a> Judge<'a> {
 
     fn check_expected_outcome(&self, outcome: &Outcome) -> Faults {
         let wrong = match (self.case.expected, *outcome) {
-            (_, Outcome::Unresolved(_)) | (Expectation::Nothing, _) => None,
+            (_, Outcome::Unresolved(_)) | (Expectation::Unknown, _) => None,
             (Expectation::Free, Outcome::Free { .. }) => None,
             (Expectation::Free, _) => Some(Fault::FalseContact),
             (Expectation::ContactBy(t), Outcome::Contact { time, .. }) => {
@@ -236,7 +238,7 @@ impl<'a> Judge<'a> {
         let text = |d: f64| format!("distance {d:e}, {:?}", given.answer.outcome);
         let mut d = scene.distance(time);
         if d > reported + error || d > found.upper + error {
-            d = scene.exact_distance(time);
+            d = scene.all_pairs_distance(time);
         }
         // A piece may extend through the interior of its solid, where the surfaces are farther apart.
         let inside = || self.is_witness_inside(contact, time);
@@ -314,7 +316,7 @@ impl<'a> Judge<'a> {
         let pairs = a
             .iter()
             .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
-        Some(pairs.fold(f64::INFINITY, minimum))
+        Some(pairs.fold(f64::INFINITY, smaller))
     }
 
     fn piece_triangles(
@@ -322,7 +324,7 @@ impl<'a> Judge<'a> {
         bodies: &Bodies,
         contact: &Contact,
         time: f64,
-    ) -> Option<[Vec<Triangle<Double>>; 2]> {
+    ) -> Option<[Vec<Triangle<DoubleDouble>>; 2]> {
         let snapshots = self.scene.snapshots(time);
         let side = |k: usize, piece: u32| {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
@@ -396,7 +398,7 @@ impl<'a> Judge<'a> {
             };
             let d = self.scene.distance(time);
             for (k, other) in given.iter().enumerate() {
-                let tolerance = minimum(one.answer.tolerance, other.answer.tolerance);
+                let tolerance = smaller(one.answer.tolerance, other.answer.tolerance);
                 let near = d < self.case.config.margin + 0.5 * tolerance - self.scene.error();
                 if near && self.proven_free_until(&other.answer.outcome) > time {
                     let text = format!("{d:e} apart at {time:e}, {:?}", other.answer.outcome);

@@ -6,7 +6,7 @@ use std::panic;
 use std::sync::Once;
 
 #[global_allocator]
-static HEAP: Cap<System> = Cap::new(System, usize::MAX);
+static CAPPED_ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 
 static PANIC_HOOK_INIT: Once = Once::new();
 
@@ -16,27 +16,27 @@ pub(crate) fn with_memory_limit<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
     PANIC_HOOK_INIT.call_once(|| {
         let hook = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
-            let _ = HEAP.set_limit(usize::MAX);
+            let _ = CAPPED_ALLOCATOR.set_limit(usize::MAX);
             hook(info);
         }));
     });
-    let most = HEAP.allocated().saturating_add(bytes);
-    let _limit = Limit::new(most);
+    let most = CAPPED_ALLOCATOR.allocated().saturating_add(bytes);
+    let _limit = MemoryLimitGuard::new(most);
     run()
 }
 
-struct Limit;
+struct MemoryLimitGuard;
 
-impl Limit {
+impl MemoryLimitGuard {
     fn new(most: usize) -> Self {
         // It fails only if other threads have allocated as much in the meantime; then there is no limit.
-        let _ = HEAP.set_limit(most);
-        Limit
+        let _ = CAPPED_ALLOCATOR.set_limit(most);
+        MemoryLimitGuard
     }
 }
 
-impl Drop for Limit {
+impl Drop for MemoryLimitGuard {
     fn drop(&mut self) {
-        let _ = HEAP.set_limit(usize::MAX);
+        let _ = CAPPED_ALLOCATOR.set_limit(usize::MAX);
     }
 }

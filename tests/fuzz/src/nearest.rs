@@ -47,9 +47,9 @@ struct Edge<N> {
     from: Vector<N>,
     edge_vector: Vector<N>,
     /// The edge vector multiplied by `scale`, a power of two that keeps its square from overflow and underflow.
-    along: Vector<N>,
+    scaled_edge_vector: Vector<N>,
     scale: N,
-    square: N,
+    scaled_length_squared: N,
 }
 
 impl<N: Number> Edge<N> {
@@ -61,9 +61,9 @@ impl<N: Number> Edge<N> {
             Edge {
                 from,
                 edge_vector: way,
-                along,
+                scaled_edge_vector: along,
                 scale,
-                square,
+                scaled_length_squared: square,
             }
         };
         [edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])]
@@ -72,7 +72,8 @@ impl<N: Number> Edge<N> {
     /// Returns the vector from a point to the nearest point of the edge. If the edge has no length, NaN makes that
     /// its start.
     fn offset_from(&self, p: Vector<N>) -> Vector<N> {
-        let share = self.along.dot(p - self.from) / self.square * self.scale;
+        let share =
+            self.scaled_edge_vector.dot(p - self.from) / self.scaled_length_squared * self.scale;
         self.from + self.edge_vector * clamp_to_unit_interval(share) - p
     }
 }
@@ -106,14 +107,14 @@ fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
 
 /// Returns the vector between the nearest points of two edges' lines, if at least one of the points is on its edge.
 fn offset_between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
-    let n = p.along.cross(q.along);
+    let n = p.scaled_edge_vector.cross(q.scaled_edge_vector);
     let square = n.dot(n);
     if !(square.rounded() > 0.0) {
         return None;
     }
     let w = q.from - p.from;
-    let x = w.cross(q.along).dot(n) / square * p.scale;
-    let y = w.cross(p.along).dot(n) / square * q.scale;
+    let x = w.cross(q.scaled_edge_vector).dot(n) / square * p.scale;
+    let y = w.cross(p.scaled_edge_vector).dot(n) / square * q.scale;
     let (zero, one) = (N::from_f64(0.0), N::from_f64(1.0));
     let within = |x: N| x >= zero && x <= one;
     // Clamped anyway, since rounding may put the other point slightly beyond its end.

@@ -1,6 +1,6 @@
-//! A body's motion as the numbers given to the engine, and the positions of its points in [`Double`].
+//! A body's motion as the numbers given to the engine, and the positions of its points in [`DoubleDouble`].
 
-use crate::double::Double;
+use crate::double::DoubleDouble;
 use crate::vector::{Number, Vector};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
@@ -9,7 +9,7 @@ use ccd_core::{InputError, Motion, Pose};
 #[derive(Clone, Copy, Debug)]
 pub struct RawMotion {
     pub start: RawPose,
-    pub goal: Goal,
+    pub spec: MotionSpec,
     /// The point that moves in a straight line, in the body's frame.
     pub centre: [f64; 3],
 }
@@ -22,9 +22,9 @@ pub struct RawPose {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Goal {
+pub enum MotionSpec {
     Velocities { linear: [f64; 3], spin: [f64; 3] },
-    End(RawPose),
+    EndPose(RawPose),
 }
 
 impl RawPose {
@@ -41,15 +41,17 @@ impl RawPose {
     }
 
     /// Returns the rotation as a unit quaternion.
-    fn unit_quaternion(&self) -> [Double; 4] {
-        let q = self.quaternion.map(Double::new);
-        let square = q.iter().fold(Double::default(), |sum, &x| sum + x * x);
+    fn unit_quaternion(&self) -> [DoubleDouble; 4] {
+        let q = self.quaternion.map(DoubleDouble::new);
+        let square = q
+            .iter()
+            .fold(DoubleDouble::default(), |sum, &x| sum + x * x);
         q.map(|x| x / square.sqrt())
     }
 
-    fn point(&self, x: Vector<Double>) -> Vector<Double> {
+    fn point(&self, x: Vector<DoubleDouble>) -> Vector<DoubleDouble> {
         let [w, a, b, c] = self.unit_quaternion();
-        let (u, two) = (Vector([a, b, c]), Double::new(2.0));
+        let (u, two) = (Vector([a, b, c]), DoubleDouble::new(2.0));
         let across = u.cross(x) * two;
         x + across * w + u.cross(across) + Vector::from_array(self.position)
     }
@@ -59,7 +61,7 @@ impl RawMotion {
     pub fn velocities(start: RawPose, linear: [f64; 3], spin: [f64; 3]) -> Self {
         RawMotion {
             start,
-            goal: Goal::Velocities { linear, spin },
+            spec: MotionSpec::Velocities { linear, spin },
             centre: [0.0; 3],
         }
     }
@@ -67,33 +69,33 @@ impl RawMotion {
     /// Converts the motion to the engine's type.
     pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
         let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
-        match self.goal {
-            Goal::Velocities { linear, spin } => Motion::about(start, linear, spin, centre),
-            Goal::End(end) => Motion::between(start, end.pose()?, centre, duration),
+        match self.spec {
+            MotionSpec::Velocities { linear, spin } => Motion::about(start, linear, spin, centre),
+            MotionSpec::EndPose(end) => Motion::between(start, end.pose()?, centre, duration),
         }
     }
 
     /// Returns the angle of rotation over the duration, in radians; between end poses its upper bound π.
-    pub fn rotation_angle(&self, duration: f64) -> f64 {
-        match self.goal {
-            Goal::Velocities { spin, .. } => Vector(spin).length() * duration,
-            Goal::End(_) => std::f64::consts::PI,
+    pub fn max_rotation_angle(&self, duration: f64) -> f64 {
+        match self.spec {
+            MotionSpec::Velocities { spin, .. } => Vector(spin).length() * duration,
+            MotionSpec::EndPose(_) => std::f64::consts::PI,
         }
     }
 
-    /// Returns the motion over a duration, exact except for the rounding of [`Double`]. Between end poses, the centre
+    /// Returns the motion over a duration, exact except for the rounding of [`DoubleDouble`]. Between end poses, the centre
     /// moves straight, and the body rotates by the shortest rotation between the unit quaternions.
     pub fn track(&self, duration: f64) -> Track {
         let centre = Vector::from_array(self.centre);
         let start = self.start.point(centre);
-        let per_time = Double::new(1.0) / Double::new(duration);
-        let (velocity, axis, rate) = match self.goal {
-            Goal::Velocities { linear, spin } => {
+        let per_time = DoubleDouble::new(1.0) / DoubleDouble::new(duration);
+        let (velocity, axis, rate) = match self.spec {
+            MotionSpec::Velocities { linear, spin } => {
                 let spin = Vector::from_array(spin);
                 let axis = spin.unit().unwrap_or(Vector::from_array([0.0; 3]));
                 (Vector::from_array(linear), axis, spin.length())
             }
-            Goal::End(end) => {
+            MotionSpec::EndPose(end) => {
                 let velocity = (end.point(centre) - start) * per_time;
                 let (axis, angle) =
                     shortest_rotation(self.start.unit_quaternion(), end.unit_quaternion());
@@ -121,46 +123,52 @@ impl RawMotion {
 }
 
 /// Returns the unit axis and the angle, in radians, of the shortest rotation `end · start⁻¹`.
-fn shortest_rotation([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
+fn shortest_rotation(
+    [w, x, y, z]: [DoubleDouble; 4],
+    end: [DoubleDouble; 4],
+) -> (Vector<DoubleDouble>, DoubleDouble) {
     let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
     let cos = end[0] * w + v.dot(u);
     let sin = v * w - u * end[0] - v.cross(u);
-    let (cos, sin) = if cos < Double::default() {
+    let (cos, sin) = if cos < DoubleDouble::default() {
         (-cos, -sin)
     } else {
         (cos, sin)
     };
     let axis = sin.unit().unwrap_or(Vector::from_array([0.0; 3]));
-    (axis, Double::angle(sin.length(), cos) * Double::new(2.0))
+    (
+        axis,
+        DoubleDouble::angle(sin.length(), cos) * DoubleDouble::new(2.0),
+    )
 }
 
-/// A motion that is exact except for the rounding of [`Double`].
+/// A motion that is exact except for the rounding of [`DoubleDouble`].
 #[derive(Clone, Debug)]
 pub struct Track {
-    pub start: Vector<Double>,
-    pub velocity: Vector<Double>,
-    pub axis: Vector<Double>,
-    pub rate: Double,
+    pub start: Vector<DoubleDouble>,
+    pub velocity: Vector<DoubleDouble>,
+    pub axis: Vector<DoubleDouble>,
+    pub rate: DoubleDouble,
     /// The directions of the body's axes at the start, in the world.
-    columns: [Vector<Double>; 3],
-    pub centre: Vector<Double>,
+    columns: [Vector<DoubleDouble>; 3],
+    pub centre: Vector<DoubleDouble>,
 }
 
 /// The position and orientation of a body at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapshot {
-    columns: [Vector<Double>; 3],
-    pub centre: Vector<Double>,
+    columns: [Vector<DoubleDouble>; 3],
+    pub centre: Vector<DoubleDouble>,
 }
 
 impl Track {
     pub fn at(&self, t: f64) -> Snapshot {
-        let centre = self.start + self.velocity * Double::new(t);
+        let centre = self.start + self.velocity * DoubleDouble::new(t);
         let columns = if self.rate.rounded() > 0.0 {
-            let (sin, cos) = (self.rate * Double::new(t)).sin_cos();
+            let (sin, cos) = (self.rate * DoubleDouble::new(t)).sin_cos();
             let n = self.axis;
             let [a, b, c] = self.columns;
-            let turned = |c: Vector<Double>| {
+            let turned = |c: Vector<DoubleDouble>| {
                 let along = n * n.dot(c);
                 (c - along) * cos + n.cross(c) * sin + along
             };
@@ -179,7 +187,7 @@ impl Track {
 
 impl Snapshot {
     /// Returns the vector in the world from the centre to a point, given that vector in the body's frame as `x`.
-    pub fn arm_of(&self, x: Vector<Double>) -> Vector<Double> {
+    pub fn arm_of(&self, x: Vector<DoubleDouble>) -> Vector<DoubleDouble> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c
     }

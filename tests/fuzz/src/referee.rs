@@ -1,28 +1,28 @@
 //! The referee computes distances of the bodies by brute force. It finds the first time with a distance below a
 //! threshold, by conservative advancement over all pairs of triangles.
 //!
-//! Positions and their differences are computed in [`Double`]. Distances are searched in f64 and
-//! judged in [`Double`]. A contact found is evidence; contacts may exist that are not found.
+//! Positions and their differences are computed in [`DoubleDouble`]. Distances are searched in f64 and
+//! judged in [`DoubleDouble`]. A contact found is evidence; contacts may exist that are not found.
 
 mod search;
 
 use crate::case::Case;
-use crate::double::Double;
+use crate::double::DoubleDouble;
 use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::{Snapshot, Track};
-use crate::vector::{Number, Vector, larger, minimum};
+use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 
 /// The largest error of the referee's distances, as a fraction of a scene's size.
-const MAX_DISTANCE_ERROR: f64 = 1e-25;
-/// The distance, as a fraction of a scene's size, below which results of f64 are checked in [`Double`].
-const RECHECK_DISTANCE: f64 = 1e-13;
+const MAX_RELATIVE_DISTANCE_ERROR: f64 = 1e-25;
+/// The distance, as a fraction of a scene's size, below which results of f64 are checked in [`DoubleDouble`].
+const RELATIVE_RECHECK_DISTANCE: f64 = 1e-13;
 
 /// A body's triangles and its motion.
 pub struct MovingBody {
     pub track: Track,
     /// The triangles relative to the centre of rotation, in the body's frame.
-    pub triangles: Vec<Triangle<Double>>,
+    pub triangles: Vec<Triangle<DoubleDouble>>,
     balls: Vec<Ball>,
     /// The bounding ball of all triangles.
     whole: Ball,
@@ -31,7 +31,7 @@ pub struct MovingBody {
 }
 
 struct Ball {
-    middle: Vector<Double>,
+    middle: Vector<DoubleDouble>,
     radius: f64,
     /// The largest distance of a point from the centre of rotation; 0 for a body that does not rotate.
     arm: f64,
@@ -46,7 +46,7 @@ pub struct Scene {
 
 /// A time at which the bodies are nearer than allowed, with their distance and penetration depth.
 #[derive(Clone, Copy, Debug)]
-pub struct Evidence {
+pub struct Violation {
     pub time: f64,
     pub distance: f64,
     pub depth: f64,
@@ -55,9 +55,9 @@ pub struct Evidence {
 impl MovingBody {
     fn new(triangles: &[Triangle<f64>], track: Track) -> Self {
         let arm = |p: Vector<f64>| Vector::from_array(p.0) - track.centre;
-        let triangles: Vec<Triangle<Double>> = triangles.iter().map(|t| t.map(arm)).collect();
+        let triangles: Vec<Triangle<DoubleDouble>> = triangles.iter().map(|t| t.map(arm)).collect();
         let balls: Vec<Ball> = triangles.iter().map(|t| Ball::around(t, &track)).collect();
-        let corners: Vec<Vector<Double>> = triangles.iter().flatten().copied().collect();
+        let corners: Vec<Vector<DoubleDouble>> = triangles.iter().flatten().copied().collect();
         let reaches = corners.iter().map(|p| p.length().rounded());
         let reach = reaches.fold(0.0, larger);
         MovingBody {
@@ -69,7 +69,12 @@ impl MovingBody {
         }
     }
 
-    fn triangle(&self, k: usize, snapshot: &Snapshot, origin: Vector<Double>) -> Triangle<Double> {
+    fn triangle(
+        &self,
+        k: usize,
+        snapshot: &Snapshot,
+        origin: Vector<DoubleDouble>,
+    ) -> Triangle<DoubleDouble> {
         let ([p, q, r], to) = (self.triangles[k], snapshot.centre - origin);
         [
             snapshot.arm_of(p) + to,
@@ -80,10 +85,10 @@ impl MovingBody {
 }
 
 impl Ball {
-    fn around(points: &[Vector<Double>], track: &Track) -> Self {
+    fn around(points: &[Vector<DoubleDouble>], track: &Track) -> Self {
         let sum = points.iter().skip(1).fold(points[0], |sum, &p| sum + p);
-        let middle = sum * Double::new(1.0 / points.len() as f64);
-        let far = |r, &p: &Vector<Double>| larger(r, (p - middle).length().rounded());
+        let middle = sum * DoubleDouble::new(1.0 / points.len() as f64);
+        let far = |r, &p: &Vector<DoubleDouble>| larger(r, (p - middle).length().rounded());
         let radius = points.iter().fold(0.0, far);
         let arms = points
             .iter()
@@ -105,7 +110,7 @@ impl Scene {
         let side = |k: usize| {
             MovingBody::new(
                 &case.shapes[k].triangles(),
-                case.courses[k].track(case.duration),
+                case.motions[k].track(case.duration),
             )
         };
         let sides = [side(0), side(1)];
@@ -126,7 +131,7 @@ impl Scene {
     /// 1e-31.
     pub fn error(&self) -> f64 {
         let far = self.sides.iter().map(|s| s.track.start.largest());
-        MAX_DISTANCE_ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
+        MAX_RELATIVE_DISTANCE_ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
     }
 
     pub fn snapshots(&self, t: f64) -> [Snapshot; 2] {
@@ -134,7 +139,7 @@ impl Scene {
     }
 
     /// Returns all triangles of a body at a time, relative to the centre of body A.
-    pub fn triangles_at(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
+    pub fn triangles_at(&self, side: usize, t: f64) -> Vec<Triangle<DoubleDouble>> {
         let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
         all.map(|k| self.sides[side].triangle(k, &snapshots[side], snapshots[0].centre))
@@ -144,23 +149,23 @@ impl Scene {
     /// Returns the distance of the two surfaces at a time.
     pub fn distance(&self, t: f64) -> f64 {
         let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
-        let near = self.near_pairs(&a, &b);
+        let near = self.near_triangle_pairs(&a, &b);
         let best = near
             .iter()
-            .fold(f64::INFINITY, |best, &(d, ..)| minimum(best, d));
-        let noise = RECHECK_DISTANCE * self.scale;
+            .fold(f64::INFINITY, |best, &(d, ..)| smaller(best, d));
+        let noise = RELATIVE_RECHECK_DISTANCE * self.scale;
         let nearest = near.into_iter().filter(|&(d, ..)| d <= best + noise);
         let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).rounded());
-        exact.fold(f64::INFINITY, minimum)
+        exact.fold(f64::INFINITY, smaller)
     }
 
     /// Returns pairs of triangles with their distances in f64, including the nearest pair.
-    fn near_pairs(
+    fn near_triangle_pairs(
         &self,
-        a: &[Triangle<Double>],
-        b: &[Triangle<Double>],
+        a: &[Triangle<DoubleDouble>],
+        b: &[Triangle<DoubleDouble>],
     ) -> Vec<(f64, usize, usize)> {
-        let rounded = |all: &[Triangle<Double>]| -> Vec<(Triangle<f64>, Vector<f64>)> {
+        let rounded = |all: &[Triangle<DoubleDouble>]| -> Vec<(Triangle<f64>, Vector<f64>)> {
             let middle = |t: &Triangle<f64>| (t[0] + t[1] + t[2]) * (1.0 / 3.0);
             let rounded = all.iter().map(|t| t.map(Vector::rounded));
             rounded.map(|t| (t, middle(&t))).collect()
@@ -171,10 +176,10 @@ impl Scene {
         for (i, (s, m)) in a.iter().enumerate() {
             for (j, (t, n)) in b.iter().enumerate() {
                 let (way, radii) = (*m - *n, balls[0][i].radius + balls[1][j].radius);
-                let kept = (best + radii) * (1.0 + 1e-9) + RECHECK_DISTANCE * self.scale;
+                let kept = (best + radii) * (1.0 + 1e-9) + RELATIVE_RECHECK_DISTANCE * self.scale;
                 if way.dot(way) < kept * kept {
                     let d = distance(s, t);
-                    best = minimum(best, d);
+                    best = smaller(best, d);
                     near.push((d, i, j));
                 }
             }
@@ -182,14 +187,14 @@ impl Scene {
         near
     }
 
-    /// Returns the distance of the two surfaces at a time, with every pair of triangles in [`Double`]. It is computed
+    /// Returns the distance of the two surfaces at a time, with every pair of triangles in [`DoubleDouble`]. It is computed
     /// before an answer is called wrong.
-    pub fn exact_distance(&self, t: f64) -> f64 {
+    pub fn all_pairs_distance(&self, t: f64) -> f64 {
         let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a
             .iter()
             .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
-        pairs.fold(f64::INFINITY, minimum)
+        pairs.fold(f64::INFINITY, smaller)
     }
 
     /// Returns the greatest penetration depth of any two triangles at a time.
@@ -197,7 +202,7 @@ impl Scene {
         let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a.iter().flat_map(|s| {
             b.iter().map(move |t| {
-                let flat = |t: &Triangle<Double>| t.map(Vector::rounded);
+                let flat = |t: &Triangle<DoubleDouble>| t.map(Vector::rounded);
                 if penetration_depth(&flat(s), &flat(t)) > 0.0 {
                     penetration_depth(s, t).rounded()
                 } else {
@@ -210,14 +215,14 @@ impl Scene {
 
     /// Returns the earliest time found, up to `until`, at which the bodies are nearer than the limit allows. The flag
     /// is true if none was missed, except for f64's rounding.
-    pub fn first_time_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
+    pub fn first_time_below(&self, limit: ContactLimit, until: f64) -> (Option<Violation>, bool) {
         Search::new(self, limit, until).run()
     }
 }
 
 /// The conditions under which bodies count as nearer than allowed.
 #[derive(Clone, Copy, Debug)]
-pub struct Limit {
+pub struct ContactLimit {
     /// The distance below which the bodies are nearer than allowed.
     pub threshold: f64,
     /// The penetration depth of triangles above which the bodies are nearer than allowed.

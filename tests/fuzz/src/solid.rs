@@ -1,8 +1,8 @@
-//! Tests whether points are inside closed surfaces, by rays in [`Double`].
+//! Tests whether points are inside closed surfaces, by rays in [`DoubleDouble`].
 
-use crate::double::Double;
+use crate::double::DoubleDouble;
 use crate::nearest::{Triangle, distance, normal};
-use crate::vector::{Number, Vector, larger, minimum};
+use crate::vector::{Number, Vector, larger, smaller};
 use std::collections::HashMap;
 
 /// The location of a point relative to a closed surface.
@@ -18,7 +18,7 @@ pub enum PointLocation {
 
 /// Closed surfaces, split into connected parts.
 pub struct Solid {
-    pub triangles: Vec<Triangle<Double>>,
+    pub triangles: Vec<Triangle<DoubleDouble>>,
     /// For each triangle, the index of the first triangle of its connected part.
     parts: Vec<usize>,
     /// Whether two parts touch or cross each other. Points in several crossing parts are doubtful.
@@ -26,7 +26,7 @@ pub struct Solid {
 }
 
 impl Solid {
-    pub fn new(triangles: Vec<Triangle<Double>>) -> Self {
+    pub fn new(triangles: Vec<Triangle<DoubleDouble>>) -> Self {
         let parts = parts(&triangles);
         let pairs = (0..parts.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
         let meet = |i: usize, j: usize| !(distance(&triangles[i], &triangles[j]).rounded() > 0.0);
@@ -41,7 +41,7 @@ impl Solid {
     }
 
     /// Returns one corner of every connected part.
-    pub fn corners(&self) -> impl Iterator<Item = Vector<Double>> {
+    pub fn corners(&self) -> impl Iterator<Item = Vector<DoubleDouble>> {
         let firsts = self
             .parts
             .iter()
@@ -52,7 +52,7 @@ impl Solid {
 
     /// Returns the location of a point relative to the solid. The point is on no triangle. Nested parts are solid and
     /// cavity in turn.
-    pub fn locate(&self, p: Vector<Double>) -> PointLocation {
+    pub fn locate(&self, p: Vector<DoubleDouble>) -> PointLocation {
         let seen = DIRECTIONS
             .iter()
             .find_map(|&ray| self.crossings(p, Vector::from_array(ray)));
@@ -77,8 +77,8 @@ impl Solid {
     /// `None` if it touches an edge or vertex.
     fn crossings(
         &self,
-        p: Vector<Double>,
-        ray: Vector<Double>,
+        p: Vector<DoubleDouble>,
+        ray: Vector<DoubleDouble>,
     ) -> Option<HashMap<usize, (i32, u32)>> {
         let mut seen = HashMap::new();
         for (t, &part) in self.triangles.iter().zip(&self.parts) {
@@ -106,7 +106,11 @@ const DIRECTIONS: [[f64; 3]; 8] = [
 
 /// Returns 1 if a ray crosses a triangle along its normal, −1 if against it, and 0 if it misses the triangle. Returns
 /// `None` if the ray touches an edge or vertex.
-fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Option<i32> {
+fn crossing(
+    p: Vector<DoubleDouble>,
+    ray: Vector<DoubleDouble>,
+    t: &Triangle<DoubleDouble>,
+) -> Option<i32> {
     let size = t.iter().fold(0.0, |m, &v| larger(m, (v - p).largest()));
     let grazing = 1e-18 * size * size;
     let sides = [0, 1, 2].map(|k| {
@@ -122,7 +126,7 @@ fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Opt
     }
     let n = (t[1] - t[0]).cross(t[2] - t[0]);
     let along = n.dot(t[0] - p) / n.dot(ray);
-    Some(if along > Double::new(0.0) {
+    Some(if along > DoubleDouble::new(0.0) {
         sides[0]
     } else {
         0
@@ -130,7 +134,7 @@ fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Opt
 }
 
 /// Returns, for every triangle, the index of the first triangle of its connected part.
-fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
+fn parts(triangles: &[Triangle<DoubleDouble>]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..triangles.len()).collect();
     // The least index of the groups with a corner at the position.
     let mut at: HashMap<[u64; 3], usize> = HashMap::new();
@@ -152,20 +156,20 @@ fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
 }
 
 /// Returns the distance from a point to a surface.
-pub fn distance_to_surface(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
+pub fn distance_to_surface(p: Vector<DoubleDouble>, triangles: &[Triangle<DoubleDouble>]) -> f64 {
     let apart = triangles.iter().map(|t| distance(&[p; 3], t).rounded());
-    apart.fold(f64::INFINITY, minimum)
+    apart.fold(f64::INFINITY, smaller)
 }
 
 /// Returns two points for every triangle that has an area, close to it on either side. Their distance is a fraction of
 /// the triangle's size.
-pub fn points_beside_triangles(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
+pub fn points_beside_triangles(triangles: &[Triangle<DoubleDouble>]) -> Vec<Vector<DoubleDouble>> {
     let mut points = Vec::new();
     for t in triangles {
         let Some(n) = normal(t) else { continue };
-        let weights = [0.5, 0.3, 0.2].map(Double::new);
+        let weights = [0.5, 0.3, 0.2].map(DoubleDouble::new);
         let middle = t[0] * weights[0] + t[1] * weights[1] + t[2] * weights[2];
-        let off = n * Double::new(1e-3 * (t[1] - t[0]).largest());
+        let off = n * DoubleDouble::new(1e-3 * (t[1] - t[0]).largest());
         points.extend([middle + off, middle - off]);
     }
     points

@@ -1,6 +1,6 @@
 //! Answers one query by many methods, and judges the answers.
 
-use crate::case::{Case, Form, Shape};
+use crate::case::{Case, MeshClass, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
 use crate::judge::{Fault, Judge, MethodAnswer};
 use ccd_core::{Outcome, Settings};
@@ -17,14 +17,14 @@ pub struct Trial {
     pub refusal_reason: Option<String>,
     pub failures: Vec<Failure>,
     /// Whether the referee's search for an earlier contact was complete.
-    pub proven: bool,
+    pub is_search_complete: bool,
 }
 
 /// A wrong answer or a panic of one method. A wrong answer has the outcomes of all methods, a panic has none.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub fault: Fault,
-    pub by: (Kind, Method),
+    pub kind_and_method: (Kind, Method),
     pub text: String,
     pub outcomes: String,
 }
@@ -43,7 +43,7 @@ impl Failure {
     pub fn report(&self, command: &str, case: &Case) -> String {
         let Failure {
             fault,
-            by: (kind, method),
+            kind_and_method: (kind, method),
             text,
             outcomes,
         } = self;
@@ -66,7 +66,7 @@ pub fn run_methods(case: Case, methods: Vec<(Kind, Method)>) -> Trial {
         outcomes: Vec::new(),
         refusal_reason: None,
         failures: Vec::new(),
-        proven: true,
+        is_search_complete: true,
     };
     let built = build(&mut trial, &methods);
     let given = answers(&mut trial, &built, methods);
@@ -139,12 +139,12 @@ fn judge(trial: &mut Trial, given: &[MethodAnswer<'_>]) {
         .collect();
     let failures = faults.into_iter().map(|(k, fault, text)| Failure {
         fault,
-        by: (given[k].bodies.kind, given[k].method),
+        kind_and_method: (given[k].bodies.kind, given[k].method),
         text,
         outcomes: outcomes.clone(),
     });
     trial.failures.extend(failures);
-    trial.proven = proven;
+    trial.is_search_complete = proven;
 }
 
 /// Returns the settings of a case for a method. Schedules with one step for all pairs get a smaller budget.
@@ -173,7 +173,7 @@ fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> F
     let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
     Failure {
         fault: Fault::Panic,
-        by,
+        kind_and_method: by,
         text: text.unwrap_or_default(),
         outcomes: String::new(),
     }
@@ -183,12 +183,16 @@ fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> F
 pub fn shrink(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut methods = vec![(Kind::Triangles, Method::Direct)];
-        methods.push(failure.by);
+        methods.push(failure.kind_and_method);
         let again = run_methods(case.clone(), methods);
         again.failures.iter().any(|f| f.fault == failure.fault)
     };
     let mut case = case.clone();
-    if case.shapes.iter().any(|s| s.form == Form::Points) {
+    if case
+        .shapes
+        .iter()
+        .any(|s| s.mesh_class == MeshClass::Points)
+    {
         return case;
     }
     for side in [0, 1] {
@@ -196,7 +200,7 @@ pub fn shrink(case: &Case, failure: &Failure) -> Case {
         while face < case.shapes[side].faces.len() && case.shapes[side].faces.len() > 1 {
             let mut fewer = case.clone();
             fewer.shapes[side].faces.remove(face);
-            fewer.shapes[side].form = Form::TriangleSoup;
+            fewer.shapes[side].mesh_class = MeshClass::TriangleSoup;
             fewer.shapes[side] = without_unused_vertices(&fewer.shapes[side]);
             if fails(&fewer) {
                 case = fewer;
@@ -212,7 +216,7 @@ pub fn shrink(case: &Case, failure: &Failure) -> Case {
 fn without_unused_vertices(shape: &Shape) -> Shape {
     let mut new = HashMap::new();
     let mut out = Shape {
-        form: shape.form,
+        mesh_class: shape.mesh_class,
         ..Shape::default()
     };
     for face in &shape.faces {

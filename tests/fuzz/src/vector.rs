@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The scalar type of vectors: f64 for searching, [`Double`](crate::double::Double) for judging.
+/// The scalar type of vectors: f64 for searching, [`Double`](crate::double::DoubleDouble) for judging.
 pub trait Number:
     Copy
     + Debug
@@ -75,7 +75,7 @@ impl<N: Number> Vector<N> {
             return N::from_f64(size);
         }
         // A power of two, so that squares neither overflow nor underflow.
-        let scale = N::from_f64(power_of_two(size));
+        let scale = N::from_f64(floor_to_power_of_two(size));
         let v = self * (N::from_f64(1.0) / scale);
         v.dot(v).sqrt() * scale
     }
@@ -89,9 +89,9 @@ impl<N: Number> Vector<N> {
         } else if size < 1e-290 {
             // Scale in two steps, because the reciprocal of a denormal overflows.
             let v = self * N::from_f64(2f64.powi(600));
-            v * N::from_f64(1.0 / power_of_two(v.largest()))
+            v * N::from_f64(1.0 / floor_to_power_of_two(v.largest()))
         } else {
-            self * N::from_f64(1.0 / power_of_two(size))
+            self * N::from_f64(1.0 / floor_to_power_of_two(size))
         }
     }
 
@@ -113,7 +113,7 @@ impl<N: Number> Vector<N> {
 
 /// Returns the largest power of two not above a normal number, from its exponent alone.
 #[inline]
-fn power_of_two(size: f64) -> f64 {
+fn floor_to_power_of_two(size: f64) -> f64 {
     f64::from_bits(size.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
@@ -125,7 +125,7 @@ pub fn larger(a: f64, b: f64) -> f64 {
 
 /// Returns the smaller of two numbers; `a` if either is NaN.
 #[inline]
-pub fn minimum(a: f64, b: f64) -> f64 {
+pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 

@@ -17,7 +17,7 @@ pub(super) const ROUNDING: f64 = 2e-14;
 
 /// Two solids on trajectories over the times 0 to 1.
 pub(super) struct Scene {
-    pub(super) kinds: [usize; 2],
+    pub(super) trajectory_kinds: [usize; 2],
     pub(super) solids: [Solid; 2],
     pub(super) bodies: [Body; 2],
     pub(super) trajectories: [Box<dyn Trajectory>; 2],
@@ -30,7 +30,7 @@ impl Scene {
         Scene {
             bodies: [0, 1].map(|k| solids[k].body()),
             trajectories: kinds.map(|kind| courses::draw(rng, kind, REACH)),
-            kinds,
+            trajectory_kinds: kinds,
             solids,
         }
     }
@@ -48,7 +48,7 @@ impl Scene {
     }
 
     /// Samples the distance at even times, at and beside all knots, and more finely near its least values.
-    pub(super) fn samples(&self) -> Samples {
+    pub(super) fn samples(&self) -> DistanceSamples {
         const INTERVAL_COUNT: u32 = 48;
         let mut times: Vec<f64> = (0..=INTERVAL_COUNT)
             .map(|k| f64::from(k) / f64::from(INTERVAL_COUNT))
@@ -79,7 +79,7 @@ impl Scene {
                 if near < far { to = two } else { from = one }
             }
         }
-        Samples(samples)
+        DistanceSamples(samples)
     }
 }
 
@@ -95,10 +95,10 @@ fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>
 }
 
 /// The sampled times, each with the distance at that time.
-pub(super) struct Samples(Vec<(f64, f64)>);
+pub(super) struct DistanceSamples(Vec<(f64, f64)>);
 
-impl Samples {
-    pub(super) fn least(&self) -> f64 {
+impl DistanceSamples {
+    pub(super) fn least_distance(&self) -> f64 {
         self.0
             .iter()
             .map(|sample| sample.1)

@@ -2,7 +2,7 @@
 
 use super::{ExpectedOutcome, Scene};
 use crate::models::{
-    comb, cuboid, icosphere, inradius, needles, parallel_plate, slit_plate, torus, u_hook,
+    comb, cuboid, icosphere, inradius, needles, slit_plate, square_plate, torus, u_hook,
 };
 use crate::query::MovingShape;
 use ccd_core::glam::{DQuat, DVec3};
@@ -18,11 +18,11 @@ pub(super) fn scenes() -> Vec<Scene> {
     ];
     out.extend(tilted_cubes());
     out.extend([(0.3, 0.15), (0.12, 0.1)].map(|(c, phi)| plate_through_slit(c, phi)));
-    out.extend([4, 32].map(combs));
+    out.extend([4, 32].map(combs_closing));
     out.extend([1e-3, 1e-6, 1e-9].map(needles_on_slab));
     out.push(parallel_plates());
     out.push(spinning_icosphere());
-    out.extend([1e-6, 1e-9].map(|gap| sliding(gap, -DVec3::X)));
+    out.extend([1e-6, 1e-9].map(|gap| sliding_cube(gap, -DVec3::X)));
     out
 }
 
@@ -65,7 +65,7 @@ fn tilted_cubes() -> [Scene; 2] {
 }
 
 /// Returns T10: a cube that moves from a small gap above a slab, in most cases parallel to the slab.
-pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
+pub fn sliding_cube(gap: f64, velocity: DVec3) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = MovingShape::straight(cube, (0.5 + gap) * DVec3::Z, velocity);
     // Accounts for the rounding of the cube's position: 0.5 + gap is a multiple of 2⁻⁵³.
@@ -154,7 +154,7 @@ fn linked_tori() -> Scene {
     // sections, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
     let expect = ExpectedOutcome::Hit {
-        earliest_time: Box::new(move |g| major - 2.0 * minor - g / nearer),
+        earliest_time_of_distance: Box::new(move |g| major - 2.0 * minor - g / nearer),
         latest_time: major - 2.0 * minor,
     };
     Scene::new(
@@ -165,7 +165,7 @@ fn linked_tori() -> Scene {
 }
 
 /// Returns T19: two combs that move into each other, until the tips reach the other comb's base.
-pub fn combs(teeth: usize) -> Scene {
+pub fn combs_closing(teeth: usize) -> Scene {
     let (apart, speed) = (0.5, 1.0);
     let flipped = comb(teeth).placed(
         DQuat::from_rotation_x(PI),
@@ -192,8 +192,8 @@ fn needles_on_slab(width: f64) -> Scene {
 
 /// Returns two equal plates that meet face on face, so that all pairs of opposite triangles touch at the same time.
 fn parallel_plates() -> Scene {
-    let falling = MovingShape::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
-    let lying = MovingShape::still(parallel_plate(16), DVec3::ZERO);
+    let falling = MovingShape::straight(square_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
+    let lying = MovingShape::still(square_plate(16), DVec3::ZERO);
     Scene::new(
         "plates",
         [falling, lying],
@@ -210,7 +210,7 @@ fn spinning_icosphere() -> Scene {
     let spin = DVec3::new(1.0, 2.0, 3.0);
     let ball = MovingShape::moving(ball, height * DVec3::Z, -speed * DVec3::Z, spin);
     let expect = ExpectedOutcome::Hit {
-        earliest_time: Box::new(move |g| (height - radius - g) / speed),
+        earliest_time_of_distance: Box::new(move |g| (height - radius - g) / speed),
         latest_time: (height - inner) / speed,
     };
     Scene::new("T22 spinning icosphere", [ball, slab()], expect)

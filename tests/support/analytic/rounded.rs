@@ -13,12 +13,12 @@ pub(super) fn scenes() -> Vec<Scene> {
         balls_head_on(),
         ball_on_wall(),
         capsule_on_wall(),
-        rounded_box(),
+        rounded_box_on_wall(),
     ]
 }
 
 /// Returns a solid of one convex part, the hull of some points grown by a radius.
-fn rounded(points: Vec<DVec3>, radius: f64) -> Shape {
+fn rounded_hull(points: Vec<DVec3>, radius: f64) -> Shape {
     Shape {
         mesh: Mesh {
             vertices: Vec::new(),
@@ -34,7 +34,7 @@ fn rounded(points: Vec<DVec3>, radius: f64) -> Shape {
 }
 
 fn ball(radius: f64) -> Shape {
-    rounded(vec![DVec3::ZERO], radius)
+    rounded_hull(vec![DVec3::ZERO], radius)
 }
 
 fn wall() -> MovingShape {
@@ -90,7 +90,7 @@ fn ball_on_wall() -> Scene {
 
 /// Returns a rotating capsule whose end hits a wall.
 fn capsule_on_wall() -> Scene {
-    let capsule = rounded(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
+    let capsule = rounded_hull(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
     let turning = MovingShape::turning(capsule, DVec3::ZERO, PI * DVec3::Y);
     Scene::new(
         "capsule on wall",
@@ -100,7 +100,7 @@ fn capsule_on_wall() -> Scene {
 }
 
 /// Returns a rounded box that flies at a wall, face first.
-fn rounded_box() -> Scene {
+fn rounded_box_on_wall() -> Scene {
     let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;
     let flying = MovingShape::straight(shape, -DVec3::X, 4.0 * DVec3::X);

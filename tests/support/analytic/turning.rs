@@ -9,10 +9,10 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// The half length of a rod, in units of length.
 const ROD_HALF_LENGTH: f64 = 2.0;
-const WIDTH: f64 = 0.05;
+const ROD_HALF_WIDTH: f64 = 0.05;
 
-fn corner_distance() -> f64 {
-    ROD_HALF_LENGTH.hypot(WIDTH)
+fn rod_corner_radius() -> f64 {
+    ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH)
 }
 
 pub(super) fn scenes() -> Vec<Scene> {
@@ -21,12 +21,12 @@ pub(super) fn scenes() -> Vec<Scene> {
         rod_on_post(),
         swinging_mace(),
         peg_in_hole(),
-        two_rods(),
+        mirrored_rods(),
     ];
     out.extend([1.0, 1.9, 2.0, 7.5].map(|turns| upright_rod("T4", turns, 1.25)));
     out.push(pre_rotated_rod());
     for depth in [1e-3, 1e-6] {
-        out.push(upright_rod("T5", 1.0, corner_distance() * (1.0 - depth)));
+        out.push(upright_rod("T5", 1.0, rod_corner_radius() * (1.0 - depth)));
         out.push(grazing_miss(depth));
     }
     out.extend([10, 17, 23].map(|power| far_rod(f64::from(1u32 << power))));
@@ -37,15 +37,15 @@ pub(super) fn scenes() -> Vec<Scene> {
 
 /// Returns the time at which a corner of a rod, rotating at `speed`, is first at the distance `height` from the plane
 /// through the axis.
-fn corner_time(height: f64, speed: f64) -> f64 {
-    ((height / corner_distance()).asin() - WIDTH.atan2(ROD_HALF_LENGTH)) / speed
+fn corner_arrival_time(height: f64, speed: f64) -> f64 {
+    ((height / rod_corner_radius()).asin() - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / speed
 }
 
 /// Returns T2: a rod that rotates until its end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
     let spinning = MovingShape::turning(
-        rod(ROD_HALF_LENGTH, WIDTH),
+        rod(ROD_HALF_LENGTH, ROD_HALF_WIDTH),
         height * DVec3::Z,
         PI * DVec3::Y,
     );
@@ -53,7 +53,7 @@ fn rod_on_slab() -> Scene {
     Scene::new(
         "T2 rod on slab",
         [spinning, slab],
-        ExpectedOutcome::exact_hit(move |g| corner_time(height - g, PI)),
+        ExpectedOutcome::exact_hit(move |g| corner_arrival_time(height - g, PI)),
     )
 }
 
@@ -63,12 +63,12 @@ fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     Scene::new(
         format!("{name} rod by {half_turns} half turns, wall at {wall:.7}"),
         upright_rod_and_wall(speed, wall, Pose::IDENTITY),
-        ExpectedOutcome::exact_hit(move |g| corner_time(wall - g, speed)),
+        ExpectedOutcome::exact_hit(move |g| corner_arrival_time(wall - g, speed)),
     )
 }
 
 fn upright_rod_and_wall(speed: f64, wall: f64, pose: Pose) -> [MovingShape; 2] {
-    let shape = cuboid(DVec3::new(WIDTH, 0.3, ROD_HALF_LENGTH));
+    let shape = cuboid(DVec3::new(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH));
     let motion = Motion::new(pose, DVec3::ZERO, pose.rotation() * (speed * DVec3::Y));
     let still = Motion::still(pose);
     [
@@ -95,16 +95,16 @@ fn pre_rotated_rod() -> Scene {
     Scene::new(
         "T3 pre-rotated rod",
         [rod, wall],
-        ExpectedOutcome::exact_hit(|g| corner_time(1.25 - g, PI)),
+        ExpectedOutcome::exact_hit(|g| corner_arrival_time(1.25 - g, PI)),
     )
 }
 
 /// Returns T6: a rod whose corner passes a wall at a small distance.
 fn grazing_miss(depth: f64) -> Scene {
-    let gap = corner_distance() * depth;
+    let gap = rod_corner_radius() * depth;
     Scene::new(
         format!("T6 grazing miss {depth:.0e}"),
-        upright_rod_and_wall(PI, corner_distance() + gap, Pose::IDENTITY),
+        upright_rod_and_wall(PI, rod_corner_radius() + gap, Pose::IDENTITY),
         ExpectedOutcome::Free { gap },
     )
 }
@@ -155,12 +155,12 @@ fn peg_in_hole() -> Scene {
 }
 
 /// Returns T14: two upright rods that rotate towards each other, as mirror images.
-fn two_rods() -> Scene {
+fn mirrored_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
-    let upright = || cuboid(DVec3::new(WIDTH, 0.3, ROD_HALF_LENGTH));
+    let upright = || cuboid(DVec3::new(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH));
     let left = MovingShape::turning(upright(), DVec3::ZERO, speed * DVec3::Y);
     let right = MovingShape::turning(upright(), apart * DVec3::X, -speed * DVec3::Y);
-    let time = move |g: f64| corner_time(0.5 * (apart - g), speed);
+    let time = move |g: f64| corner_arrival_time(0.5 * (apart - g), speed);
     Scene::new(
         "T14 two rods",
         [left, right],
@@ -174,7 +174,7 @@ fn far_rod(offset: f64) -> Scene {
     Scene::new(
         format!("T20 rod at {offset}"),
         upright_rod_and_wall(PI, 1.25, pose),
-        ExpectedOutcome::exact_hit(|g| corner_time(1.25 - g, PI)),
+        ExpectedOutcome::exact_hit(|g| corner_arrival_time(1.25 - g, PI)),
     )
 }
 
@@ -186,7 +186,7 @@ fn scaled_rod(scale: f64) -> Scene {
     Scene::new(
         format!("T20 rod times {scale:.0e}"),
         [rod, wall],
-        ExpectedOutcome::exact_hit(move |g| corner_time(1.25 - g / scale, PI)),
+        ExpectedOutcome::exact_hit(move |g| corner_arrival_time(1.25 - g / scale, PI)),
     )
 }
 

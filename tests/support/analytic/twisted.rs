@@ -12,7 +12,7 @@ pub(super) fn scenes() -> Vec<Scene> {
         screw_in_nut("T18 screw, right pitch", PITCH, 1),
         screw_in_nut("T18 screw, wrong pitch", 0.5 * PITCH, 1),
         degenerate_cube(),
-        two_shells(),
+        edge_sharing_cubes(),
         far_cuboids(),
         deep_overlap(),
         nested("T24 nested solids", Shape::closed, ExpectedOutcome::Overlap),
@@ -28,18 +28,18 @@ pub(super) fn scenes() -> Vec<Scene> {
 }
 
 /// The depth of the screw's start below the origin, which is one pitch below the nut's bottom.
-const START_DEPTH: f64 = 1.05;
+const SCREW_START_DEPTH: f64 = 1.05;
 
 /// Returns T18: a screw that makes three turns in its nut and climbs by `pitch` in each turn.
 pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     let turning = MovingShape::moving(
         screw(fineness),
-        -START_DEPTH * DVec3::Z,
+        -SCREW_START_DEPTH * DVec3::Z,
         3.0 * pitch * DVec3::Z,
         3.0 * TAU * DVec3::Z,
     );
     // Turned ahead by the angle that corresponds to the screw's low start.
-    let turned = DQuat::from_rotation_z(START_DEPTH / PITCH * TAU);
+    let turned = DQuat::from_rotation_z(SCREW_START_DEPTH / PITCH * TAU);
     let still = MovingShape::still(nut(0.1, fineness).placed(turned, DVec3::ZERO), DVec3::ZERO);
     Scene::new(name, [turning, still], ExpectedOutcome::Unknown)
 }
@@ -61,7 +61,7 @@ fn degenerate_cube() -> Scene {
 }
 
 /// Returns T21: two cubes that share an edge and have no bottoms, so that their surface is not a manifold.
-fn two_shells() -> Scene {
+fn edge_sharing_cubes() -> Scene {
     let half = DVec3::splat(0.5);
     let mut both = Shape::union([
         cuboid(half).moved(DVec3::new(-0.5, -0.5, 0.0)),

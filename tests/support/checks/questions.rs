@@ -57,7 +57,7 @@ impl Judge<'_> {
                     answer.tolerance
                 );
                 law!(
-                    !self.nested || lower <= rounding,
+                    !self.are_nested || lower <= rounding,
                     "lower {lower}, but one body is inside the other"
                 );
                 check_contact(self.query, time, &contact, bodies, f64::INFINITY)
@@ -91,7 +91,7 @@ impl Judge<'_> {
             "lower {lower} is above the least distance {least}"
         );
         law!(
-            !self.nested || lower <= rounding,
+            !self.are_nested || lower <= rounding,
             "lower {lower}, but one body is inside the other"
         );
         match outcome {
@@ -182,10 +182,10 @@ impl Judge<'_> {
     fn may_overlap(&self, time: f64, contact: &Contact) -> bool {
         let touched = match self.finding {
             Finding::Hit { lo, .. } | Finding::Near { lo } => time >= lo,
-            Finding::Start => true,
+            Finding::ContactAtStart => true,
             Finding::Free { .. } | Finding::Undecided { .. } => false,
         };
-        touched || self.nested || contact.separation.lower < -self.query.rounding()
+        touched || self.are_nested || contact.separation.lower < -self.query.rounding()
     }
 
     /// Returns the least distance that the referee has found at any time; 0 if it has found a contact.
@@ -195,7 +195,7 @@ impl Judge<'_> {
         match self.finding {
             Finding::Hit { .. } => 0.0,
             Finding::Free { gap } => lesser(gap, least),
-            Finding::Start | Finding::Near { .. } | Finding::Undecided { .. } => least,
+            Finding::ContactAtStart | Finding::Near { .. } | Finding::Undecided { .. } => least,
         }
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn exact(x: f64) -> Relaxed {
 /// A point for predicates, rounded to f64; its exact coordinates are computed on first use.
 pub(super) struct LazyPoint<'a> {
     combination: &'a ConvexCombination,
-    pub(super) near: DVec3,
+    pub(super) rounded_point: DVec3,
     /// The largest absolute coordinate of the combined points.
     pub(super) size: f64,
     exact: OnceCell<[Relaxed; 3]>,
@@ -67,13 +67,13 @@ impl<'a> LazyPoint<'a> {
         let sizes = blend.0.iter().map(|(_, p)| p.abs().max_element());
         LazyPoint {
             combination: blend,
-            near: blend.rounded(),
+            rounded_point: blend.rounded(),
             size: sizes.fold(0.0, greater),
             exact: OnceCell::new(),
         }
     }
 
-    /// Returns a bound on the rounding error of the coordinates in `near`.
+    /// Returns a bound on the rounding error of the coordinates in `rounded_point`.
     pub(super) fn rounding(&self) -> f64 {
         ROUNDING * self.size
     }

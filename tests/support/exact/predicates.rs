@@ -19,10 +19,10 @@ const ORIENT3D_ROUNDING: f64 = 1e-11;
 /// or on the line.
 pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (p − a)
-    let (u, v) = (b - a, p.near - a);
-    let size = max_coordinate(&[a, b], p);
+    let (u, v) = (b - a, p.rounded_point - a);
+    let size = max_absolute_coordinate(&[a, b], p);
     certain_sign(u[x] * v[y] - u[y] * v[x], ORIENT2D_ROUNDING * size * size).unwrap_or_else(|| {
-        let (u, v) = (exact_difference(a, b), offset_from(a, p));
+        let (u, v) = (exact_edge_vector(a, b), offset_from(a, p));
         (&u[x] * &v[y]).cmp(&(&u[y] * &v[x]))
     })
 }
@@ -31,12 +31,12 @@ pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &LazyPoint<'_>) ->
 /// triangle is counter-clockwise seen from above.
 pub(super) fn side([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (c − a) · (p − a)
-    let height = (b - a).cross(c - a).dot(p.near - a);
-    let size = max_coordinate(&[a, b, c], p);
+    let height = (b - a).cross(c - a).dot(p.rounded_point - a);
+    let size = max_absolute_coordinate(&[a, b, c], p);
     certain_sign(height, ORIENT3D_ROUNDING * size * size * size).unwrap_or_else(|| {
         let (u, v, w) = (
-            exact_difference(a, b),
-            exact_difference(a, c),
+            exact_edge_vector(a, b),
+            exact_edge_vector(a, c),
             offset_from(a, p),
         );
         let minor = |x: usize, y: usize| &u[x] * &v[y] - &u[y] * &v[x];
@@ -51,12 +51,12 @@ fn certain_sign(x: f64, rounding: f64) -> Option<Ordering> {
 }
 
 /// Returns the largest absolute coordinate of `points` and of the points that `p` combines.
-fn max_coordinate(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
+fn max_absolute_coordinate(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
     let sizes = points.iter().map(|q| q.abs().max_element());
     sizes.fold(p.size, greater)
 }
 
-fn exact_difference(a: DVec3, b: DVec3) -> [Relaxed; 3] {
+fn exact_edge_vector(a: DVec3, b: DVec3) -> [Relaxed; 3] {
     [0, 1, 2].map(|k| exact(b[k]) - exact(a[k]))
 }
 
@@ -86,5 +86,6 @@ pub(super) fn triangle_contains(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool
 /// Compares a number with a coordinate of a point, exactly.
 fn compare_coordinate(x: f64, axis: usize, p: &LazyPoint<'_>) -> Ordering {
     let rounding = p.rounding() + f64::EPSILON * x.abs();
-    certain_sign(x - p.near[axis], rounding).unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))
+    certain_sign(x - p.rounded_point[axis], rounding)
+        .unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))
 }

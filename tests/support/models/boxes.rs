@@ -1,6 +1,6 @@
 //! Generates boxes, and shapes made of boxes.
 
-use super::{Line, Mesh, Shape, grid_faces, icosphere};
+use super::{GridDirection, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
 use ccd_core::{Face, Facet, FacetOrigin, Polytope, Volume};
 
@@ -161,9 +161,9 @@ pub fn comb(teeth: usize) -> Shape {
 }
 
 /// Returns the square plate `[0, 1]²` at z = 0, divided into `2·cells²` triangles.
-pub fn parallel_plate(cells: usize) -> Shape {
+pub fn square_plate(cells: usize) -> Shape {
     let at = |k: usize| k as f64 / cells as f64;
-    let line = Line::Open(cells + 1);
+    let line = GridDirection::Bounded(cells + 1);
     Shape::open(Mesh {
         vertices: (0..=cells)
             .flat_map(|i| (0..=cells).map(move |j| DVec3::new(at(i), at(j), 0.0)))

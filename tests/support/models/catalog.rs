@@ -1,9 +1,9 @@
 //! Lists the solids for tests of decompositions.
 
 use super::{
-    Shape, blob, boulder, cuboid, dented_cube, divided_cube, gear, hollow, icosphere, l_block,
-    l_prism, meshed_combs, perforated_plate, pile, post, slotted_plate, terrain, torus, torus_knot,
-    two_solids,
+    Shape, blob, boulder, cuboid, dented_cube, divided_cube, divided_l_prism, gear, hollow,
+    icosphere, interlocking_combs, l_prism, merged_solids, perforated_plate, pile, post,
+    slotted_plate, terrain, torus, torus_knot,
 };
 use ccd_core::glam::{DQuat, DVec3};
 
@@ -39,7 +39,7 @@ impl Model {
 
 /// Returns non-convex solids of many kinds for tests of decompositions. Most have up to a thousand faces.
 pub fn solids() -> Vec<Model> {
-    let mut all = flat_solids();
+    let mut all = flat_faced_solids();
     all.extend(curved_solids());
     all.extend((0..6).map(|seed| {
         let levels = 1 + (seed % 2) as u32;
@@ -52,16 +52,16 @@ pub fn solids() -> Vec<Model> {
 }
 
 /// Returns solids with large regions of coplanar triangles.
-pub fn flat_solids() -> Vec<Model> {
+pub fn flat_faced_solids() -> Vec<Model> {
     let far = 0.2 * DVec3::X;
     vec![
         Model::new("gear", gear(4)),
         Model::new("L-prism", l_prism()),
-        Model::new("fine L-prism", l_block(6)),
+        Model::new("fine L-prism", divided_l_prism(6)),
         Model::new("perforated plate", perforated_plate(4, 3)),
         Model::new("slit plate", slotted_plate(1e-3)),
         Model::new("hair's breadth plate", slotted_plate(1e-12)),
-        Model::new("combs", meshed_combs(5)),
+        Model::new("combs", interlocking_combs(5)),
         Model::new("pile of cubes", pile(4, 1)),
         Model::new("dented cube", dented_cube(0.5, 0.3)),
         Model::new("deeply dented cube", dented_cube(0.5, 1.0 - 1e-9)),
@@ -71,7 +71,7 @@ pub fn flat_solids() -> Vec<Model> {
         ),
         Model::new(
             "two cubes",
-            two_solids(
+            merged_solids(
                 &cuboid(DVec3::ONE),
                 &cuboid(DVec3::ONE).moved(2.5 * DVec3::X),
             ),
@@ -90,7 +90,7 @@ fn curved_solids() -> Vec<Model> {
         Model::new("hollow ball", hollow(&ball(1.0), &ball(0.9))),
         Model::new(
             "ball in a cavity",
-            two_solids(&hollow(&ball(1.0), &ball(0.8)), &ball(0.7)),
+            merged_solids(&hollow(&ball(1.0), &ball(0.8)), &ball(0.7)),
         ),
     ]
 }

@@ -1,7 +1,7 @@
 //! Generates solids of cells: sheets of four-sided cells, thickened, in some of which cells are missing. Their tops and
 //! bottoms are large regions of coplanar triangles, rarely convex.
 
-use super::{Line, Mesh, Shape, lumps::seeded_rng};
+use super::{GridDirection, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};
 use rand::RngExt;
 use std::collections::HashMap;
@@ -16,8 +16,8 @@ pub fn gear(spokes: usize) -> Shape {
         radii[i] * DVec2::new(angle.cos(), angle.sin())
     };
     CellGrid {
-        rows: Line::Open(radii.len()),
-        columns: Line::Closed(columns),
+        rows: GridDirection::Bounded(radii.len()),
+        columns: GridDirection::Wrapping(columns),
         is_filled: &|i, j| match i {
             1 => j % 8 < 3,
             3 => j % 4 < 2,
@@ -30,8 +30,8 @@ pub fn gear(spokes: usize) -> Shape {
 /// Returns a plate with `n × m` square holes, which are as wide as the bridges between them.
 pub fn perforated_plate(n: usize, m: usize) -> Shape {
     CellGrid {
-        rows: Line::Open(2 * n + 2),
-        columns: Line::Open(2 * m + 2),
+        rows: GridDirection::Bounded(2 * n + 2),
+        columns: GridDirection::Bounded(2 * m + 2),
         is_filled: &|i, j| i % 2 == 0 || j % 2 == 0,
     }
     .thicken(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
@@ -39,11 +39,11 @@ pub fn perforated_plate(n: usize, m: usize) -> Shape {
 
 /// Returns the solid of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares per unit
 /// area.
-pub fn l_block(cells: usize) -> Shape {
+pub fn divided_l_prism(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     CellGrid {
-        rows: Line::Open(2 * cells + 1),
-        columns: Line::Open(2 * cells + 1),
+        rows: GridDirection::Bounded(2 * cells + 1),
+        columns: GridDirection::Bounded(2 * cells + 1),
         is_filled: &|i, j| i < cells || j < cells,
     }
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
@@ -56,20 +56,20 @@ pub fn slotted_plate(width: f64) -> Shape {
         [-1.0, -0.5 * width, 0.5 * width, 1.0],
     );
     CellGrid {
-        rows: Line::Open(4),
-        columns: Line::Open(4),
+        rows: GridDirection::Bounded(4),
+        columns: GridDirection::Bounded(4),
         is_filled: &|i, j| (i, j) != (1, 1),
     }
     .thicken(|i, j| DVec2::new(x[i], y[j]), 0.25)
 }
 
 /// Returns two combs in one mesh, with the teeth of each comb between those of the other.
-pub fn meshed_combs(teeth: usize) -> Shape {
+pub fn interlocking_combs(teeth: usize) -> Shape {
     let x = |i: usize| (i / 2) as f64 + if i % 2 == 1 { 0.4 } else { 0.0 };
     let y = [0.0, 0.3, 1.3];
     let comb = CellGrid {
-        rows: Line::Open(2 * teeth),
-        columns: Line::Open(3),
+        rows: GridDirection::Bounded(2 * teeth),
+        columns: GridDirection::Bounded(3),
         is_filled: &|i, j| j == 0 || i % 2 == 0,
     }
     .thicken(|i, j| DVec2::new(x(i), y[j]), 0.2);
@@ -87,8 +87,8 @@ pub fn meshed_combs(teeth: usize) -> Shape {
 pub fn divided_cube(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     CellGrid {
-        rows: Line::Open(cells + 1),
-        columns: Line::Open(cells + 1),
+        rows: GridDirection::Bounded(cells + 1),
+        columns: GridDirection::Bounded(cells + 1),
         is_filled: &|_, _| true,
     }
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
@@ -106,8 +106,8 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
     }
     let at = |i: usize, j: usize, z: f64| DVec3::new(unit * i as f64, unit * j as f64, z);
     CellGrid {
-        rows: Line::Open(cells + 1),
-        columns: Line::Open(cells + 1),
+        rows: GridDirection::Bounded(cells + 1),
+        columns: GridDirection::Bounded(cells + 1),
         is_filled: &|_, _| true,
     }
     .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
@@ -115,8 +115,8 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
 
 /// A grid of four-sided cells, some of which are filled.
 struct CellGrid<'a> {
-    rows: Line,
-    columns: Line,
+    rows: GridDirection,
+    columns: GridDirection,
     is_filled: &'a dyn Fn(usize, usize) -> bool,
 }
 

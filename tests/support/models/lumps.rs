@@ -14,13 +14,13 @@ pub(super) fn seeded_rng(seed: u64) -> Pcg64 {
 /// the origin.
 pub fn boulder(levels: u32, roughness: f64, seed: u64) -> Shape {
     let mut rng = seeded_rng(seed);
-    star_shape(levels, |_| 1.0 - roughness * rng.random_range(0.0..1.0))
+    star_shaped_solid(levels, |_| 1.0 - roughness * rng.random_range(0.0..1.0))
 }
 
 /// Returns a smooth lump with bumps and two ears.
 pub fn blob(levels: u32) -> Shape {
     let ears = [DVec3::new(0.4, 0.2, 1.0), DVec3::new(-0.4, 0.2, 1.0)].map(DVec3::normalize);
-    star_shape(levels, |n| {
+    star_shaped_solid(levels, |n| {
         let waves = (5.0 * n.x + 1.0).sin() * (4.0 * n.y).sin() * (6.0 * n.z + 2.0).cos();
         let ear: f64 = ears.iter().map(|e| (40.0 * (n.dot(*e) - 1.0)).exp()).sum();
         0.6 + 0.06 * waves + 0.4 * ear
@@ -46,7 +46,7 @@ pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
 }
 
 /// Returns two solids that do not touch as one mesh.
-pub fn two_solids(one: &Shape, other: &Shape) -> Shape {
+pub fn merged_solids(one: &Shape, other: &Shape) -> Shape {
     let mut mesh = one.mesh.clone();
     mesh.append(&other.mesh);
     Shape::closed(mesh)
@@ -54,7 +54,7 @@ pub fn two_solids(one: &Shape, other: &Shape) -> Shape {
 
 /// Returns a divided icosahedron whose vertices are at distances from the origin given by `radius`, a function of the
 /// direction.
-fn star_shape(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape {
+fn star_shaped_solid(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape {
     let Mesh {
         mut vertices,
         faces,

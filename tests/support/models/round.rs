@@ -1,6 +1,6 @@
 //! Generates round shapes: spheres, tori, knots.
 
-use super::{Line, Mesh, Shape, grid_faces};
+use super::{GridDirection, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use std::collections::HashMap;
@@ -89,7 +89,10 @@ pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
         vertices: (0..rings)
             .flat_map(|i| (0..sides).map(move |j| vertex(i, j)))
             .collect(),
-        faces: grid_faces(Line::Closed(rings), Line::Closed(sides)),
+        faces: grid_faces(
+            GridDirection::Wrapping(rings),
+            GridDirection::Wrapping(sides),
+        ),
     };
     Shape::closed(mesh.flipped())
 }
@@ -115,6 +118,9 @@ pub fn torus_knot(rings: usize, sides: usize) -> Shape {
             vertices.push(curve(u) + 0.08 * (v.cos() * side + v.sin() * up));
         }
     }
-    let faces = grid_faces(Line::Closed(rings), Line::Closed(sides));
+    let faces = grid_faces(
+        GridDirection::Wrapping(rings),
+        GridDirection::Wrapping(sides),
+    );
     Shape::closed(Mesh { vertices, faces })
 }

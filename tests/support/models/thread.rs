@@ -1,6 +1,6 @@
 //! Generates a screw and its nut.
 
-use super::{Line, Mesh, Shape, grid_faces};
+use super::{GridDirection, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -15,18 +15,18 @@ const ROWS_PER_PITCH: usize = 6;
 /// Returns the surface of a screw about z: four pitches of a thread with a sine profile, mean radius 1 and amplitude
 /// 0.1. The number of triangles grows as the square of `fineness`.
 pub fn screw(fineness: usize) -> Shape {
-    Shape::open(thread(4, 0.0, fineness))
+    Shape::open(thread_surface(4, 0.0, fineness))
 }
 
 /// Returns the inner surface of the nut: one pitch high, from z = [`PITCH`] on, and wider than the screw by
 /// `clearance`.
 pub fn nut(clearance: f64, fineness: usize) -> Shape {
-    Shape::open(thread(1, clearance, fineness)).moved(PITCH * DVec3::Z)
+    Shape::open(thread_surface(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 
 /// Returns a helical surface: a rotation by an angle and a lift by the same fraction of the pitch map it to itself, up
 /// to its facets.
-fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
+fn thread_surface(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
     let (segments, rows_per_pitch) = (SEGMENTS_PER_TURN * fineness, ROWS_PER_PITCH * fineness);
     let rows = pitches * rows_per_pitch + 1;
     let vertex = |i: usize, j: usize| {
@@ -39,6 +39,9 @@ fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
         vertices: (0..rows)
             .flat_map(|i| (0..segments).map(move |j| vertex(i, j)))
             .collect(),
-        faces: grid_faces(Line::Open(rows), Line::Closed(segments)),
+        faces: grid_faces(
+            GridDirection::Bounded(rows),
+            GridDirection::Wrapping(segments),
+        ),
     }
 }

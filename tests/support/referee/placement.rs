@@ -66,7 +66,7 @@ impl Placement {
     }
 
     /// Returns the largest speed due to rotation of a point of the body.
-    pub fn rim_speed(&self) -> f64 {
+    pub fn max_rotational_speed(&self) -> f64 {
         self.spin.length() * self.radius
     }
 

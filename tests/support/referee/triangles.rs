@@ -21,7 +21,7 @@ impl<'a> PosedMesh<'a> {
     pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
         let of_face = |face: &[u32; 3]| {
             face.iter()
-                .fold(Bounds::EMPTY, |all, &v| all.with(points[v as usize]))
+                .fold(Bounds::EMPTY, |all, &v| all.with_point(points[v as usize]))
         };
         let boxes: Vec<Bounds> = mesh.faces.iter().map(of_face).collect();
         let face = |face: &[u32; 3]| Face::new(face.map(|v| points[v as usize]));
@@ -256,7 +256,7 @@ impl Bounds {
         hi: DVec3::NEG_INFINITY,
     };
 
-    fn with(self, p: DVec3) -> Bounds {
+    fn with_point(self, p: DVec3) -> Bounds {
         Bounds {
             lo: self.lo.min(p),
             hi: self.hi.max(p),
@@ -264,7 +264,7 @@ impl Bounds {
     }
 
     fn union(self, other: Bounds) -> Bounds {
-        self.with(other.lo).with(other.hi)
+        self.with_point(other.lo).with_point(other.hi)
     }
 
     pub(crate) fn distance_squared(&self, other: &Bounds) -> f64 {

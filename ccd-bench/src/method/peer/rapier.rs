@@ -2,7 +2,7 @@
 
 use crate::method::peer::contact_claim_at;
 use crate::method::peer::parry::double::shapes::{pose_at, to_parry_vector, to_tri_mesh};
-use crate::method::solver::{Claim, Reply, Solver};
+use crate::method::solver::{ContactClaim, Reply, Solver};
 use anyhow::Result;
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
@@ -85,17 +85,17 @@ impl Solver for TwoBodySimulation {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let turns = query.b.spin() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
-            let claim = Claim::Refused;
+            let claim = ContactClaim::Refused;
             return Reply::new(claim, 0);
         }
         self.set_query(query, tolerance);
         self.world.step();
         let claim = match self.world.bodies.get(self.a) {
             Some(a) => match completed_motion_fraction(query, a.position()) {
-                share if share >= MIN_COMPLETE_FRACTION => Claim::NoContact,
+                share if share >= MIN_COMPLETE_FRACTION => ContactClaim::NoContact,
                 share => contact_claim_at(share * query.duration, query.duration),
             },
-            None => Claim::Unresolved { safe_until: 0.0 },
+            None => ContactClaim::Unresolved { safe_until: 0.0 },
         };
         Reply::new(claim, 1)
     }

@@ -2,7 +2,7 @@
 
 use super::PeerKind;
 use crate::method::Method;
-use crate::method::solver::{Claim, Reply, TimedReply};
+use crate::method::solver::{ContactClaim, Reply, TimedReply};
 use crate::method::wire::{format_query, parse_query};
 use crate::names::name_of;
 use crate::scene::model;
@@ -28,15 +28,15 @@ struct ExactCase {
 }
 
 impl ExactCase {
-    fn ask(&self, kind: PeerKind) -> Reply {
+    fn reply_of_peer(&self, kind: PeerKind) -> Reply {
         let mut peer = kind.solver(&self.a, &self.b).unwrap();
         peer.answer(&self.query, TOLERANCE)
     }
 
     /// Asserts that a peer reports the contact time to within its allowed error.
     fn assert_contact_within_error(&self, kind: PeerKind) {
-        let reply = self.ask(kind);
-        let Claim::Contact { time } = reply.claim else {
+        let reply = self.reply_of_peer(kind);
+        let ContactClaim::Contact { time } = reply.claim else {
             panic!("{}: {reply:?}", name_of(&kind));
         };
         let late = time - self.contact_time;
@@ -216,7 +216,7 @@ fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f6
 fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
     for kind in [PeerKind::ParryF64, PeerKind::ParryF32] {
-        let Claim::Contact { time } = exact.ask(kind).claim else {
+        let ContactClaim::Contact { time } = exact.reply_of_peer(kind).claim else {
             panic!("{}: no contact", name_of(&kind));
         };
         assert!(
@@ -232,12 +232,12 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
 #[test]
 fn large_turns_are_wrong_with_a_whole_step() {
     let half = rod_on_wall(1.0);
-    let Claim::Contact { time } = half.ask(PeerKind::RapierStepF64).claim else {
+    let ContactClaim::Contact { time } = half.reply_of_peer(PeerKind::RapierStepF64).claim else {
         panic!("half a turn has no contact");
     };
     assert!(time - half.contact_time > 0.02, "{time}");
-    let whole = rod_on_wall(2.0).ask(PeerKind::RapierStepF64);
-    assert_eq!(whole.claim, Claim::NoContact);
+    let whole = rod_on_wall(2.0).reply_of_peer(PeerKind::RapierStepF64);
+    assert_eq!(whole.claim, ContactClaim::NoContact);
 }
 
 #[test]
@@ -247,8 +247,8 @@ fn a_near_miss_is_free_with_every_peer() {
     passing.query.a = Motion::new(aside, -4.0 * DVec3::Z, DVec3::ZERO).unwrap();
     for kind in PeerKind::value_variants().iter().copied() {
         assert_eq!(
-            passing.ask(kind).claim,
-            Claim::NoContact,
+            passing.reply_of_peer(kind).claim,
+            ContactClaim::NoContact,
             "{}",
             name_of(&kind)
         );
@@ -265,7 +265,7 @@ fn a_second_query_is_answered_as_the_first() {
         other.a = motion(9.0 * DVec3::X, DQuat::IDENTITY, DVec3::ONE, DVec3::ONE);
         assert_eq!(
             peer.answer(&other, TOLERANCE).claim,
-            Claim::NoContact,
+            ContactClaim::NoContact,
             "{}",
             name_of(&kind)
         );
@@ -282,7 +282,10 @@ fn a_second_query_is_answered_as_the_first() {
 fn a_body_at_rest_in_rapier_does_not_turn() {
     let mut exact = edge_on_edge();
     exact.query.b = motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::X);
-    assert_eq!(exact.ask(PeerKind::RapierStepF64).claim, Claim::Refused);
+    assert_eq!(
+        exact.reply_of_peer(PeerKind::RapierStepF64).claim,
+        ContactClaim::Refused
+    );
 }
 
 #[test]
@@ -315,9 +318,9 @@ fn queries_and_replies_survive_the_line() {
     let asked = rod_on_wall(1.0).query;
     assert_eq!(parse_query(&format_query(&asked)), Some(asked));
     for claim in [
-        Claim::Contact { time: 0.1 + 0.2 },
-        Claim::NoContact,
-        Claim::Unresolved { safe_until: 1e-300 },
+        ContactClaim::Contact { time: 0.1 + 0.2 },
+        ContactClaim::NoContact,
+        ContactClaim::Unresolved { safe_until: 1e-300 },
     ] {
         let plain = Reply::new(claim, 7);
         let full = Reply {

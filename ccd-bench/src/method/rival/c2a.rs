@@ -1,9 +1,9 @@
 //! Implements C2A, which advances both bodies by the shortest time that is safe for all pairs of swept-sphere nodes.
 
 use super::patience::WorkLimit;
-use super::swept_spheres::{Gap, Pair, PairChildren, Trees, TrianglePair};
+use super::swept_spheres::{GapBound, PairChildren, RssNodePair, RssTreePair, TriangleIndexPair};
 use super::{Placement, RivalMotion};
-use crate::method::solver::{Claim, Reply, Solver};
+use crate::method::solver::{ContactClaim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
 use closing::ClosingSpeedBounds;
@@ -31,19 +31,19 @@ mod tests;
 /// summed before they are bounded from below by zero. Pure translations are no special case.
 #[derive(Clone, Debug)]
 pub struct C2a {
-    trees: Trees,
-    patience: WorkLimit,
-    closing_speeds: ClosingSpeedBounds,
-    pairs: Vec<CandidatePair>,
+    trees: RssTreePair,
+    work_limit: WorkLimit,
+    closing_speed_bounds: ClosingSpeedBounds,
+    pair_stack: Vec<CandidatePair>,
 }
 
 /// A pair of nodes on the stack of a descent, with its distance and its safe step.
 #[derive(Clone, Copy, Debug)]
 struct CandidatePair {
-    pair: Pair,
+    pair: RssNodePair,
     distance: f64,
     /// A time from now during which the nodes do not touch.
-    step: f64,
+    safe_step: f64,
 }
 
 /// The nearest triangles and the safe step that a descent of both trees has found so far.
@@ -52,7 +52,7 @@ struct DescentResult {
     /// The distance of the nearest triangles.
     distance: f64,
     /// The nearest triangles; `None` before any are found.
-    nearest_triangles: Option<(TrianglePair, Pair)>,
+    nearest_triangles: Option<(TriangleIndexPair, RssNodePair)>,
     /// The least safe step of all pairs at which the descent has stopped so far.
     step: f64,
 }
@@ -82,12 +82,12 @@ enum DescentOutcome {
 impl C2a {
     /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
-        let trees = Trees::new(a, b);
+        let trees = RssTreePair::new(a, b);
         C2a {
-            closing_speeds: ClosingSpeedBounds::new(&trees),
+            closing_speed_bounds: ClosingSpeedBounds::new(&trees),
             trees,
-            patience: WorkLimit::default(),
-            pairs: Vec::new(),
+            work_limit: WorkLimit::default(),
+            pair_stack: Vec::new(),
         }
     }
 }
@@ -95,14 +95,14 @@ impl C2a {
 impl Solver for C2a {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-        self.closing_speeds.set_motions(&a, &b);
-        let mut pairs_left = self.patience.pairs;
+        self.closing_speed_bounds.set_motions(&a, &b);
+        let mut pairs_left = self.work_limit.max_pairs;
         let mut time = 0.0;
         let mut last = None;
-        for steps in 1..=self.patience.steps {
-            let frame = a.at(time);
+        for steps in 1..=self.work_limit.max_steps {
+            let frame = a.placement_at(time);
             let setup = DescentSetup {
-                placement: &b.at(time).relative_to(&frame),
+                placement: &b.placement_at(time).relative_to(&frame),
                 remaining_time: query.duration - time,
                 max_relative_excess: max_relative_excess(
                     steps,
@@ -112,28 +112,31 @@ impl Solver for C2a {
                 ),
                 tolerance,
             };
-            self.closing_speeds.set_frame(&frame);
+            self.closing_speed_bounds.set_frame(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 DescentOutcome::Done(found) => found,
                 DescentOutcome::WithinTolerance => {
-                    return Reply::new(Claim::Contact { time }, steps);
+                    return Reply::new(ContactClaim::Contact { time }, steps);
                 }
                 DescentOutcome::LimitReached => {
-                    return Reply::new(Claim::Unresolved { safe_until: time }, steps);
+                    return Reply::new(ContactClaim::Unresolved { safe_until: time }, steps);
                 }
             };
             if found.step >= setup.remaining_time {
-                return Reply::new(Claim::NoContact, steps);
+                return Reply::new(ContactClaim::NoContact, steps);
             }
             let next = time + found.step;
             // Stop at NaN, and at a step below the resolution of time.
             if !(next > time) {
-                return Reply::new(Claim::Unresolved { safe_until: time }, steps);
+                return Reply::new(ContactClaim::Unresolved { safe_until: time }, steps);
             }
             time = next;
             last = Some(found);
         }
-        Reply::new(Claim::Unresolved { safe_until: time }, self.patience.steps)
+        Reply::new(
+            ContactClaim::Unresolved { safe_until: time },
+            self.work_limit.max_steps,
+        )
     }
 }
 
@@ -151,22 +154,22 @@ impl C2a {
             step: f64::INFINITY,
         };
         if let Some((leaves, pair)) = last.and_then(|last| last.nearest_triangles) {
-            self.measure_triangles(&mut found, setup, leaves, pair);
+            self.include_triangles(&mut found, setup, leaves, pair);
         }
         let Some(roots) = self.trees.root_pair(setup.placement) else {
             return DescentOutcome::Done(found);
         };
-        self.pairs.clear();
+        self.pair_stack.clear();
         let roots = self.candidate_pair(roots);
-        self.pairs.push(roots);
+        self.pair_stack.push(roots);
         loop {
             if found.distance <= setup.tolerance {
                 return DescentOutcome::WithinTolerance;
             }
-            let Some(candidate) = self.pairs.pop() else {
+            let Some(candidate) = self.pair_stack.pop() else {
                 return DescentOutcome::Done(found);
             };
-            if candidate.stop_descent_at(&mut found, setup) {
+            if candidate.may_stop_descent(&mut found, setup) {
                 continue;
             }
             if *pairs_left == 0 || found.distance.is_nan() {
@@ -175,7 +178,7 @@ impl C2a {
             *pairs_left -= 1;
             match self.trees.children(&candidate.pair) {
                 PairChildren::Triangles(leaves) => {
-                    self.measure_triangles(&mut found, setup, leaves, candidate.pair);
+                    self.include_triangles(&mut found, setup, leaves, candidate.pair);
                 }
                 PairChildren::Pairs([first, second]) => {
                     let (first, second) = (self.candidate_pair(first), self.candidate_pair(second));
@@ -184,40 +187,44 @@ impl C2a {
                     } else {
                         [first, second]
                     };
-                    self.pairs.extend(ordered);
+                    self.pair_stack.extend(ordered);
                 }
             }
         }
     }
 
     #[inline]
-    fn candidate_pair(&mut self, pair: Pair) -> CandidatePair {
-        let gap = self.trees.gap(&pair);
+    fn candidate_pair(&mut self, pair: RssNodePair) -> CandidatePair {
+        let gap = self.trees.gap_bound(&pair);
         CandidatePair {
-            step: self.closing_speeds.safe_step(&self.trees, &pair, &gap),
+            safe_step: self
+                .closing_speed_bounds
+                .safe_step(&self.trees, &pair, &gap),
             pair,
             distance: gap.distance,
         }
     }
 
     /// Measures the distance and the safe step of two triangles, and keeps each in `found` if it is the least so far.
-    fn measure_triangles(
+    fn include_triangles(
         &mut self,
         found: &mut DescentResult,
         setup: &DescentSetup<'_>,
-        leaves: TrianglePair,
-        pair: Pair,
+        leaves: TriangleIndexPair,
+        pair: RssNodePair,
     ) {
         let between = self
             .trees
-            .nearest(leaves, setup.placement)
+            .nearest_points(leaves, setup.placement)
             .vector_from_a_to_b();
         let distance = between.length();
-        let gap = Gap {
+        let gap = GapBound {
             distance,
             direction: between / distance,
         };
-        let step = self.closing_speeds.safe_step(&self.trees, &pair, &gap);
+        let step = self
+            .closing_speed_bounds
+            .safe_step(&self.trees, &pair, &gap);
         // NaN counts as nearer.
         if !(step >= found.step) {
             found.step = step;
@@ -232,13 +239,13 @@ impl C2a {
 impl CandidatePair {
     /// Returns true if the descent may stop at this pair, whose step is then accounted for in `found`.
     #[inline]
-    fn stop_descent_at(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
-        if self.step >= lesser(found.step, setup.remaining_time) {
+    fn may_stop_descent(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
+        if self.safe_step >= lesser(found.step, setup.remaining_time) {
             return true;
         }
         let far = self.distance * (1.0 + setup.max_relative_excess) >= found.distance;
         if far {
-            found.step = self.step;
+            found.step = self.safe_step;
         }
         far
     }
@@ -252,10 +259,10 @@ fn max_relative_excess(
     tolerance: f64,
 ) -> f64 {
     /// The number of coarse steps at the start, and the excess that they are allowed.
-    const COARSE_STEPS: (u64, f64) = (3, 3.0);
+    const COARSE_STEP_COUNT_AND_EXCESS: (u64, f64) = (3, 3.0);
     /// The number of the last finer step, after which all steps are exact, and the excess that the finer steps are
     /// allowed.
-    const LAST_FINER_STEP: (u64, f64) = (6, 0.5);
+    const LAST_FINER_STEP_AND_EXCESS: (u64, f64) = (6, 0.5);
     /// The length of a step at and below which the next step is exact, as a fraction of the duration.
     const EXACT_STEP_FRACTION: f64 = 0.005;
     /// The distance at and below which the next step is exact, as a multiple of the tolerance.
@@ -267,8 +274,8 @@ fn max_relative_excess(
     });
     match step {
         _ if exact => 0.0,
-        _ if step <= COARSE_STEPS.0 => COARSE_STEPS.1,
-        _ if step <= LAST_FINER_STEP.0 => LAST_FINER_STEP.1,
+        _ if step <= COARSE_STEP_COUNT_AND_EXCESS.0 => COARSE_STEP_COUNT_AND_EXCESS.1,
+        _ if step <= LAST_FINER_STEP_AND_EXCESS.0 => LAST_FINER_STEP_AND_EXCESS.1,
         _ => 0.0,
     }
 }

@@ -13,12 +13,12 @@ use super::obb_tree::{ObbTree, trees_intersect};
 use super::resolution::resolution;
 use super::screw::to_screw_motions;
 use super::tree::NodeContent;
-use crate::method::solver::{Claim, Reply, Solver};
-use boxes::{BoxRelation, relate_boxes};
+use crate::method::solver::{ContactClaim, Reply, Solver};
+use boxes::{BoxSeparation, box_separation};
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 use clock::{HalvedInterval, MotionEncloser};
-use elementary::{TestTriangle, TrianglePair};
+use elementary::{TrianglePair, TriangleWithNormals};
 use leaf::{FirstTouch, first_touch};
 use relative::RelativeMotion;
 use rigid_ccd::table::motions::Motions;
@@ -48,23 +48,23 @@ const MAX_RELATIVE_SPREAD: f64 = 0.2;
 #[derive(Clone, Debug)]
 pub struct Contact {
     trees: [ObbTree; 2],
-    limits: Limits,
-    stack: Vec<NodePair>,
-    overlap_stack: Vec<(u32, u32)>,
+    limits: SearchLimits,
+    pair_stack: Vec<NodePair>,
+    intersection_stack: Vec<(u32, u32)>,
 }
 
 /// The limits on the work of one query, which let it run for some seconds.
 #[derive(Clone, Copy, Debug)]
-struct Limits {
+struct SearchLimits {
     /// The maximum number of pairs of boxes to examine.
-    pairs: u64,
+    max_pairs: u64,
     /// The maximum number of halvings of time. Surfaces that slide past each other at a distance g are only separated
     /// over intervals in which they move by about g.
     max_halvings: u64,
 }
 
-const LIMITS: Limits = Limits {
-    pairs: 1 << 24,
+const SEARCH_LIMITS: SearchLimits = SearchLimits {
+    max_pairs: 1 << 24,
     max_halvings: 1 << 22,
 };
 
@@ -80,9 +80,9 @@ impl Contact {
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Contact {
             trees: [a, b].map(ObbTree::new),
-            limits: LIMITS,
-            stack: Vec::new(),
-            overlap_stack: Vec::new(),
+            limits: SEARCH_LIMITS,
+            pair_stack: Vec::new(),
+            intersection_stack: Vec::new(),
         }
     }
 
@@ -91,9 +91,11 @@ impl Contact {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, tolerance);
         let [a, b] = &self.trees;
-        let start = courses[0].at(0.0).relative_to(&courses[1].at(0.0));
-        if trees_intersect(a, b, &start, &mut self.overlap_stack) {
-            let claim = Claim::Contact { time: 0.0 };
+        let start = courses[0]
+            .placement_at(0.0)
+            .relative_to(&courses[1].placement_at(0.0));
+        if trees_intersect(a, b, &start, &mut self.intersection_stack) {
+            let claim = ContactClaim::Contact { time: 0.0 };
             return Reply::new(claim, 0);
         }
         // A body that does not rotate encloses the other's motion in its frame without loss.
@@ -107,12 +109,12 @@ impl Contact {
         let mut search = Search {
             trees: order.map(|k| &self.trees[k]),
             motion_encloser: MotionEncloser::new(relative, resolution, self.limits.max_halvings),
-            max_pairs: self.limits.pairs,
-            stack: &mut self.stack,
+            max_pairs: self.limits.max_pairs,
+            stack: &mut self.pair_stack,
             search_end: query.duration,
         };
         let claim = search.run();
-        Reply::new(claim, search.motion_encloser.halvings)
+        Reply::new(claim, search.motion_encloser.halving_count)
     }
 }
 
@@ -121,7 +123,7 @@ impl Solver for Contact {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         match to_screw_motions(query) {
             Ok(query) => self.first_contact(&query, tolerance),
-            Err(_) => Reply::new(Claim::Unresolved { safe_until: 0.0 }, 0),
+            Err(_) => Reply::new(ContactClaim::Unresolved { safe_until: 0.0 }, 0),
         }
     }
 }
@@ -137,7 +139,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(&mut self) -> Claim {
+    fn run(&mut self) -> ContactClaim {
         let mut found = None;
         let interval = HalvedInterval::whole_duration(self.search_end);
         let nodes = [0, 0];
@@ -145,61 +147,63 @@ impl Search<'_> {
         self.stack.push(NodePair { nodes, interval });
         for _ in 0..self.max_pairs {
             let Some(mut pair) = self.stack.pop() else {
-                return found.map_or(Claim::NoContact, |time| Claim::Contact { time });
+                return found.map_or(ContactClaim::NoContact, |time| ContactClaim::Contact {
+                    time,
+                });
             };
             let ahead = pair.interval.span.start < self.search_end;
             if !ahead && found.is_some() {
                 continue;
             }
             pair.interval.span.end = lesser(pair.interval.span.end, self.search_end);
-            if self.motion_encloser.is_at_limit() {
+            if self.motion_encloser.is_at_halving_limit() {
                 self.stack.push(pair);
                 break;
             }
-            match self.visit_pair(pair) {
+            match self.settle_or_split_pair(pair) {
                 FirstTouch::AtTime(time) => {
                     self.search_end = time;
                     found = Some(time);
                 }
-                FirstTouch::Never => {}
-                FirstTouch::Unknown => {
+                FirstTouch::NotInInterval => {}
+                FirstTouch::LimitReached => {
                     self.stack.push(pair);
                     break;
                 }
             }
         }
         let starts = self.stack.iter().map(|pair| pair.interval.span.start);
-        Claim::Unresolved {
+        ContactClaim::Unresolved {
             safe_until: starts.fold(self.search_end, lesser),
         }
     }
 
     /// Examines a pair: drops it if its boxes stay apart, pushes halves or children onto the stack, or tests its two
     /// triangles.
-    fn visit_pair(&mut self, pair: NodePair) -> FirstTouch {
+    fn settle_or_split_pair(&mut self, pair: NodePair) -> FirstTouch {
         let NodePair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match relate_boxes(
+        let spread = match box_separation(
             &a.bounds,
             &b.bounds,
-            self.motion_encloser.placements(interval),
+            self.motion_encloser.placement_enclosure(interval),
         ) {
-            BoxRelation::Separated => return FirstTouch::Never,
-            BoxRelation::NotSeparated { spread } => spread,
+            BoxSeparation::Separated => return FirstTouch::NotInInterval,
+            BoxSeparation::NotSeparated { spread } => spread,
         };
         let size = [a, b].map(|node| node.bounds.half_extents.max_element());
         let wide = spread > MAX_RELATIVE_SPREAD * greater(size[0], size[1]);
-        if wide && !self.motion_encloser.is_at_resolution(interval) {
-            self.motion_encloser.halvings += 1;
+        if wide && !self.motion_encloser.is_too_short_to_halve(interval) {
+            self.motion_encloser.halving_count += 1;
             let [early, late] = interval.halves();
             self.stack
                 .extend([late, early].map(|interval| NodePair { nodes, interval }));
-            return FirstTouch::Never;
+            return FirstTouch::NotInInterval;
         }
         let open = match (a.content, b.content) {
             (NodeContent::Triangle(p), NodeContent::Triangle(q)) => {
-                return self.visit_leaves([p, q], interval);
+                return self.first_touch_of_leaves([p, q], interval);
             }
             (NodeContent::Children(children), NodeContent::Triangle(_)) => {
                 children.map(|child| [child, nodes[1]])
@@ -211,13 +215,13 @@ impl Search<'_> {
         };
         self.stack
             .extend(open.map(|nodes| NodePair { nodes, interval }));
-        FirstTouch::Never
+        FirstTouch::NotInInterval
     }
 
-    fn visit_leaves(&mut self, [p, q]: [u32; 2], interval: HalvedInterval) -> FirstTouch {
+    fn first_touch_of_leaves(&mut self, [p, q]: [u32; 2], interval: HalvedInterval) -> FirstTouch {
         let triangles = TrianglePair {
-            a: TestTriangle::new(self.trees[0].triangle(p)),
-            b: TestTriangle::new(self.trees[1].triangle(q)),
+            a: TriangleWithNormals::new(self.trees[0].triangle(p)),
+            b: TriangleWithNormals::new(self.trees[1].triangle(q)),
         };
         first_touch(&triangles, interval, &mut self.motion_encloser)
     }

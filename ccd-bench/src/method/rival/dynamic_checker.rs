@@ -3,8 +3,8 @@
 
 use super::RivalMotion;
 use super::patience::WorkLimit;
-use super::swept_spheres::{Pair, PairChildren, RssTree, Trees};
-use crate::method::solver::{Claim, Reply, Solver};
+use super::swept_spheres::{PairChildren, RssNodePair, RssTree, RssTreePair};
+use crate::method::solver::{ContactClaim, Reply, Solver};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
@@ -35,25 +35,25 @@ mod tests;
 /// path of a body is that of a point as far from its centre of rotation as its farthest corner.
 #[derive(Clone, Debug)]
 pub struct DynamicChecker {
-    trees: Trees,
-    patience: WorkLimit,
-    radius_a: CachedRadius,
-    radius_b: CachedRadius,
-    segments: Vec<Segment>,
-    pairs: Vec<(Pair, f64)>,
+    trees: RssTreePair,
+    work_limit: WorkLimit,
+    radius_a: RadiusCache,
+    radius_b: RadiusCache,
+    segment_stack: Vec<TimeSegment>,
+    pair_stack: Vec<(RssNodePair, f64)>,
 }
 
 /// A cache of the largest distance of a body's points from its centre of rotation, valid until the centre changes.
 #[derive(Clone, Copy, Debug, Default)]
-struct CachedRadius(Option<(DVec3, f64)>);
+struct RadiusCache(Option<(DVec3, f64)>);
 
 /// A segment of the duration, and lower bounds on the distance at its ends.
 #[derive(Clone, Copy, Debug)]
-struct Segment {
+struct TimeSegment {
     start: f64,
     end: f64,
-    distance_at_start: f64,
-    distance_at_end: f64,
+    start_distance_bound: f64,
+    end_distance_bound: f64,
 }
 
 /// The precision at which a lower bound of the distance suffices, so that a descent may stop.
@@ -62,13 +62,13 @@ struct RequiredPrecision {
     /// The lower bound of the distance that suffices: above it, no larger bound is needed.
     sufficient_distance: f64,
     /// The largest size of nodes that may stay unopened, as a multiple of their distance.
-    coarseness: f64,
+    max_size_to_distance: f64,
 }
 
 /// The result of computing a lower bound of the bodies' distance.
 #[derive(Clone, Copy, Debug)]
-enum LowerBound {
-    Apart(f64),
+enum DistanceBound {
+    AtLeast(f64),
     Touching,
     /// The work limit was reached, or a computed distance was NaN.
     LimitReached,
@@ -79,10 +79,10 @@ struct QueryTask {
     a: RivalMotion,
     b: RivalMotion,
     /// An upper bound of the relative speed of any two points of the bodies.
-    speed: f64,
+    speed_bound: f64,
     tolerance: f64,
     /// The earliest time at which the bodies were found to touch; `None` until then.
-    earliest_touch: Option<f64>,
+    earliest_touch_time: Option<f64>,
     steps: u64,
     pairs_left: u64,
 }
@@ -91,12 +91,12 @@ impl DynamicChecker {
     /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         DynamicChecker {
-            trees: Trees::new(a, b),
-            patience: WorkLimit::default(),
-            radius_a: CachedRadius::default(),
-            radius_b: CachedRadius::default(),
-            segments: Vec::new(),
-            pairs: Vec::new(),
+            trees: RssTreePair::new(a, b),
+            work_limit: WorkLimit::default(),
+            radius_a: RadiusCache::default(),
+            radius_b: RadiusCache::default(),
+            segment_stack: Vec::new(),
+            pair_stack: Vec::new(),
         }
     }
 }
@@ -109,12 +109,12 @@ impl Solver for DynamicChecker {
         let mut task = QueryTask {
             a,
             b,
-            speed: speed(&a, self.radius_a.radius_about(a.centre, &self.trees.a))
+            speed_bound: speed(&a, self.radius_a.radius_about(a.centre, &self.trees.a))
                 + speed(&b, self.radius_b.radius_about(b.centre, &self.trees.b)),
             tolerance,
-            earliest_touch: None,
+            earliest_touch_time: None,
             steps: 0,
-            pairs_left: self.patience.pairs,
+            pairs_left: self.work_limit.max_pairs,
         };
         let claim = self.search_first_contact(query.duration, &mut task);
         Reply::new(claim, task.steps)
@@ -123,61 +123,65 @@ impl Solver for DynamicChecker {
 
 impl DynamicChecker {
     /// Halves the duration until all of it is free, or until the earliest segment that may not be free is short enough.
-    fn search_first_contact(&mut self, duration: f64, task: &mut QueryTask) -> Claim {
-        let path = task.speed * duration;
+    fn search_first_contact(&mut self, duration: f64, task: &mut QueryTask) -> ContactClaim {
+        let path = task.speed_bound * duration;
         let distance_at_from =
             match self.distance_lower_bound(0.0, RequiredPrecision::coarse_precision(path), task) {
-                LowerBound::Apart(distance) => distance,
-                LowerBound::Touching => return Claim::Contact { time: 0.0 },
-                LowerBound::LimitReached => return Claim::Unresolved { safe_until: 0.0 },
+                DistanceBound::AtLeast(distance) => distance,
+                DistanceBound::Touching => return ContactClaim::Contact { time: 0.0 },
+                DistanceBound::LimitReached => return ContactClaim::Unresolved { safe_until: 0.0 },
             };
         let distance_at_to = match self.distance_lower_bound(
             duration,
             RequiredPrecision::coarse_precision(path - distance_at_from),
             task,
         ) {
-            LowerBound::Apart(distance) => distance,
-            LowerBound::Touching => {
-                task.earliest_touch = Some(duration);
+            DistanceBound::AtLeast(distance) => distance,
+            DistanceBound::Touching => {
+                task.earliest_touch_time = Some(duration);
                 0.0
             }
-            LowerBound::LimitReached => return Claim::Unresolved { safe_until: 0.0 },
+            DistanceBound::LimitReached => return ContactClaim::Unresolved { safe_until: 0.0 },
         };
-        self.segments.clear();
-        self.segments.push(Segment {
+        self.segment_stack.clear();
+        self.segment_stack.push(TimeSegment {
             start: 0.0,
             end: duration,
-            distance_at_start: distance_at_from,
-            distance_at_end: distance_at_to,
+            start_distance_bound: distance_at_from,
+            end_distance_bound: distance_at_to,
         });
-        while let Some(segment) = self.segments.pop() {
+        while let Some(segment) = self.segment_stack.pop() {
             task.steps += 1;
-            if let Some(claim) = self.examine_segment(segment, task) {
+            if let Some(claim) = self.settle_or_halve_segment(segment, task) {
                 return claim;
             }
         }
         // All parts before the touch may be free: the bodies only just touch then.
-        match task.earliest_touch {
-            Some(time) => Claim::Contact { time },
-            None => Claim::NoContact,
+        match task.earliest_touch_time {
+            Some(time) => ContactClaim::Contact { time },
+            None => ContactClaim::NoContact,
         }
     }
 
     /// Drops a segment that is proven free, reports a contact in one that is short enough, and halves any other.
     /// Returns a claim if the search ends.
-    fn examine_segment(&mut self, segment: Segment, task: &mut QueryTask) -> Option<Claim> {
-        let Segment {
+    fn settle_or_halve_segment(
+        &mut self,
+        segment: TimeSegment,
+        task: &mut QueryTask,
+    ) -> Option<ContactClaim> {
+        let TimeSegment {
             start: from,
             end: to,
-            distance_at_start: distance_at_from,
-            distance_at_end: distance_at_to,
+            start_distance_bound: distance_at_from,
+            end_distance_bound: distance_at_to,
         } = segment;
-        let path = task.speed * (to - from);
+        let path = task.speed_bound * (to - from);
         if path < distance_at_from + distance_at_to {
             return None;
         }
-        let gave_up = Claim::Unresolved { safe_until: from };
-        if !(path < f64::INFINITY) || task.steps > self.patience.steps {
+        let gave_up = ContactClaim::Unresolved { safe_until: from };
+        if !(path < f64::INFINITY) || task.steps > self.work_limit.max_steps {
             return Some(gave_up);
         }
         let middle = from + 0.5 * (to - from);
@@ -187,37 +191,39 @@ impl DynamicChecker {
                 RequiredPrecision::exact_precision(path - distance_at_to),
                 task,
             ) {
-                LowerBound::Apart(distance) if path < distance + distance_at_to => None,
-                LowerBound::Apart(_) | LowerBound::Touching => Some(Claim::Contact { time: from }),
-                LowerBound::LimitReached => Some(gave_up),
+                DistanceBound::AtLeast(distance) if path < distance + distance_at_to => None,
+                DistanceBound::AtLeast(_) | DistanceBound::Touching => {
+                    Some(ContactClaim::Contact { time: from })
+                }
+                DistanceBound::LimitReached => Some(gave_up),
             };
         }
         let precision = RequiredPrecision::coarse_precision(
             0.5 * path - lesser(distance_at_from, distance_at_to),
         );
         let at_middle = match self.distance_lower_bound(middle, precision, task) {
-            LowerBound::Apart(distance) => {
-                self.segments.push(Segment {
+            DistanceBound::AtLeast(distance) => {
+                self.segment_stack.push(TimeSegment {
                     start: middle,
                     end: to,
-                    distance_at_start: distance,
-                    distance_at_end: distance_at_to,
+                    start_distance_bound: distance,
+                    end_distance_bound: distance_at_to,
                 });
                 distance
             }
-            LowerBound::Touching => {
+            DistanceBound::Touching => {
                 // They touch by then, so nothing later can be the first contact.
-                self.segments.clear();
-                task.earliest_touch = Some(middle);
+                self.segment_stack.clear();
+                task.earliest_touch_time = Some(middle);
                 0.0
             }
-            LowerBound::LimitReached => return Some(gave_up),
+            DistanceBound::LimitReached => return Some(gave_up),
         };
-        self.segments.push(Segment {
+        self.segment_stack.push(TimeSegment {
             start: from,
             end: middle,
-            distance_at_start: distance_at_from,
-            distance_at_end: at_middle,
+            start_distance_bound: distance_at_from,
+            end_distance_bound: at_middle,
         });
         None
     }
@@ -229,49 +235,52 @@ impl DynamicChecker {
         time: f64,
         precision: RequiredPrecision,
         task: &mut QueryTask,
-    ) -> LowerBound {
-        let placement = task.b.at(time).relative_to(&task.a.at(time));
+    ) -> DistanceBound {
+        let placement = task
+            .b
+            .placement_at(time)
+            .relative_to(&task.a.placement_at(time));
         let Some(roots) = self.trees.root_pair(&placement) else {
-            return LowerBound::Apart(f64::INFINITY);
+            return DistanceBound::AtLeast(f64::INFINITY);
         };
-        self.pairs.clear();
-        self.pairs.push((roots, self.trees.distance(&roots)));
+        self.pair_stack.clear();
+        self.pair_stack.push((roots, self.trees.distance(&roots)));
         let mut least = f64::INFINITY;
-        while let Some((pair, distance)) = self.pairs.pop() {
+        while let Some((pair, distance)) = self.pair_stack.pop() {
             if distance >= least {
                 continue;
             }
-            if precision.is_met(distance, || self.trees.distance_slack(&pair)) {
+            if precision.is_met(distance, || self.trees.distance_excess_bound(&pair)) {
                 least = distance;
                 continue;
             }
             if task.pairs_left == 0 {
-                return LowerBound::LimitReached;
+                return DistanceBound::LimitReached;
             }
             task.pairs_left -= 1;
             match self.trees.children(&pair) {
-                PairChildren::Pairs(pairs) => self.push_pairs(pairs, least),
+                PairChildren::Pairs(pairs) => self.push_nearer_pairs(pairs, least),
                 PairChildren::Triangles(leaves) => {
                     let apart = self
                         .trees
-                        .nearest(leaves, &placement)
+                        .nearest_points(leaves, &placement)
                         .vector_from_a_to_b()
                         .length();
                     if apart.is_nan() {
-                        return LowerBound::LimitReached;
+                        return DistanceBound::LimitReached;
                     }
                     if apart == 0.0 {
-                        return LowerBound::Touching;
+                        return DistanceBound::Touching;
                     }
                     least = lesser(least, apart);
                 }
             }
         }
-        LowerBound::Apart(least)
+        DistanceBound::AtLeast(least)
     }
 
     /// Pushes two pairs onto the stack, the nearer one on top, but drops those that are not nearer than `least`.
-    fn push_pairs(&mut self, [first, second]: [Pair; 2], least: f64) {
+    fn push_nearer_pairs(&mut self, [first, second]: [RssNodePair; 2], least: f64) {
         let (first, second) = (
             (first, self.trees.distance(&first)),
             (second, self.trees.distance(&second)),
@@ -283,7 +292,7 @@ impl DynamicChecker {
         };
         for pair in ordered {
             if pair.1 < least {
-                self.pairs.push(pair);
+                self.pair_stack.push(pair);
             }
         }
     }
@@ -294,33 +303,37 @@ impl RequiredPrecision {
         /// The ratio of the nodes' size to their distance above which they are opened; this value is the fastest on the
         /// scenes. At 0, three times as much work goes into distances that are better than needed. Without a bound, as
         /// published, up to twenty times as much work goes into halvings.
-        const COARSENESS: f64 = 16.0;
+        const MAX_SIZE_TO_DISTANCE: f64 = 16.0;
         RequiredPrecision {
             sufficient_distance: sufficient,
-            coarseness: COARSENESS,
+            max_size_to_distance: MAX_SIZE_TO_DISTANCE,
         }
     }
 
     fn exact_precision(sufficient: f64) -> Self {
         RequiredPrecision {
             sufficient_distance: sufficient,
-            coarseness: 0.0,
+            max_size_to_distance: 0.0,
         }
     }
 
     /// Returns true if two nodes with this distance and these sizes need not be opened.
     fn is_met(self, distance: f64, sizes: impl Fn() -> f64) -> bool {
         distance > 0.0
-            && (distance > self.sufficient_distance || sizes() <= self.coarseness * distance)
+            && (distance > self.sufficient_distance
+                || sizes() <= self.max_size_to_distance * distance)
     }
 }
 
-impl CachedRadius {
+impl RadiusCache {
     fn radius_about(&mut self, centre: DVec3, tree: &RssTree) -> f64 {
         match self.0 {
             Some((last, reach)) if last == centre => reach,
             _ => {
-                let reach = tree.points().map(|p| p.distance(centre)).fold(0.0, greater);
+                let reach = tree
+                    .triangle_corners()
+                    .map(|p| p.distance(centre))
+                    .fold(0.0, greater);
                 self.0 = Some((centre, reach));
                 reach
             }

@@ -13,7 +13,7 @@ pub struct RivalMotion {
     /// The velocity of the centre, in the world frame.
     pub velocity: DVec3,
     /// The orientation of the body at the start.
-    pub orientation: DMat3,
+    pub start_orientation: DMat3,
     /// The unit axis of rotation in the world frame; any axis if the body does not rotate.
     pub axis: DVec3,
     /// The rate of rotation in radians per unit of time.
@@ -38,16 +38,16 @@ impl RivalMotion {
             centre: motion.centre(),
             start_position: motion.start().translation() + orientation * motion.centre(),
             velocity: motion.velocity(),
-            orientation,
+            start_orientation: orientation,
             axis: motion.spin().try_normalize().unwrap_or(DVec3::Z),
             rate,
         }
     }
 
     /// Returns the placement of the body at a time.
-    pub fn at(&self, time: f64) -> Placement {
+    pub fn placement_at(&self, time: f64) -> Placement {
         let turn = DMat3::from_quat(DQuat::from_axis_angle(self.axis, self.rate * time));
-        let rotation = turn * self.orientation;
+        let rotation = turn * self.start_orientation;
         Placement {
             rotation,
             translation: self.start_position + time * self.velocity - rotation * self.centre,

@@ -49,7 +49,7 @@ impl ObbTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corners = |face: &[u32; 3]| face.map(|v| mesh.vertices()[v as usize]);
         let mut triangles: Vec<[DVec3; 3]> = mesh.faces().iter().map(corners).collect();
-        let origin = Obb::fit(&triangles).1.centre;
+        let origin = Obb::fit_box(&triangles).1.centre;
         for corner in triangles.iter_mut().flatten() {
             *corner -= origin;
         }
@@ -57,7 +57,7 @@ impl ObbTree {
         let radius = lengths.fold(0.0, greater);
         let nodes = build_binary_tree(
             &mut triangles,
-            |triangles, _| Obb::fit(triangles),
+            |triangles, _| Obb::fit_box(triangles),
             |triangles, (mean, bounds)| partition_triangles(triangles, *mean, bounds.axes),
         );
         let node = |((_, bounds), content)| Node { bounds, content };
@@ -89,7 +89,7 @@ impl ObbTree {
 
 impl Obb {
     /// Returns the mean of the triangles' corners, and the box around them along their principal axes.
-    fn fit(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
+    fn fit_box(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
         let points = triangles.iter().flatten().copied();
         let (mean, axes) = principal_axes(points.clone());
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

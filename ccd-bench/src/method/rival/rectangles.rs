@@ -33,14 +33,14 @@ pub(super) fn shortest_vector(a: DVec2, b: DVec2, placement: &Placement) -> DVec
     {
         return DVec3::ZERO;
     }
-    let mut shortest = ShortestVectors::empty().include_four(vectors_from_face(corners_b, a));
-    shortest = vectors_between_edges::<0, 0>(shortest, a, b, placement);
-    shortest = vectors_between_edges::<0, 1>(shortest, a, b, placement);
-    shortest = vectors_between_edges::<1, 0>(shortest, a, b, placement);
-    shortest = vectors_between_edges::<1, 1>(shortest, a, b, placement);
+    let mut shortest = ShortestVectors::empty().include_four(vectors_from_rectangle(corners_b, a));
+    shortest = include_edge_vectors::<0, 0>(shortest, a, b, placement);
+    shortest = include_edge_vectors::<0, 1>(shortest, a, b, placement);
+    shortest = include_edge_vectors::<1, 0>(shortest, a, b, placement);
+    shortest = include_edge_vectors::<1, 1>(shortest, a, b, placement);
     let (squared, to_b) = shortest.shortest();
     let (squared_off_b, off_b) = ShortestVectors::empty()
-        .include_four(vectors_from_face(corners_a, b))
+        .include_four(vectors_from_rectangle(corners_a, b))
         .shortest();
     if squared_off_b < squared {
         -(placement.rotation * off_b)
@@ -61,7 +61,7 @@ fn corners(lengths: DVec2, placement: &Placement) -> Vec3x4 {
 
 /// Returns the vector to each given point from the nearest point of a rectangle, in the rectangle's frame.
 #[inline(always)]
-fn vectors_from_face(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
+fn vectors_from_rectangle(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
     let zero = f64x4::splat(0.0);
     Vec3x4([
         x - x.fast_clamp(zero, f64x4::splat(face.x)),
@@ -73,7 +73,7 @@ fn vectors_from_face(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
 /// Returns `shortest` with the vectors between four pairs of edges added: those of A along axis `I` with those of B
 /// along axis `J`.
 #[inline(always)]
-fn vectors_between_edges<const I: usize, const J: usize>(
+fn include_edge_vectors<const I: usize, const J: usize>(
     shortest: ShortestVectors,
     a: DVec2,
     b: DVec2,

@@ -3,7 +3,7 @@
 use super::RivalMotion;
 use super::obb_tree::{ObbTree, trees_intersect};
 use super::resolution::resolution;
-use crate::method::solver::{Claim, Reply, Solver};
+use crate::method::solver::{ContactClaim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
@@ -22,7 +22,7 @@ const MAX_SAMPLES: u64 = 1 << 20;
 #[derive(Clone, Debug)]
 pub struct FixedTimeSteps {
     trees: [ObbTree; 2],
-    stack: Vec<(u32, u32)>,
+    intersection_stack: Vec<(u32, u32)>,
 }
 
 impl FixedTimeSteps {
@@ -30,14 +30,16 @@ impl FixedTimeSteps {
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         FixedTimeSteps {
             trees: [a, b].map(ObbTree::new),
-            stack: Vec::new(),
+            intersection_stack: Vec::new(),
         }
     }
 
     fn bodies_cross(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
-        let placement = courses[0].at(time).relative_to(&courses[1].at(time));
+        let placement = courses[0]
+            .placement_at(time)
+            .relative_to(&courses[1].placement_at(time));
         let [a, b] = &self.trees;
-        trees_intersect(a, b, &placement, &mut self.stack)
+        trees_intersect(a, b, &placement, &mut self.intersection_stack)
     }
 }
 
@@ -52,15 +54,15 @@ impl Solver for FixedTimeSteps {
         for k in 0..=steps.min(MAX_SAMPLES - 1) {
             let time = query.duration * (k as f64 / steps as f64);
             if self.bodies_cross(&courses, time) {
-                let claim = Claim::Contact { time };
+                let claim = ContactClaim::Contact { time };
                 return Reply::new(claim, k + 1);
             }
             before = time;
         }
         let (claim, steps) = if steps < MAX_SAMPLES {
-            (Claim::NoContact, steps + 1)
+            (ContactClaim::NoContact, steps + 1)
         } else {
-            (Claim::Unresolved { safe_until: before }, MAX_SAMPLES)
+            (ContactClaim::Unresolved { safe_until: before }, MAX_SAMPLES)
         };
         Reply::new(claim, steps)
     }

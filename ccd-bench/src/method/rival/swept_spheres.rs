@@ -31,21 +31,21 @@ struct Node {
     /// The rectangle's frame, relative to that of its parent.
     placement: Placement,
     /// The side lengths of the rectangle along its x and y axes.
-    lengths: DVec2,
+    side_lengths: DVec2,
     radius: f64,
     content: NodeContent,
 }
 
 /// The trees of two bodies, which are descended together.
 #[derive(Clone, Debug)]
-pub(super) struct Trees {
+pub(super) struct RssTreePair {
     pub(super) a: RssTree,
     pub(super) b: RssTree,
 }
 
 /// A node of A's tree and a node of B's tree.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
+pub(super) struct RssNodePair {
     pub(super) a: u32,
     pub(super) b: u32,
     /// The frame of B's rectangle in the frame of A's rectangle.
@@ -55,21 +55,21 @@ pub(super) struct Pair {
 /// The pairs below a pair of nodes.
 pub(super) enum PairChildren {
     /// The children of one node, each paired with the other node.
-    Pairs([Pair; 2]),
+    Pairs([RssNodePair; 2]),
     /// The triangles of two leaves, which have no children.
-    Triangles(TrianglePair),
+    Triangles(TriangleIndexPair),
 }
 
 /// A triangle of A and a triangle of B, by their indices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct TrianglePair {
+pub(super) struct TriangleIndexPair {
     a: u32,
     b: u32,
 }
 
 /// A lower bound of the distance of two nodes, with the direction from A to B.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gap {
+pub(super) struct GapBound {
     /// The lower bound of the distance; zero if the nodes overlap.
     pub(super) distance: f64,
     /// The unit vector from A towards B in the frame of body A; zero if their rectangles meet.
@@ -86,11 +86,11 @@ impl RssTree {
     /// Returns an upper bound of the distance of a node's points from an axis that is fixed in the body.
     ///
     /// It is attained at the farthest corner of the rectangle, plus the radius \[C2A09 §4\].
-    pub(super) fn axis_distance(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
+    pub(super) fn axis_distance_bound(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
         let (node, frame) = (&self.nodes[node as usize], &self.frames[node as usize]);
         let corner = (frame.translation - centre).cross(axis);
-        let x = node.lengths.x * frame.rotation.x_axis.cross(axis);
-        let y = node.lengths.y * frame.rotation.y_axis.cross(axis);
+        let x = node.side_lengths.x * frame.rotation.x_axis.cross(axis);
+        let y = node.side_lengths.y * frame.rotation.y_axis.cross(axis);
         let farthest = [corner, corner + x, corner + y, corner + x + y]
             .map(DVec3::length_squared)
             .into_iter()
@@ -99,12 +99,12 @@ impl RssTree {
     }
 
     /// Returns the number of nodes in the tree, including leaves.
-    pub(super) fn len(&self) -> usize {
+    pub(super) fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
     /// Returns the corners of all triangles in the mesh.
-    pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
+    pub(super) fn triangle_corners(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.triangles.iter().flatten().copied()
     }
 }
@@ -112,68 +112,72 @@ impl RssTree {
 impl Node {
     /// Returns an upper bound of the node's diameter.
     fn diameter_bound(&self) -> f64 {
-        self.lengths.length() + 2.0 * self.radius
+        self.side_lengths.length() + 2.0 * self.radius
     }
 }
 
-impl Trees {
+impl RssTreePair {
     pub(super) fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
-        Trees {
+        RssTreePair {
             a: RssTree::new(a),
             b: RssTree::new(b),
         }
     }
 
     /// Returns both roots, with body B placed in A's frame, or `None` if a mesh has no triangles.
-    pub(super) fn root_pair(&self, placement: &Placement) -> Option<Pair> {
+    pub(super) fn root_pair(&self, placement: &Placement) -> Option<RssNodePair> {
         let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);
-        Some(Pair {
+        Some(RssNodePair {
             a: 0,
             b: 0,
             placement: compose(placement, b).relative_to(a),
         })
     }
 
-    fn nodes(&self, pair: &Pair) -> (&Node, &Node) {
+    fn nodes(&self, pair: &RssNodePair) -> (&Node, &Node) {
         let (a, b) = (pair.a as usize, pair.b as usize);
         (&self.a.nodes[a], &self.b.nodes[b])
     }
 
     /// Returns a lower bound of the distance of two nodes.
     #[inline]
-    pub(super) fn distance(&self, pair: &Pair) -> f64 {
-        self.gap(pair).distance
+    pub(super) fn distance(&self, pair: &RssNodePair) -> f64 {
+        self.gap_bound(pair).distance
     }
 
     /// Returns a lower bound of the distance of two nodes, and its direction.
     #[inline]
-    pub(super) fn gap(&self, pair: &Pair) -> Gap {
+    pub(super) fn gap_bound(&self, pair: &RssNodePair) -> GapBound {
         let (a, b) = self.nodes(pair);
-        let between = rectangles::shortest_vector(a.lengths, b.lengths, &pair.placement);
+        let between = rectangles::shortest_vector(a.side_lengths, b.side_lengths, &pair.placement);
         let length = between.length();
         // NaN becomes zero.
         let distance = greater(0.0, length - (a.radius + b.radius));
         if !(distance > 0.0) {
-            return Gap {
+            return GapBound {
                 distance: 0.0,
                 direction: DVec3::ZERO,
             };
         }
-        Gap {
+        GapBound {
             distance,
             direction: self.a.frames[pair.a as usize].rotation * (between / length),
         }
     }
 
     /// Returns an upper bound of how much farther apart the triangles in two nodes can be than the nodes are.
-    pub(super) fn distance_slack(&self, pair: &Pair) -> f64 {
+    pub(super) fn distance_excess_bound(&self, pair: &RssNodePair) -> f64 {
         let (a, b) = self.nodes(pair);
         a.diameter_bound() + b.diameter_bound()
     }
 
     /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in this frame.
     #[inline]
-    pub(super) fn nearest(&self, leaves: TrianglePair, placement: &Placement) -> NearestPoints {
+    pub(super) fn nearest_points(
+        &self,
+        leaves: TriangleIndexPair,
+        placement: &Placement,
+    ) -> NearestPoints {
         let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));
         nearest(&self.a.triangles[leaves.a as usize], &moved)
     }
@@ -181,11 +185,11 @@ impl Trees {
     /// Returns the pairs that replace a pair of nodes: the larger node is opened \[PQP99 §5\], and two leaves give
     /// their triangles.
     #[inline]
-    pub(super) fn children(&self, pair: &Pair) -> PairChildren {
+    pub(super) fn children(&self, pair: &RssNodePair) -> PairChildren {
         let (a, b) = self.nodes(pair);
         match (a.content, b.content) {
             (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
-                PairChildren::Triangles(TrianglePair { a, b })
+                PairChildren::Triangles(TriangleIndexPair { a, b })
             }
             (NodeContent::Children(below), NodeContent::Children(_))
                 if a.diameter_bound() > b.diameter_bound() =>
@@ -198,9 +202,9 @@ impl Trees {
     }
 
     #[inline]
-    fn split_a(&self, pair: &Pair, below: [u32; 2]) -> PairChildren {
+    fn split_a(&self, pair: &RssNodePair, below: [u32; 2]) -> PairChildren {
         PairChildren::Pairs(below.map(|a| {
-            Pair {
+            RssNodePair {
                 a,
                 b: pair.b,
                 placement: pair
@@ -211,8 +215,8 @@ impl Trees {
     }
 
     #[inline]
-    fn split_b(&self, pair: &Pair, below: [u32; 2]) -> PairChildren {
-        PairChildren::Pairs(below.map(|b| Pair {
+    fn split_b(&self, pair: &RssNodePair, below: [u32; 2]) -> PairChildren {
+        PairChildren::Pairs(below.map(|b| RssNodePair {
             a: pair.a,
             b,
             placement: compose(&pair.placement, &self.b.nodes[b as usize].placement),

@@ -53,14 +53,20 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
         }
     }
     let (mut squared, mut best) = nearest_edge_points(a, b);
-    if let Some((less, foot, k)) = face_a.least_height(over_a, b).filter(|f| f.0 < squared) {
+    if let Some((less, foot, k)) = face_a
+        .nearest_projecting_point(over_a, b)
+        .filter(|f| f.0 < squared)
+    {
         squared = less;
         best = NearestPoints {
             on_a: foot,
             on_b: b[k],
         };
     }
-    if let Some((_, foot, k)) = face_b.least_height(over_b, a).filter(|f| f.0 < squared) {
+    if let Some((_, foot, k)) = face_b
+        .nearest_projecting_point(over_b, a)
+        .filter(|f| f.0 < squared)
+    {
         best = NearestPoints {
             on_a: a[k],
             on_b: foot,
@@ -163,7 +169,7 @@ impl TrianglePlane {
 
     /// Returns a mask of the points whose perpendicular feet lie in the triangle.
     #[inline(always)]
-    fn projects_inside(&self, points: Vec3x4) -> f64x4 {
+    fn inside_mask(&self, points: Vec3x4) -> f64x4 {
         let [u, v, w] = edges(&self.corners).map(|edge| self.normal.cross(edge));
         let [a, b, c] = self.corners;
         let zero = f64x4::splat(0.0);
@@ -179,16 +185,17 @@ impl TrianglePlane {
     /// Returns the squared height, the foot and the index of the point nearest to the plane, among those that project
     /// into the triangle.
     #[inline(always)]
-    fn least_height(&self, heights: f64x4, points: &Triangle) -> Option<(f64, DVec3, usize)> {
+    fn nearest_projecting_point(
+        &self,
+        heights: f64x4,
+        points: &Triangle,
+    ) -> Option<(f64, DVec3, usize)> {
         if self.is_needle() {
             return None;
         }
         let squared = heights * heights * f64x4::splat(self.inverse_squared_normal);
         let far = f64x4::splat(f64::INFINITY);
-        let (k, squared) = least_lane(
-            self.projects_inside(pack_vectors(points))
-                .select(squared, far),
-        );
+        let (k, squared) = least_lane(self.inside_mask(pack_vectors(points)).select(squared, far));
         let height = heights.to_array()[k];
         let k = k % 3;
         let foot = points[k] - height * self.inverse_squared_normal * self.normal;
@@ -203,7 +210,7 @@ fn piercing_point(face: &TrianglePlane, heights: f64x4, corners: &Triangle) -> O
     let share = heights / (heights - next);
     let points = pack_vectors(corners).plus_scaled_each(share, pack_vectors(&edges(corners)));
     let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
-    let hits = (crosses & face.projects_inside(points)).to_bitmask();
+    let hits = (crosses & face.inside_mask(points)).to_bitmask();
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
 }
 

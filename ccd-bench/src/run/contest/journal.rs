@@ -1,6 +1,6 @@
 //! Stores measurements on disk, so that an interrupted evaluation resumes where it stopped.
 
-use crate::run::measured::{Cell, Trial, write};
+use crate::run::measured::{MeasurementCell, Trial, write};
 use anyhow::{Context, Result};
 use ccd_file::Claim;
 use rigid_ccd::command::print_error;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// The measurements in the files `chart.csv` and `trials.csv` of a folder, to which one cell is added at a time.
 #[derive(Debug)]
 pub struct Journal {
-    cells: Vec<Cell>,
+    cells: Vec<MeasurementCell>,
     trials: Vec<Trial>,
     folder: PathBuf,
     /// The claim that keeps other processes from writing to the folder; `None` if the journal is only read.
@@ -64,16 +64,16 @@ impl Journal {
 
     /// Reads the journal in a folder, whatever settings its measurements were made with.
     pub fn read(folder: &Path) -> Self {
-        let mut cells: Vec<Cell> = read_valid_rows(&folder.join(CHART_FILE));
+        let mut cells: Vec<MeasurementCell> = read_valid_rows(&folder.join(CHART_FILE));
         let mut trials: Vec<Trial> = read_valid_rows(&folder.join(TRIALS_FILE));
         // Trials are written before their cell, so a cell implies all of its trials.
         let mut counts: HashMap<Key, usize> = HashMap::new();
         for trial in &trials {
-            *counts.entry(trial_key(trial)).or_default() += 1;
+            *counts.entry(cell_key_of_trial(trial)).or_default() += 1;
         }
         cells.retain(|cell| counts.get(&cell_key(cell)) == Some(&cell.rows));
         let done: HashSet<Key> = cells.iter().map(cell_key).collect();
-        trials.retain(|trial| done.contains(&trial_key(trial)));
+        trials.retain(|trial| done.contains(&cell_key_of_trial(trial)));
         Journal {
             cells,
             trials,
@@ -84,7 +84,7 @@ impl Journal {
 
     /// Returns true if the journal has the cell of this scene, method and tolerance.
     pub fn has_cell(&self, scene: &str, method: &str, tolerance: f64) -> bool {
-        let is = |cell: &Cell| {
+        let is = |cell: &MeasurementCell| {
             cell.scene == scene && cell.method == method && cell.tolerance == tolerance
         };
         self.cells.iter().any(is)
@@ -94,7 +94,7 @@ impl Journal {
     ///
     /// # Errors
     /// If they cannot be written.
-    pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<()> {
+    pub fn add(&mut self, cell: MeasurementCell, trials: Vec<Trial>) -> Result<()> {
         append_rows(&self.folder.join(TRIALS_FILE), &trials)?;
         append_rows(&self.folder.join(CHART_FILE), std::slice::from_ref(&cell))?;
         self.cells.push(cell);
@@ -108,7 +108,7 @@ impl Journal {
     }
 
     /// Returns all cells in the journal, in the order of measurement.
-    pub fn cells(&self) -> &[Cell] {
+    pub fn cells(&self) -> &[MeasurementCell] {
         &self.cells
     }
 
@@ -125,12 +125,12 @@ pub fn program_stamp() -> String {
     format!("program {program:08x}\n")
 }
 
-fn cell_key(cell: &Cell) -> Key {
+fn cell_key(cell: &MeasurementCell) -> Key {
     let tolerance = cell.tolerance.to_bits();
     (cell.scene.clone(), cell.method.clone(), tolerance)
 }
 
-fn trial_key(trial: &Trial) -> Key {
+fn cell_key_of_trial(trial: &Trial) -> Key {
     let tolerance = trial.tolerance.to_bits();
     (trial.scene.clone(), trial.method.clone(), tolerance)
 }

@@ -1,7 +1,7 @@
 //! A method that is ready for queries about a scene.
 
-use super::MAX_PAIRS_FOR_NAIVE;
-use crate::method::guarded::{GuardSettings, GuardedMethod, Programs, QueryOutcome};
+use super::MAX_PAIRS_FOR_NAIVE_SCHEDULE;
+use crate::method::guarded::{GuardSettings, GuardedMethod, MethodPrograms, QueryOutcome};
 use crate::method::solver::{Solver, answer_timed};
 use crate::method::{Method, PAPER_TOLERANCE, ProjectSolver};
 use crate::scene::Scene;
@@ -28,10 +28,14 @@ impl<'s> Session<'s> {
     ///
     /// # Errors
     /// If a peer cannot be prepared.
-    pub fn open(method: Method, scene: &'s Scene, programs: &Programs) -> io::Result<Option<Self>> {
+    pub fn open(
+        method: Method,
+        scene: &'s Scene,
+        programs: &MethodPrograms,
+    ) -> io::Result<Option<Self>> {
         let runner = match method {
             Method::ThisProject(kind, pieces) => {
-                let too_many = scene.pairs() > MAX_PAIRS_FOR_NAIVE;
+                let too_many = scene.pairs() > MAX_PAIRS_FOR_NAIVE_SCHEDULE;
                 let suits = kind.schedule != ScheduleKind::Naive || !too_many;
                 let Some(bodies) = scene.bodies_with_pieces(pieces).filter(|_| suits) else {
                     return Ok(None);

@@ -1,7 +1,7 @@
 use super::*;
 use crate::method::Method;
-use crate::method::guarded::Programs;
-use crate::method::solver::Claim;
+use crate::method::guarded::MethodPrograms;
+use crate::method::solver::ContactClaim;
 use crate::scene::model::cuboid;
 use crate::scene::{ModelCache, PieceKind, listings};
 use crate::truth::Truth;
@@ -28,30 +28,30 @@ fn flight_query() -> Motions {
     }
 }
 
-const HIT: Truth = Truth::Hit {
+const EXACT_HIT: Truth = Truth::Hit {
     lo: 0.375,
     hi: 0.375,
 };
 
 #[rstest]
-#[case::exact(HIT, Claim::Contact { time: 0.375 }, Verdict::Right, Some(0.0))]
-#[case::within(HIT, Claim::Contact { time: 0.37 }, Verdict::Right, Some(0.005))]
-#[case::early(HIT, Claim::Contact { time: 0.25 }, Verdict::Early, Some(0.125))]
-#[case::late(HIT, Claim::Contact { time: 0.376 }, Verdict::Late, Some(0.001))]
-#[case::no_time(HIT, Claim::Contact { time: f64::NAN }, Verdict::Late, None)]
-#[case::missed(HIT, Claim::NoContact, Verdict::Missed, None)]
-#[case::given_up(HIT, Claim::Unresolved { safe_until: 0.3 }, Verdict::Unresolved, None)]
-#[case::given_up_late(HIT, Claim::Unresolved { safe_until: 0.4 }, Verdict::Late, None)]
-#[case::free(Truth::Free, Claim::NoContact, Verdict::Right, None)]
-#[case::near(Truth::Free, Claim::Contact { time: 0.37 }, Verdict::Right, None)]
-#[case::false_contact(Truth::Free, Claim::Contact { time: 0.2 }, Verdict::FalseContact, None)]
-#[case::start(Truth::ContactAtStart, Claim::Contact { time: 0.0 }, Verdict::Undecided, None)]
-#[case::wide(Truth::Hit { lo: 0.3, hi: 0.4 }, Claim::Contact { time: 0.35 }, Verdict::Undecided, None)]
-#[case::just_late(HIT, Claim::Contact { time: 0.375 + 1e-11 }, Verdict::Late, Some(1e-11))]
-#[case::unknown(Truth::Graze { lo: 0.3 }, Claim::NoContact, Verdict::Undecided, None)]
+#[case::exact(EXACT_HIT, ContactClaim::Contact { time: 0.375 }, Verdict::Right, Some(0.0))]
+#[case::within(EXACT_HIT, ContactClaim::Contact { time: 0.37 }, Verdict::Right, Some(0.005))]
+#[case::early(EXACT_HIT, ContactClaim::Contact { time: 0.25 }, Verdict::Early, Some(0.125))]
+#[case::late(EXACT_HIT, ContactClaim::Contact { time: 0.376 }, Verdict::Late, Some(0.001))]
+#[case::no_time(EXACT_HIT, ContactClaim::Contact { time: f64::NAN }, Verdict::Late, None)]
+#[case::missed(EXACT_HIT, ContactClaim::NoContact, Verdict::Missed, None)]
+#[case::given_up(EXACT_HIT, ContactClaim::Unresolved { safe_until: 0.3 }, Verdict::Unresolved, None)]
+#[case::given_up_late(EXACT_HIT, ContactClaim::Unresolved { safe_until: 0.4 }, Verdict::Late, None)]
+#[case::free(Truth::Free, ContactClaim::NoContact, Verdict::Right, None)]
+#[case::near(Truth::Free, ContactClaim::Contact { time: 0.37 }, Verdict::Right, None)]
+#[case::false_contact(Truth::Free, ContactClaim::Contact { time: 0.2 }, Verdict::FalseContact, None)]
+#[case::start(Truth::ContactAtStart, ContactClaim::Contact { time: 0.0 }, Verdict::Undecided, None)]
+#[case::wide(Truth::Hit { lo: 0.3, hi: 0.4 }, ContactClaim::Contact { time: 0.35 }, Verdict::Undecided, None)]
+#[case::just_late(EXACT_HIT, ContactClaim::Contact { time: 0.375 + 1e-11 }, Verdict::Late, Some(1e-11))]
+#[case::unknown(Truth::Graze { lo: 0.3 }, ContactClaim::NoContact, Verdict::Undecided, None)]
 fn claims_get_expected_verdicts(
     #[case] truth: Truth,
-    #[case] claim: Claim,
+    #[case] claim: ContactClaim,
     #[case] verdict: Verdict,
     #[case] error: Option<f64>,
 ) {
@@ -76,7 +76,7 @@ fn small_scene() -> Scene {
 }
 
 const NO_LIMITS: MeasurementLimits = MeasurementLimits {
-    cell: Duration::MAX,
+    cell_time: Duration::MAX,
     patience: Duration::MAX,
     max_rows: usize::MAX,
     min_rows: 1,
@@ -102,7 +102,7 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     let scene = small_scene();
     let contest = PreparedScene::new(&scene).unwrap();
     let method = Method::ThisProject(SolverKind::default(), PieceKind::FewestPieces);
-    let session = Session::open(method, &scene, &Programs::default());
+    let session = Session::open(method, &scene, &MethodPrograms::default());
     let mut session = session.unwrap().unwrap();
     let measured = contest.run(&mut session, 1e-6, &NO_LIMITS);
     let measured = measured.unwrap();

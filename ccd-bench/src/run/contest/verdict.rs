@@ -1,7 +1,7 @@
 //! Judges a solver's claim against the exact first contact.
 
 use crate::method::guarded::QueryOutcome;
-use crate::method::solver::{Claim, Reply};
+use crate::method::solver::{ContactClaim, Reply};
 use crate::names::name_of;
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
@@ -62,7 +62,7 @@ const DISTANCE_ROUNDING: f64 = 1e-6;
 
 impl Judgement {
     /// Returns a judgement without a time error, for a claim whose time is not compared with the exact one.
-    pub fn without_error(verdict: Verdict) -> Self {
+    pub fn without_time_error(verdict: Verdict) -> Self {
         Judgement {
             verdict,
             time_error: None,
@@ -74,8 +74,8 @@ impl Judgement {
 pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judgement) -> Judgement {
     match outcome {
         QueryOutcome::Answered(timed) => judge(&timed.reply),
-        QueryOutcome::CutOff => Judgement::without_error(Verdict::CutOff),
-        QueryOutcome::Crashed => Judgement::without_error(Verdict::Crashed),
+        QueryOutcome::CutOff => Judgement::without_time_error(Verdict::CutOff),
+        QueryOutcome::Crashed => Judgement::without_time_error(Verdict::Crashed),
     }
 }
 
@@ -84,12 +84,12 @@ pub fn judge(
     referee: &Referee<'_>,
     query: &Motions,
     truth: Truth,
-    claim: Claim,
+    claim: ContactClaim,
     tolerance: f64,
 ) -> Judgement {
     let near = |time: f64| is_within_tolerance(referee, query, time, tolerance);
-    let plain = Judgement::without_error;
-    if claim == Claim::NoClaim {
+    let plain = Judgement::without_time_error;
+    if claim == ContactClaim::OtherMeasurement {
         return plain(Verdict::NotJudged);
     }
     match truth {
@@ -98,10 +98,12 @@ pub fn judge(
         }
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
         Truth::Free => plain(match claim {
-            Claim::Contact { time } if near(time) => Verdict::Right,
-            Claim::Contact { .. } => Verdict::FalseContact,
-            Claim::NoContact => Verdict::Right,
-            Claim::Unresolved { .. } | Claim::Refused | Claim::NoClaim => Verdict::Unresolved,
+            ContactClaim::Contact { time } if near(time) => Verdict::Right,
+            ContactClaim::Contact { .. } => Verdict::FalseContact,
+            ContactClaim::NoContact => Verdict::Right,
+            ContactClaim::Unresolved { .. }
+            | ContactClaim::Refused
+            | ContactClaim::OtherMeasurement => Verdict::Unresolved,
         }),
         Truth::ContactAtStart | Truth::Graze { .. } | Truth::Undecided { .. } => {
             plain(Verdict::Undecided)
@@ -124,19 +126,21 @@ pub fn is_within_tolerance(
 pub fn judge_contact(
     duration: f64,
     [lo, hi]: [f64; 2],
-    claim: Claim,
+    claim: ContactClaim,
     near: impl Fn(f64) -> bool,
 ) -> Judgement {
-    let plain = Judgement::without_error;
+    let plain = Judgement::without_time_error;
     let time = match claim {
-        Claim::Contact { time } => time,
-        Claim::NoContact => return plain(Verdict::Missed),
+        ContactClaim::Contact { time } => time,
+        ContactClaim::NoContact => return plain(Verdict::Missed),
         // This claim is a proof too, and may be wrong.
-        Claim::Unresolved { safe_until } if safe_until > hi + MAX_LATENESS * duration => {
+        ContactClaim::Unresolved { safe_until } if safe_until > hi + MAX_LATENESS * duration => {
             return plain(Verdict::Late);
         }
-        Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
-        Claim::NoClaim => return plain(Verdict::NotJudged),
+        ContactClaim::Unresolved { .. } | ContactClaim::Refused => {
+            return plain(Verdict::Unresolved);
+        }
+        ContactClaim::OtherMeasurement => return plain(Verdict::NotJudged),
     };
     let off = greater(0.0, greater(lo - time, time - hi)) / duration;
     // The comparison treats NaN as late.

@@ -7,7 +7,10 @@ fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
     let names: HashSet<&str> = listings.iter().map(|l| l.name.as_str()).collect();
     assert_eq!(names.len(), listings.len());
     for listing in &listings {
-        assert!(listing.model(&listing.a).is_ok() && listing.model(&listing.b).is_ok());
+        assert!(
+            listing.model_from_name(&listing.a).is_ok()
+                && listing.model_from_name(&listing.b).is_ok()
+        );
         let queries = listing.queries().unwrap();
         let ids: HashSet<&str> = queries.iter().map(|q| q.id.as_str()).collect();
         assert_eq!(ids.len(), queries.len(), "{}", listing.name);
@@ -28,7 +31,7 @@ fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
 fn missing_data_is_named_in_the_error() {
     let mut listing = listings().unwrap().remove(0);
     listing.rows = Some(0..10_000);
-    let make = |listing: &SceneEntry| {
+    let make = |listing: &SceneListing| {
         format!(
             "{:#}",
             listing.make_scene(&mut ModelCache::default()).unwrap_err()
@@ -40,6 +43,6 @@ fn missing_data_is_named_in_the_error() {
     listing.motions = "nowhere.csv".to_owned();
     let error = make(&listing);
     assert!(error.contains("nowhere.csv"), "{error}");
-    let error = listing.model("unicorn").unwrap_err().to_string();
+    let error = listing.model_from_name("unicorn").unwrap_err().to_string();
     assert!(error.contains("unicorn"), "{error}");
 }

@@ -5,7 +5,7 @@ use ccd_decomp::{MeshError, TriangleMesh};
 
 /// The triangles of a box, two per side, in the order −x, +x, −y, +y, −z, +z. Corner `k` has a positive x, y, z if bit
 /// 2, 1, 0 of `k` is set.
-const FACES: [[u32; 3]; 12] = [
+const BOX_TRIANGLES: [[u32; 3]; 12] = [
     [0, 1, 3],
     [0, 3, 2],
     [4, 6, 7],
@@ -27,5 +27,5 @@ const FACES: [[u32; 3]; 12] = [
 pub fn cuboid(x: f64, y: f64, z: f64) -> Result<TriangleMesh, MeshError> {
     let sign = |corner: u32, bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let corner = |k| DVec3::new(x * sign(k, 2), y * sign(k, 1), z * sign(k, 0));
-    TriangleMesh::new((0..8).map(corner).collect(), &FACES)
+    TriangleMesh::new((0..8).map(corner).collect(), &BOX_TRIANGLES)
 }

@@ -5,7 +5,7 @@ use ccd_decomp::{MeshError, TriangleMesh};
 
 /// Returns the mesh of `2 · columns · rows` triangles over a surface with period 1 in both `u` and
 /// `v`. The product ∂u × ∂v has to point inwards.
-pub(super) fn closed_grid(
+pub(super) fn closed_grid_mesh(
     columns: usize,
     rows: usize,
     surface: impl Fn(f64, f64) -> DVec3,

@@ -1,6 +1,6 @@
 //! Makes the mesh of a torus. A body can pass through its hole only with methods that do not fill it by a hull.
 
-use super::grid::closed_grid;
+use super::grid::closed_grid_mesh;
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
@@ -16,7 +16,7 @@ pub(crate) fn torus_mesh(
     radius: f64,
     tube_radius: f64,
 ) -> Result<TriangleMesh, MeshError> {
-    closed_grid(segments, sides, |u, v| {
+    closed_grid_mesh(segments, sides, |u, v| {
         let (sin_u, cos_u) = (TAU * u).sin_cos();
         let (sin_v, cos_v) = (TAU * v).sin_cos();
         let outward = DVec3::new(cos_u, sin_u, 0.0);

@@ -10,20 +10,20 @@ use std::ops::Range;
 
 /// Random straight flights from one side of a resting body to the other.
 #[derive(Clone, Debug)]
-pub(crate) struct Shots {
+pub(crate) struct ShotGenerator {
     /// The number of flights to make.
     pub(crate) count: usize,
     /// The number of flights without rotation, which come first.
     pub(crate) translation_count: usize,
     /// The range of distances from the resting body's origin at which flights start.
-    pub(crate) distance: Range<f64>,
+    pub(crate) start_distances: Range<f64>,
     /// The largest distance of a flight's path from the resting body's origin.
     pub(crate) max_offset: f64,
     /// The seed of the random numbers.
     pub(crate) seed: u64,
 }
 
-impl Shots {
+impl ShotGenerator {
     /// Returns one query of duration 1 for each flight; B rests at the origin.
     ///
     /// # Errors
@@ -32,7 +32,8 @@ impl Shots {
         let mut rng = Pcg64::seed_from_u64(self.seed);
         (0..self.count)
             .map(|row| {
-                let from = rng.random_range(self.distance.clone()) * random_unit_vector(&mut rng);
+                let from =
+                    rng.random_range(self.start_distances.clone()) * random_unit_vector(&mut rng);
                 let target = self.max_offset * random_unit_ball_point(&mut rng);
                 let start = Pose::new(from, orientation(&mut rng))?;
                 let velocity = 2.0 * (target - from);
@@ -41,7 +42,7 @@ impl Shots {
                 } else {
                     rng.random_range(0.0..FRAC_PI_2) * random_unit_vector(&mut rng)
                 };
-                query_against_resting(row, Motion::new(start, velocity, spin)?, DVec3::ZERO)
+                query_against_resting_body(row, Motion::new(start, velocity, spin)?, DVec3::ZERO)
             })
             .collect()
     }
@@ -66,12 +67,12 @@ pub(crate) fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, 
                 _ => 0.0,
             };
             let board = DVec3::new(aside, 0.0, height);
-            query_against_resting(row, motion, board)
+            query_against_resting_body(row, motion, board)
         })
         .collect()
 }
 
-fn query_against_resting(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
+fn query_against_resting_body(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
     Ok(Motions {
         id: row.to_string(),
         a,

@@ -15,7 +15,7 @@ use plotters::style::{FontTransform, RGBColor, WHITE};
 #[derive(Clone, Debug)]
 pub struct HeatMap {
     /// The kind of map: what the colours of its cells mean.
-    pub kind: &'static HeatMapKind,
+    pub texts: &'static HeatMapTexts,
     /// The names of the methods, one for each column.
     pub methods: Vec<String>,
     /// The rows of the map, one for each family of scenes.
@@ -35,39 +35,39 @@ pub struct HeatRow {
 
 /// The texts of a heat map that say what its colours mean: title, remark and legend.
 #[derive(Debug)]
-pub struct HeatMapKind {
+pub struct HeatMapTexts {
     title: &'static str,
     /// The two lines of text below the title.
     remark_lines: [&'static str; 2],
-    legend: &'static [(&'static str, RGBColor)],
+    legend_entries: &'static [(&'static str, RGBColor)],
 }
 
-/// The kind of map that shows how far each method is right in each family; it has cells of [`HeatCell::solved_range`].
-pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
+/// The kind of map that shows how far each method is right in each family; it has cells of [`HeatCell::solved_range_cell`].
+pub const SOLVED_RANGE_TEXTS: &HeatMapTexts = &HeatMapTexts {
     title: "How far each method follows each family: bluer is better",
     remark_lines: [
         "A cell has the colour of the worst answer, and names the first value at which it came. The bar shows the share of",
         "the steps, from the easy ones, before the first that is not right.",
     ],
-    legend: &[
+    legend_entries: &[
         ("right", CORRECT_COLOUR),
-        ("unresolved or refused", MISSING_COLOUR),
+        ("unresolved or refused", NO_VERDICT_COLOUR),
         ("early", EARLY_COLOUR),
         ("false contact", FALSE_CONTACT_COLOUR),
-        ("late or missed", MISSED_COLOUR),
-        ("died or cut off", STOPPED_COLOUR),
+        ("late or missed", LATE_OR_MISSED_COLOUR),
+        ("died or cut off", STOPPED_PROCESS_COLOUR),
     ],
 };
 
 /// The kind of map that shows how the cost of each method grows in each family; it has cells of
-/// [`HeatCell::cost_growth`].
-pub const COST_GROWTH: &HeatMapKind = &HeatMapKind {
+/// [`HeatCell::cost_growth_cell`].
+pub const COST_GROWTH_TEXTS: &HeatMapTexts = &HeatMapTexts {
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
     remark_lines: [
         "The largest mean number of steps of a query and one for the query itself, as a multiple of that of the family's",
         "easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
     ],
-    legend: &[
+    legend_entries: &[
         ("up to 3 times", GROWTH_COLOURS[0]),
         ("30", GROWTH_COLOURS[1]),
         ("1,000", GROWTH_COLOURS[2]),
@@ -99,14 +99,14 @@ const SMALLEST_FONT_SIZE: f64 = 7.5;
 /// The colour of cells in which all answers are right, and of bars.
 const CORRECT_COLOUR: RGBColor = COLOURS[0];
 /// The colour of cells whose worst answer is undecided, refused or unresolved.
-const MISSING_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
+const NO_VERDICT_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
 /// The colour of cells whose worst answer is an early contact.
 const EARLY_COLOUR: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
 /// The colour of cells whose worst answer is a false contact.
 const FALSE_CONTACT_COLOUR: RGBColor = COLOURS[4];
 /// The colour of cells whose worst answer is a late or a missed contact.
-const MISSED_COLOUR: RGBColor = COLOURS[1];
-const STOPPED_COLOUR: RGBColor = COLOURS[6];
+const LATE_OR_MISSED_COLOUR: RGBColor = COLOURS[1];
+const STOPPED_PROCESS_COLOUR: RGBColor = COLOURS[6];
 
 /// A cell of a heat map: a colour, two lines of text, and a bar.
 #[derive(Clone, Debug)]
@@ -122,7 +122,7 @@ impl HeatCell {
     /// Returns the cell that shows how far a method is right in a family. `worst` is its worst verdict, `share` is the
     /// share of the values before the first wrong answer, and `limit` is the first value with the worst verdict, empty
     /// if all are right.
-    pub fn solved_range(worst: Verdict, share: f64, limit: String) -> Self {
+    pub fn solved_range_cell(worst: Verdict, share: f64, limit: String) -> Self {
         let (fill, word, ink) = verdict_style(worst);
         HeatCell {
             fill_colour: fill,
@@ -134,7 +134,7 @@ impl HeatCell {
 
     /// Returns the cell that shows by which factor a method's cost grows, from the easiest value of a family to the
     /// costliest.
-    pub fn cost_growth(factor: f64) -> Self {
+    pub fn cost_growth_cell(factor: f64) -> Self {
         let steps = [3.0, 30.0, 1000.0].iter();
         let darkness = steps.filter(|&&most| factor > most).count();
         let number = match factor {
@@ -158,8 +158,8 @@ impl HeatMap {
     /// If the drawing library fails.
     pub fn draw(&self) -> Result<String> {
         let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + CHART_MARGIN;
-        draw_svg(self.kind.title, (CHART_WIDTH, height), |sheet| {
-            draw_header(sheet, self.kind)?;
+        draw_svg(self.texts.title, (CHART_WIDTH, height), |sheet| {
+            draw_header(sheet, self.texts)?;
             let format = TextFormat {
                 rotation: FontTransform::Rotate270,
                 ..small_text_format()
@@ -219,7 +219,7 @@ fn small_text_format() -> TextFormat {
 }
 
 /// Draws the title, the remark and the legend of a kind of map.
-fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
+fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapTexts) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
         ..small_text_format()
@@ -234,7 +234,7 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
         )?;
     }
     let (mut left, top) = (CHART_MARGIN, 72.0);
-    for &(name, colour) in kind.legend {
+    for &(name, colour) in kind.legend_entries {
         fill_rect(sheet, (left, top), (12.0, 12.0), colour)?;
         draw_text(sheet, name, (left + 17.0, top + 6.0), &small_text_format())?;
         left += 34.0 + text_width(name, SMALL_FONT_SIZE);
@@ -264,15 +264,15 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCe
 fn verdict_style(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
     match verdict {
         Verdict::Right => (CORRECT_COLOUR, "", WHITE),
-        Verdict::Undecided | Verdict::NotJudged => (MISSING_COLOUR, "?", TEXT_COLOUR),
-        Verdict::Refused => (MISSING_COLOUR, "refused", TEXT_COLOUR),
-        Verdict::Unresolved => (MISSING_COLOUR, "unres.", TEXT_COLOUR),
+        Verdict::Undecided | Verdict::NotJudged => (NO_VERDICT_COLOUR, "?", TEXT_COLOUR),
+        Verdict::Refused => (NO_VERDICT_COLOUR, "refused", TEXT_COLOUR),
+        Verdict::Unresolved => (NO_VERDICT_COLOUR, "unres.", TEXT_COLOUR),
         Verdict::Early => (EARLY_COLOUR, "early", TEXT_COLOUR),
         Verdict::FalseContact => (FALSE_CONTACT_COLOUR, "false", TEXT_COLOUR),
-        Verdict::Late => (MISSED_COLOUR, "late", WHITE),
-        Verdict::Missed => (MISSED_COLOUR, "missed", WHITE),
-        Verdict::Crashed => (STOPPED_COLOUR, "died", WHITE),
-        Verdict::CutOff => (STOPPED_COLOUR, "cut off", WHITE),
+        Verdict::Late => (LATE_OR_MISSED_COLOUR, "late", WHITE),
+        Verdict::Missed => (LATE_OR_MISSED_COLOUR, "missed", WHITE),
+        Verdict::Crashed => (STOPPED_PROCESS_COLOUR, "died", WHITE),
+        Verdict::CutOff => (STOPPED_PROCESS_COLOUR, "cut off", WHITE),
     }
 }
 

@@ -4,16 +4,18 @@ use super::plane::{
     HEAD_HEIGHT, PlotAxes, PlotPoint, decade_range, draw_footer, draw_header, draw_marker,
     draw_series, footer_height,
 };
-use super::sheet::{CHART_WIDTH, FONT_SIZE, Sheet, TEXT_COLOUR, draw_svg, font, to_drawing_units};
+use super::sheet::{
+    CHART_WIDTH, DEFAULT_FONT_SIZE, Sheet, TEXT_COLOUR, draw_svg, font, to_drawing_units,
+};
 use super::style::WARNING_COLOUR;
-use super::{ChartData, MethodFamily, Shown};
-use crate::run::measured::Cell;
+use super::{ChartData, MethodFamily, StyledMethod};
+use crate::run::measured::MeasurementCell;
 use anyhow::Result;
 use ccd_core::order::greater;
 use plotters::prelude::*;
 
 /// The least error on the axis; smaller ones are due to rounding, and are drawn at the edge.
-const LEAST_ERROR: f64 = 1e-12;
+const MIN_DRAWN_ERROR: f64 = 1e-12;
 /// The number of planes side by side, and their height in pixels.
 const PLANES_PER_ROW_AND_HEIGHT: (usize, f64) = (3, 260.0);
 /// The width of a method's lane in the strip of unsafe methods, and the least width of the strip, in pixels.
@@ -23,9 +25,9 @@ const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
     let scenes = charts.measured_scenes();
     let shown = charts.methods_with_styles(&MethodFamily::COMPARED_FAMILIES);
-    let cells = |is_shown: fn(&Shown<'_>) -> bool| {
+    let cells = |is_shown: fn(&StyledMethod<'_>) -> bool| {
         let methods = shown.iter().filter(move |method| is_shown(method));
-        let of = |(method, _): &Shown<'_>| {
+        let of = |(method, _): &StyledMethod<'_>| {
             let of_scene = |scene: &&str| charts.cells_of(scene, method.name);
             scenes.iter().flat_map(of_scene).collect::<Vec<_>>()
         };
@@ -35,13 +37,13 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
     let errors = cells(|(_, style)| !style.is_unsafe);
     let errors = errors.iter().filter_map(|cell| cell.mean_error);
     // A plane without points is still drawn: the strip shows the methods.
-    let errors = decade_range(errors.filter(|error| *error > LEAST_ERROR));
+    let errors = decade_range(errors.filter(|error| *error > MIN_DRAWN_ERROR));
     let Some(times) = decade_range(all.iter().map(|cell| cell.median_us)) else {
         return Ok(None);
     };
     let plane = PlotAxes {
         x: (
-            errors.unwrap_or(LEAST_ERROR..1.0),
+            errors.unwrap_or(MIN_DRAWN_ERROR..1.0),
             "mean error, share of duration",
         ),
         y: (times, "time of a query, median, µs"),
@@ -52,7 +54,7 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
         "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on the rows that both \
          were asked.",
     ];
-    if all.iter().any(|cell| is_lower_bound(cell)) {
+    if all.iter().any(|cell| is_median_lower_bound(cell)) {
         remarks.push(
             "Arrow up: half of the queries or more were given up or cut off; the time is at least that.",
         );
@@ -84,7 +86,7 @@ fn draw_scene(
     panel: &Sheet<'_>,
     scene: &str,
     plane: &PlotAxes,
-    shown: &[Shown<'_>],
+    shown: &[StyledMethod<'_>],
 ) -> Result<()> {
     let (hollow, solid): (Vec<_>, Vec<_>) = shown.iter().partition(|(_, style)| style.is_unsafe);
     let strip = match hollow.len() {
@@ -96,7 +98,7 @@ fn draw_scene(
     };
     let width = panel.dim_in_pixel().0 as i32;
     let (panel, strip) = panel.split_horizontally(width - to_drawing_units(strip));
-    let bold = font(FONT_SIZE, FontStyle::Bold);
+    let bold = font(DEFAULT_FONT_SIZE, FontStyle::Bold);
     let panel = panel.titled(scene, bold.color(&TEXT_COLOUR))?;
     let mut drawn = plane.draw(&panel)?;
     for (method, style) in &solid {
@@ -104,7 +106,7 @@ fn draw_scene(
         let points = cells.iter().map(|cell| PlotPoint {
             x: cell.mean_error.unwrap_or(f64::NAN),
             y: cell.median_us,
-            is_lower_bound: is_lower_bound(cell),
+            is_lower_bound: is_median_lower_bound(cell),
         });
         draw_series(&mut drawn, plane, &points.collect::<Vec<_>>(), style)?;
     }
@@ -120,7 +122,7 @@ fn draw_scene(
         for cell in charts.cells_of(scene, method.name) {
             if !cell.median_us.is_nan() {
                 let at = (lane(number), cell.median_us);
-                draw_marker(&mut beside, at, is_lower_bound(cell), style)?;
+                draw_marker(&mut beside, at, is_median_lower_bound(cell), style)?;
             }
         }
     }
@@ -129,6 +131,6 @@ fn draw_scene(
 
 /// Returns true if half of a cell's queries or more are unresolved, so that its median is only a lower bound of the
 /// time.
-fn is_lower_bound(cell: &Cell) -> bool {
+fn is_median_lower_bound(cell: &MeasurementCell) -> bool {
     cell.rows > 0 && 2 * cell.unresolved >= cell.rows
 }

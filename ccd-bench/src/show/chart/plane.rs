@@ -1,8 +1,9 @@
 //! Draws a plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
 
-use super::MethodFacts;
+use super::ChartedMethod;
 use super::sheet::{
-    CHART_MARGIN, FONT_SIZE, Sheet, TEXT_COLOUR, TextFormat, draw_text, font, to_drawing_units,
+    CHART_MARGIN, DEFAULT_FONT_SIZE, Sheet, TEXT_COLOUR, TextFormat, draw_text, font,
+    to_drawing_units,
 };
 use super::style::{MARKER_RADIUS, MethodStyle};
 use anyhow::Result;
@@ -29,7 +30,8 @@ pub(super) struct PlotAxes {
 }
 
 /// The drawing library's handle for a plane on a sheet, which converts values on the axes to positions.
-type Drawn<'a, 's> = ChartContext<'a, SVGBackend<'s>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
+type PlaneContext<'a, 's> =
+    ChartContext<'a, SVGBackend<'s>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 
 /// A point of a line on a plane, in the units of the axes. The quantity of `y` is at least this if the measurement was
 /// cut off.
@@ -41,7 +43,7 @@ pub(super) struct PlotPoint {
 }
 
 /// A method on a chart, with its style.
-pub(super) type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
+pub(super) type StyledMethod<'a> = (&'a ChartedMethod<'a>, MethodStyle);
 
 /// Returns the range of whole decades that has all positive values, at least one decade; `None` without positive
 /// values.
@@ -55,7 +57,7 @@ pub(super) fn decade_range(values: impl Iterator<Item = f64>) -> Option<Range<f6
 
 impl PlotAxes {
     /// Draws the axes of the plane on a sheet.
-    pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<Drawn<'a, 's>> {
+    pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<PlaneContext<'a, 's>> {
         let mut drawn = self.empty_plane_beside(sheet, self.x.0.clone())?;
         drawn
             .configure_mesh()
@@ -69,7 +71,7 @@ impl PlotAxes {
             .y_desc(self.y.1)
             .x_label_formatter(&|value| format!("{value:.0e}"))
             .y_label_formatter(&|value| format!("{value:.0e}"))
-            .label_style(font(FONT_SIZE, FontStyle::Normal))
+            .label_style(font(DEFAULT_FONT_SIZE, FontStyle::Normal))
             .draw()?;
         Ok(drawn)
     }
@@ -80,7 +82,7 @@ impl PlotAxes {
         &self,
         sheet: &'a Sheet<'s>,
         x: Range<f64>,
-    ) -> Result<Drawn<'a, 's>> {
+    ) -> Result<PlaneContext<'a, 's>> {
         let narrow = x != self.x.0;
         Ok(ChartBuilder::on(sheet)
             .margin_top(to_drawing_units(CHART_MARGIN))
@@ -94,7 +96,7 @@ impl PlotAxes {
 
 /// Draws a line through points, with a marker on each. Values beyond the axes are at the edge.
 pub(super) fn draw_series(
-    drawn: &mut Drawn<'_, '_>,
+    drawn: &mut PlaneContext<'_, '_>,
     plane: &PlotAxes,
     points: &[PlotPoint],
     style: &MethodStyle,
@@ -103,7 +105,7 @@ pub(super) fn draw_series(
     let known = points.iter().filter(|point| !(point.x * point.y).is_nan());
     let at = |point: &PlotPoint| (within(point.x, &plane.x.0), within(point.y, &plane.y.0));
     let spots: Vec<(f64, f64)> = known.clone().map(at).collect();
-    match style.dash {
+    match style.dash_and_gap {
         None => drawn.draw_series(LineSeries::new(spots, style.line_style(14)))?,
         Some((dash, gap)) => drawn.draw_series(DashedLineSeries::new(
             spots,
@@ -120,12 +122,12 @@ pub(super) fn draw_series(
 
 /// Draws a method's marker, with an arrow upwards if the value is a lower bound.
 pub(super) fn draw_marker(
-    drawn: &mut Drawn<'_, '_>,
+    drawn: &mut PlaneContext<'_, '_>,
     at: (f64, f64),
     is_lower_bound: bool,
     style: &MethodStyle,
 ) -> Result<()> {
-    drawn.draw_series([glyph(at, style)])?;
+    drawn.draw_series([marker_glyph(at, style)])?;
     if is_lower_bound {
         let arrow = [
             (0.0, MARKER_RADIUS),
@@ -142,7 +144,7 @@ pub(super) fn draw_marker(
 }
 
 /// Returns the drawing of a method's marker at a position.
-fn glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
+fn marker_glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
     let corners = style.corners();
     let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
     let inside = if style.is_unsafe { WHITE } else { style.colour };
@@ -172,7 +174,7 @@ pub(super) fn draw_header(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Res
 }
 
 /// Returns the height of the legend and the remarks, in pixels.
-pub(super) fn footer_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
+pub(super) fn footer_height(shown: &[StyledMethod<'_>], remarks: &[&str]) -> f64 {
     LINE_HEIGHT * (shown.len().div_ceil(LEGEND_COLUMNS_AND_WIDTH.0) + remarks.len()) as f64
         + CHART_MARGIN
 }
@@ -180,7 +182,7 @@ pub(super) fn footer_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
 /// Draws the legend, and the remarks below it.
 pub(super) fn draw_footer(
     sheet: &Sheet<'_>,
-    shown: &[Shown<'_>],
+    shown: &[StyledMethod<'_>],
     remarks: &[&str],
     top: f64,
 ) -> Result<()> {
@@ -197,22 +199,22 @@ pub(super) fn draw_footer(
             (from, to_drawing_units(middle)),
             (to, to_drawing_units(middle)),
         ];
-        let (dash, gap) = style.dash.unwrap_or((300, 0));
+        let (dash, gap) = style.dash_and_gap.unwrap_or((300, 0));
         sheet.draw(&DashedPathElement::new(
             line,
             dash,
             gap,
             style.line_style(15),
         ))?;
-        sheet.draw(&glyph((at, to_drawing_units(middle)), style))?;
+        sheet.draw(&marker_glyph((at, to_drawing_units(middle)), style))?;
         let mark = if style.is_unsafe { " (unsafe)" } else { "" };
-        let label = format!("{}: {}{mark}", method.family.title(), method.name);
+        let label = format!("{}: {}{mark}", method.family.legend_heading(), method.name);
         draw_text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;
     }
     let top = top + LINE_HEIGHT * (shown.len().div_ceil(columns) as f64 + 0.5);
     for (line, remark) in remarks.iter().enumerate() {
         let format = TextFormat {
-            size: FONT_SIZE - 1.0,
+            size: DEFAULT_FONT_SIZE - 1.0,
             ..TextFormat::default()
         };
         draw_text(

@@ -12,13 +12,13 @@ pub(super) const CHART_MARGIN: f64 = 10.0;
 /// The number of drawing units in a pixel.
 const UNITS_PER_PIXEL: f64 = 10.0;
 /// The factor by which the library divides font sizes in its output.
-const FONT_RATIO: f64 = 1.24;
+const FONT_SIZE_DIVISOR: f64 = 1.24;
 /// The average width of a character relative to the font size, rounded up.
-const CHARACTER_WIDTH: f64 = 0.58;
+const RELATIVE_CHARACTER_WIDTH: f64 = 0.58;
 /// The colour of text and axes.
 pub(super) const TEXT_COLOUR: RGBColor = RGBColor(0x22, 0x22, 0x22);
 /// The default font size, in pixels.
-pub(super) const FONT_SIZE: f64 = 12.0;
+pub(super) const DEFAULT_FONT_SIZE: f64 = 12.0;
 
 /// An area of the SVG file to draw in.
 pub(super) type Sheet<'s> = DrawingArea<SVGBackend<'s>, Shift>;
@@ -38,7 +38,7 @@ pub(super) struct TextFormat {
 impl Default for TextFormat {
     fn default() -> Self {
         TextFormat {
-            size: FONT_SIZE,
+            size: DEFAULT_FONT_SIZE,
             colour: TEXT_COLOUR,
             weight: FontStyle::Normal,
             alignment: HPos::Left,
@@ -109,14 +109,14 @@ pub(super) fn fill_rect(
 pub(super) fn font(size: f64, weight: FontStyle) -> FontDesc<'static> {
     FontDesc::new(
         FontFamily::SansSerif,
-        size * UNITS_PER_PIXEL * FONT_RATIO,
+        size * UNITS_PER_PIXEL * FONT_SIZE_DIVISOR,
         weight,
     )
 }
 
 /// Returns the approximate width of a text, in pixels.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    text.chars().count() as f64 * CHARACTER_WIDTH * size
+    text.chars().count() as f64 * RELATIVE_CHARACTER_WIDTH * size
 }
 
 /// Converts pixels to drawing units; NaN becomes 0.

@@ -1,7 +1,7 @@
 //! Chooses the colour and the marker of each method, the same in every chart.
 
 use super::sheet::to_drawing_units;
-use super::{MethodFacts, MethodFamily};
+use super::{ChartedMethod, MethodFamily};
 use plotters::style::{Color, RGBColor, ShapeStyle};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
@@ -26,7 +26,7 @@ pub(super) struct MethodStyle {
     pub(super) colour: RGBColor,
     marker: Marker,
     /// The lengths of a dash and of a gap, in drawing units; `None` for a solid line.
-    pub(super) dash: Option<(u32, u32)>,
+    pub(super) dash_and_gap: Option<(u32, u32)>,
     /// Whether the method was late or missed a contact. Its markers are hollow.
     pub(super) is_unsafe: bool,
 }
@@ -45,23 +45,23 @@ const MARKERS: [Marker; 5] = [
 /// Returns a style for each method, in the order of the methods. Styles within a family differ; families differ by the
 /// dash.
 pub(super) fn method_styles(
-    methods: &[MethodFacts<'_>],
+    methods: &[ChartedMethod<'_>],
     is_unsafe: impl Fn(&str) -> bool,
 ) -> Vec<MethodStyle> {
     let mut taken = [0; 4];
-    let style = |method: &MethodFacts<'_>| {
+    let style = |method: &ChartedMethod<'_>| {
         let (family, dash) = match method.family {
-            MethodFamily::Ours => (0, None),
+            MethodFamily::ThisProject => (0, None),
             MethodFamily::Rival => (1, Some((70, 40))),
             MethodFamily::Peer => (2, Some((20, 30))),
-            MethodFamily::Model => (3, None),
+            MethodFamily::OtherPieces => (3, None),
         };
         let number = taken[family] + family;
         taken[family] += 1;
         MethodStyle {
             colour: COLOURS[number % COLOURS.len()],
             marker: MARKERS[number % MARKERS.len()],
-            dash,
+            dash_and_gap: dash,
             is_unsafe: is_unsafe(method.name),
         }
     };

@@ -3,27 +3,27 @@ use super::*;
 use plotters::style::RGBColor;
 
 const SCENES: [&str; 3] = ["knot2880", "knot34560", "never measured"];
-const METHODS: [MethodFacts<'_>; 4] = [
-    MethodFacts {
+const METHODS: [ChartedMethod<'_>; 4] = [
+    ChartedMethod {
         name: "ours",
-        family: MethodFamily::Ours,
+        family: MethodFamily::ThisProject,
     },
-    MethodFacts {
+    ChartedMethod {
         name: "careless <peer> & co",
         family: MethodFamily::Peer,
     },
-    MethodFacts {
+    ChartedMethod {
         name: "absent",
         family: MethodFamily::Rival,
     },
-    MethodFacts {
+    ChartedMethod {
         name: "over patches",
-        family: MethodFamily::Model,
+        family: MethodFamily::OtherPieces,
     },
 ];
 
-fn cell(scene: &str, method: &str, tolerance: f64) -> Cell {
-    Cell {
+fn cell(scene: &str, method: &str, tolerance: f64) -> MeasurementCell {
+    MeasurementCell {
         scene: scene.to_owned(),
         method: method.to_owned(),
         tolerance,
@@ -45,7 +45,7 @@ fn cell(scene: &str, method: &str, tolerance: f64) -> Cell {
 }
 
 /// Returns measurements of three methods on two scenes; the method named careless misses a contact in one of them.
-fn cells() -> Vec<Cell> {
+fn cells() -> Vec<MeasurementCell> {
     let mut cells = Vec::new();
     for scene in &SCENES[..2] {
         for method in ["ours", "careless <peer> & co", "over patches"] {
@@ -60,7 +60,7 @@ fn cells() -> Vec<Cell> {
     cells
 }
 
-fn chart_data(cells: &[Cell]) -> ChartData<'_> {
+fn chart_data(cells: &[MeasurementCell]) -> ChartData<'_> {
     ChartData {
         cells,
         scenes: &SCENES,
@@ -68,7 +68,7 @@ fn chart_data(cells: &[Cell]) -> ChartData<'_> {
     }
 }
 
-fn svg(cells: &[Cell]) -> String {
+fn svg(cells: &[MeasurementCell]) -> String {
     chart_data(cells).draw_pareto_chart().unwrap().unwrap()
 }
 
@@ -106,7 +106,7 @@ fn an_unsafe_method_is_in_the_strip_only() {
     // Peers draw a shape of this colour.
     let RGBColor(red, green, blue) = style::method_styles(&METHODS, |_| false)[1].colour;
     let colour = format!("#{red:02X}{green:02X}{blue:02X}");
-    let lines = |cells: &[Cell]| {
+    let lines = |cells: &[MeasurementCell]| {
         let text = svg(cells);
         let of_colour = text.lines().filter(|line| line.contains(&colour));
         // Dashes of lines through data, and filled markers.
@@ -137,10 +137,14 @@ fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
 
 #[test]
 fn no_two_methods_look_alike() {
-    let methods: Vec<_> = [MethodFamily::Ours, MethodFamily::Rival, MethodFamily::Peer]
-        .into_iter()
-        .flat_map(|family| [MethodFacts { name: "", family }; 10])
-        .collect();
+    let methods: Vec<_> = [
+        MethodFamily::ThisProject,
+        MethodFamily::Rival,
+        MethodFamily::Peer,
+    ]
+    .into_iter()
+    .flat_map(|family| [ChartedMethod { name: "", family }; 10])
+    .collect();
     let styles = style::method_styles(&methods, |_| false);
     for (index, style) in styles.iter().enumerate() {
         assert!(!styles[..index].contains(style), "{index}");

@@ -19,7 +19,7 @@ fn trials() -> Vec<Trial> {
     .concat()
 }
 
-fn cell_of(trials: &[Trial], method: &str) -> Cell {
+fn cell_of(trials: &[Trial], method: &str) -> MeasurementCell {
     let own = trials.iter().filter(|trial| trial.method == method);
     summarise_trials(&own.cloned().collect::<Vec<_>>())
 }
@@ -43,11 +43,11 @@ fn a_method_on_easy_rows_only_is_slower_than_the_reference() {
 fn a_cell_keeps_its_median_where_there_is_nothing_to_compare() {
     let mut trials = trials();
     let slow = cell_of(&trials, "slow");
-    let finer = Cell {
+    let finer = MeasurementCell {
         tolerance: 1e-6,
         ..slow.clone()
     };
-    let elsewhere = Cell {
+    let elsewhere = MeasurementCell {
         scene: "bunny".to_owned(),
         ..slow.clone()
     };

@@ -62,6 +62,6 @@ fn the_page_is_self_contained_and_escapes_its_input() {
     }
     assert!(html.contains("<figure><svg"));
     // The data of the views, and their scripts.
-    let views = ccd_view::scripts().matches("</script>").count();
+    let views = ccd_view::view_scripts().matches("</script>").count();
     assert_eq!(html.matches("</script>").count(), 1 + views);
 }

@@ -57,7 +57,7 @@ fn ratios_are_over_the_rows_common_to_both_methods() {
 #[test]
 fn answers_are_counted_per_method_without_distances() {
     let all = trials();
-    let mut cells: Vec<Cell> = Vec::new();
+    let mut cells: Vec<MeasurementCell> = Vec::new();
     for method in ["C2A", "discrete stepping", "parry-f64", "coal-distance"] {
         let of: Vec<Trial> = all.iter().filter(|t| t.method == method).cloned().collect();
         cells.push(summarise_trials(&of));

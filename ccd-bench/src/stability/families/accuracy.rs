@@ -11,28 +11,28 @@ use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 pub(super) fn families() -> Vec<Family> {
     vec![
         family("face onto face", face_onto_face)
-            .with_values("angle to parallel", negative_powers_of_ten(1..=15)),
+            .with_parameter_values("angle to parallel", negative_powers_of_ten(1..=15)),
         family("edge across edge", edge_across_edge)
-            .with_values("angle to parallel", negative_powers_of_ten(1..=15)),
-        family("flat approach", flat_approach)
-            .with_values("angle to the face", negative_powers_of_ten(1..=12)),
+            .with_parameter_values("angle to parallel", negative_powers_of_ten(1..=15)),
+        family("flat approach", cube_at_flat_angle)
+            .with_parameter_values("angle to the face", negative_powers_of_ten(1..=12)),
         family("cubes that hardly meet", barely_overlapping_cubes)
-            .with_values("overlap", negative_powers_of_ten(1..=15)),
+            .with_parameter_values("overlap", negative_powers_of_ten(1..=15)),
         family("rod that hardly reaches", rod_barely_reaching_wall)
-            .with_values("share of its reach", negative_powers_of_ten(1..=12)),
+            .with_parameter_values("share of its reach", negative_powers_of_ten(1..=12)),
         family("linked rings", linked_rings)
-            .with_values("way to contact", negative_powers_of_ten(1..=12)),
+            .with_parameter_values("way to contact", negative_powers_of_ten(1..=12)),
         family("corner onto face", corner_onto_face)
-            .with_values("angle to its diagonal", negative_powers_of_ten(1..=15)),
+            .with_parameter_values("angle to its diagonal", negative_powers_of_ten(1..=15)),
         family("peg turning in a hole", peg_in_a_hole)
-            .with_values("clearance", negative_powers_of_ten(1..=12)),
-        family("hardly turning", slight_rotation)
-            .with_values("radians", negative_powers_of_ten(1..=15)),
+            .with_parameter_values("clearance", negative_powers_of_ten(1..=12)),
+        family("hardly turning", slightly_rotating_cube)
+            .with_parameter_values("radians", negative_powers_of_ten(1..=15)),
     ]
 }
 
 /// The error of contact times computed from coordinates of a few units, at speeds of at least 1.
-const TIME_ERROR: f64 = 1e-14;
+const CONTACT_TIME_ERROR: f64 = 1e-14;
 
 /// Makes a cube that falls onto a slab, with its lower face tilted by a small angle (case T1).
 fn face_onto_face(angle: f64) -> Result<FamilyStep> {
@@ -46,8 +46,8 @@ fn edge_across_edge(angle: f64) -> Result<FamilyStep> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling =
         BodyMotion::FALLING_MOTION.with_orientation(DQuat::from_rotation_z(angle) * on_edge);
-    let lying = BodyMotion::STILL.with_orientation(on_edge);
-    let expected = contact_at((3.0 - 0.2 * SQRT_2) / 4.0, TIME_ERROR);
+    let lying = BodyMotion::STILL_MOTION.with_orientation(on_edge);
+    let expected = contact_at((3.0 - 0.2 * SQRT_2) / 4.0, CONTACT_TIME_ERROR);
     let step = FamilyStep::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
     step.with_rotated_queries(falling, lying, expected)
 }
@@ -67,16 +67,16 @@ fn peg_in_a_hole(clearance: f64) -> Result<FamilyStep> {
     let half = 0.5;
     let hole = half + clearance;
     let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
-    let turning = BodyMotion::STILL.with_spin(2.0 * angle * DVec3::Z);
+    let turning = BodyMotion::STILL_MOTION.with_spin(2.0 * angle * DVec3::Z);
     let step = FamilyStep::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
         .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
     let expected = contact_at(0.5, 1e-15 / clearance);
-    step.with_rotated_queries(turning, BodyMotion::STILL, expected)
+    step.with_rotated_queries(turning, BodyMotion::STILL_MOTION, expected)
 }
 
 /// Makes a cube that falls flat onto a slab while it rotates by a very small angle (case T25).
-fn slight_rotation(turn: f64) -> Result<FamilyStep> {
+fn slightly_rotating_cube(turn: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING_MOTION.with_spin(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
     let mut time = 0.625;
@@ -88,7 +88,7 @@ fn slight_rotation(turn: f64) -> Result<FamilyStep> {
 }
 
 /// Makes a cube that flies down to a slab at a small angle, and meets it halfway through its flight.
-fn flat_approach(angle: f64) -> Result<FamilyStep> {
+fn cube_at_flat_angle(angle: f64) -> Result<FamilyStep> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
     let flying =
@@ -96,21 +96,21 @@ fn flat_approach(angle: f64) -> Result<FamilyStep> {
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = contact_at(0.5, 1e-15 / sin);
     let step = FamilyStep::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
-    step.with_rotated_queries(flying, BodyMotion::SLAB_BELOW, expected)
+    step.with_rotated_queries(flying, BodyMotion::SLAB_MOTION, expected)
 }
 
 fn barely_overlapping_cubes(overlap: f64) -> Result<FamilyStep> {
     let flying = BodyMotion::straight_motion(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
-    let expected = contact_at(1.0 / 3.0, TIME_ERROR);
+    let expected = contact_at(1.0 / 3.0, CONTACT_TIME_ERROR);
     let step = FamilyStep::new(cube()?, cube()?);
-    step.with_rotated_queries_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
+    step.with_rotated_queries_if(overlap > 1e-12, flying, BodyMotion::STILL_MOTION, expected)
 }
 
 /// Makes a rod that rotates until its corner barely reaches a wall, shortly before the corner would pass it (case T5).
 fn rod_barely_reaching_wall(share: f64) -> Result<FamilyStep> {
     let (long, thin) = ROD_HALF_SIDES;
     let wall = long.hypot(thin) * (1.0 - share);
-    let turning = BodyMotion::STILL.with_spin(PI * DVec3::Y);
+    let turning = BodyMotion::STILL_MOTION.with_spin(PI * DVec3::Y);
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
     let expected = contact_at(time, 1e-15 / share.sqrt());
@@ -128,6 +128,6 @@ fn linked_rings(way: f64) -> Result<FamilyStep> {
         .with_orientation(upright);
     let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    let expected = contact_at(way, TIME_ERROR);
-    step.with_query(hanging, BodyMotion::STILL, expected)
+    let expected = contact_at(way, CONTACT_TIME_ERROR);
+    step.with_query(hanging, BodyMotion::STILL_MOTION, expected)
 }

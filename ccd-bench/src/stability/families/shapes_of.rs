@@ -2,7 +2,8 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{
-    TOOTH_SHARE, ball, comb, cone, cube, field_of_cubes, layers, sliver_slab, with_bad_faces,
+    TOOTH_WIDTH_SHARE, ball, comb, cone, cube, evenly_stacked_squares, field_of_cubes, sliver_slab,
+    with_bad_faces,
 };
 use super::{fall_onto_slab, family, negative_powers_of_ten, powers_of_ten};
 use anyhow::Result;
@@ -14,19 +15,20 @@ pub(super) fn families() -> Vec<Family> {
     let doubled =
         |exponents: std::ops::RangeInclusive<i32>| exponents.map(|k| 2f64.powi(k)).collect();
     vec![
-        family("comb into comb", comb_into_comb).with_values("teeth", doubled(2..=9)),
-        family("ball onto a slab", ball_onto_slab).with_values("triangles", powers_of_ten(2..=6)),
+        family("comb into comb", comb_into_comb).with_parameter_values("teeth", doubled(2..=9)),
+        family("ball onto a slab", ball_onto_slab)
+            .with_parameter_values("triangles", powers_of_ten(2..=6)),
         family("tip of many triangles", tip_onto_slab)
-            .with_values("triangles at the tip", powers_of_ten(1..=4)),
+            .with_parameter_values("triangles at the tip", powers_of_ten(1..=4)),
         family("repeated and collapsed faces", cube_with_bad_faces)
-            .with_values("bad faces", powers_of_ten(0..=3)),
+            .with_parameter_values("bad faces", powers_of_ten(0..=3)),
         family("layers close behind each other", cube_onto_layers)
-            .with_values("layers", powers_of_ten(0..=4)),
+            .with_parameter_values("layers", powers_of_ten(0..=4)),
         family("slab with a sliver", cube_onto_sliver)
-            .with_values("width of the sliver", negative_powers_of_ten(0..=12)),
-        family("field of solids", field_of_solids).with_values("solids", doubled(2..=12)),
+            .with_parameter_values("width of the sliver", negative_powers_of_ten(0..=12)),
+        family("field of solids", field_of_solids).with_parameter_values("solids", doubled(2..=12)),
         family("cones tip onto tip", tip_onto_tip)
-            .with_values("way aside", negative_powers_of_ten(1..=12)),
+            .with_parameter_values("way aside", negative_powers_of_ten(1..=12)),
     ]
 }
 
@@ -35,10 +37,10 @@ fn comb_into_comb(teeth: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(comb(teeth as u32)?, comb(teeth as u32)?);
     // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
     // TOOTH of the step.
-    let shift = 1.0 - (0.5 - TOOTH_SHARE) / teeth;
+    let shift = 1.0 - (0.5 - TOOTH_WIDTH_SHARE) / teeth;
     let falling = BodyMotion::straight_motion(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
         .with_orientation(DQuat::from_rotation_y(PI));
-    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL_MOTION, contact_at(0.5, 1e-14))
 }
 
 /// Makes a ball with a vertex at its pole that falls onto a slab (case T22).
@@ -56,9 +58,9 @@ fn tip_onto_slab(sides: f64) -> Result<FamilyStep> {
 
 /// Makes a cube that falls onto the first of many open sheets.
 fn cube_onto_layers(count: f64) -> Result<FamilyStep> {
-    let step = FamilyStep::new(cube()?, layers(count as u32)?);
+    let step = FamilyStep::new(cube()?, evenly_stacked_squares(count as u32)?);
     let falling = BodyMotion::FALLING_MOTION;
-    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.625, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL_MOTION, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube with repeated and collapsed faces that falls onto a slab (case T21).
@@ -71,7 +73,11 @@ fn cube_with_bad_faces(count: f64) -> Result<FamilyStep> {
 fn cube_onto_sliver(width: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, sliver_slab(width)?);
     let expected = contact_at(0.625, 1e-14);
-    step.with_rotated_queries(BodyMotion::FALLING_MOTION, BodyMotion::SLAB_BELOW, expected)
+    step.with_rotated_queries(
+        BodyMotion::FALLING_MOTION,
+        BodyMotion::SLAB_MOTION,
+        expected,
+    )
 }
 
 /// Makes a cube that falls onto one mesh of many cubes, every other one of which is inside out.
@@ -79,7 +85,11 @@ fn field_of_solids(count: f64) -> Result<FamilyStep> {
     // The cube covers the middle of the field, where at least four others are.
     let step = FamilyStep::new(cube()?, field_of_cubes(count as u32)?);
     let expected = contact_at(0.625, 1e-14);
-    step.with_rotated_queries(BodyMotion::FALLING_MOTION, BodyMotion::STILL, expected)
+    step.with_rotated_queries(
+        BodyMotion::FALLING_MOTION,
+        BodyMotion::STILL_MOTION,
+        expected,
+    )
 }
 
 /// Makes two cones of which each meets a face of the other with its tip, slightly beside the other's tip.
@@ -90,7 +100,7 @@ fn tip_onto_tip(aside: f64) -> Result<FamilyStep> {
     let cone = cone(sides, radius)?.transformed(DAffine3::from_rotation_z(half_side))?;
     let slope = 1.0 / (radius * half_side.cos());
     let falling = BodyMotion::straight_motion(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
-    let upside_down = BodyMotion::STILL.with_orientation(DQuat::from_rotation_y(PI));
+    let upside_down = BodyMotion::STILL_MOTION.with_orientation(DQuat::from_rotation_y(PI));
     let step = FamilyStep::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
     let expected = contact_at((2.0 + aside * slope) / 4.0, 1e-14);
     step.with_rotated_queries(falling, upside_down, expected)

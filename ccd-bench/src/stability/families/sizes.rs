@@ -16,28 +16,30 @@ pub(super) fn families() -> Vec<Family> {
     };
     vec![
         family("small against large", cubes_of_unequal_size)
-            .with_values("size against size", sizes(1..=9)),
+            .with_parameter_values("size against size", sizes(1..=9)),
         family("unit of length", scene_in_length_unit)
-            .with_values("size of the scene", sizes(2..=9)),
+            .with_parameter_values("size of the scene", sizes(2..=9)),
         family("far from the origin", cubes_far_from_origin)
-            .with_values("distance in sizes", powers_of_ten(0..=12)),
-        family("slender triangles", thin_box)
-            .with_values("length against width", powers_of_ten(0..=12)),
+            .with_parameter_values("distance in sizes", powers_of_ten(0..=12)),
+        family("slender triangles", thin_box_onto_slab)
+            .with_parameter_values("length against width", powers_of_ten(0..=12)),
         family("bullet and paper", bullet_and_paper)
-            .with_values("way against thickness", powers_of_ten(0..=9)),
-        family("margin", margin).with_values("margin against size", margins()),
+            .with_parameter_values("way against thickness", powers_of_ten(0..=9)),
+        family("margin", margin)
+            .with_parameter_values("margin against size", margin_parameter_values()),
         family("one inside the other", cube_inside_cube)
-            .with_values("size against size", negative_powers_of_ten(0..=9)),
-        family("unit of time", scene_in_time_unit).with_values("duration", sizes(1..=9)),
+            .with_parameter_values("size against size", negative_powers_of_ten(0..=9)),
+        family("unit of time", scene_in_time_unit).with_parameter_values("duration", sizes(1..=9)),
         family("moving together", cubes_moving_together)
-            .with_values("common travel", powers_of_ten(0..=9)),
+            .with_parameter_values("common travel", powers_of_ten(0..=9)),
         family("far centre of rotation", cube_about_far_centre)
-            .with_values("distance in sizes", powers_of_ten(0..=9)),
-        family("needle tip first", needle).with_values("width", negative_powers_of_ten(0..=12)),
+            .with_parameter_values("distance in sizes", powers_of_ten(0..=9)),
+        family("needle tip first", needle_onto_slab)
+            .with_parameter_values("width", negative_powers_of_ten(0..=12)),
     ]
 }
 
-fn margins() -> Vec<f64> {
+fn margin_parameter_values() -> Vec<f64> {
     let mut margins = negative_powers_of_ten(-2..=6);
     margins.sort_by(f64::total_cmp);
     margins.insert(0, 0.0);
@@ -50,7 +52,7 @@ fn cubes_of_unequal_size(size: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight_motion((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step = FamilyStep::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
-    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL_MOTION, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
@@ -72,7 +74,7 @@ fn scene_in_time_unit(duration: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING_MOTION;
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { duration, ..step };
-    let slab = BodyMotion::SLAB_BELOW;
+    let slab = BodyMotion::SLAB_MOTION;
     step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
@@ -90,7 +92,7 @@ fn cube_about_far_centre(distance: f64) -> Result<FamilyStep> {
     let turning = BodyMotion {
         angular_velocity: spin * DVec3::Y,
         centre: -distance * DVec3::Z,
-        ..BodyMotion::STILL
+        ..BodyMotion::STILL_MOTION
     };
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
@@ -105,7 +107,7 @@ fn cube_about_far_centre(distance: f64) -> Result<FamilyStep> {
 }
 
 /// Makes a cone that falls onto a slab with its tip first; the sides of the cone are long and thin triangles.
-fn needle(width: f64) -> Result<FamilyStep> {
+fn needle_onto_slab(width: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight_motion(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     fall_onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
@@ -124,7 +126,7 @@ fn cubes_far_from_origin(distance: f64) -> Result<FamilyStep> {
 }
 
 /// Makes a long and thin box that falls onto a slab; the sides of the box are long and thin triangles.
-fn thin_box(ratio: f64) -> Result<FamilyStep> {
+fn thin_box_onto_slab(ratio: f64) -> Result<FamilyStep> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
     let falling = BodyMotion::FALLING_MOTION.with_orientation(DQuat::from_rotation_x(0.3));
@@ -150,7 +152,7 @@ fn margin(margin: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight_motion(height * DVec3::Z, -speed * DVec3::Z);
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { margin, ..step };
-    let slab = BodyMotion::SLAB_BELOW;
+    let slab = BodyMotion::SLAB_MOTION;
     step.with_rotated_queries(falling, slab, contact_at(0.5, 1e-14))
 }
 
@@ -160,5 +162,5 @@ fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
     let half = 0.9 * size;
     let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight_motion(DVec3::ZERO, 0.05 * DVec3::X);
-    step.with_rotated_queries(moving, BodyMotion::STILL, Truth::ContactAtStart)
+    step.with_rotated_queries(moving, BodyMotion::STILL_MOTION, Truth::ContactAtStart)
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::collections::HashSet;
 
 /// The number of triangles above which the referee takes too long for a test.
-const MAX_TRIANGLES: usize = 3000;
+const MAX_REFEREE_TRIANGLES: usize = 3000;
 
 /// The share of a family's parameter values that are checked, the easiest first; the referee is slow on harder values.
 const CHECKED_SHARE: f64 = 0.4;
@@ -35,7 +35,7 @@ fn families_have_names_and_steps_of_their_own() {
 fn every_step_can_be_made() {
     families().par_iter().for_each(|family| {
         for &value in &family.parameter_values {
-            let step = (family.make)(value);
+            let step = (family.make_step)(value);
             let step = step.unwrap_or_else(|error| panic!("{} {value:e}: {error}", family.name));
             assert!(!step.cases.is_empty() && step.tolerance > 0.0);
             for ExactCase {
@@ -73,9 +73,11 @@ fn the_referee_finds_the_answers_that_are_claimed() {
 /// Asserts that the referee agrees with the exact answers of a family's queries at a parameter value, and returns the
 /// number of queries that it decided.
 fn assert_referee_agrees(family: &Family, value: f64) -> usize {
-    let step = (family.make)(value).unwrap();
+    let step = (family.make_step)(value).unwrap();
     let FamilyStep { meshes, cases, .. } = &step;
-    let many = meshes.iter().any(|mesh| mesh.faces().len() > MAX_TRIANGLES);
+    let many = meshes
+        .iter()
+        .any(|mesh| mesh.faces().len() > MAX_REFEREE_TRIANGLES);
     // The referee has no margin.
     if many || step.margin > 0.0 {
         return 0;

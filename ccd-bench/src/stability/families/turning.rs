@@ -12,13 +12,13 @@ use std::f64::consts::{PI, TAU};
 pub(super) fn families() -> Vec<Family> {
     let spins = vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0];
     vec![
-        family("mace", swinging_arm).with_values("radians", spins),
+        family("mace", arm_swinging_into_wall).with_parameter_values("radians", spins),
         family("drilling cube", cube_falling_while_spinning)
-            .with_values("turns", powers_of_ten(-2..=4)),
+            .with_parameter_values("turns", powers_of_ten(-2..=4)),
         family("rod turning into a wall", rod_into_a_wall)
-            .with_values("turns", powers_of_ten(0..=4)),
+            .with_parameter_values("turns", powers_of_ten(0..=4)),
         family("rods turning against each other", counter_rotating_rods)
-            .with_values("turns", powers_of_ten(0..=4)),
+            .with_parameter_values("turns", powers_of_ten(0..=4)),
     ]
 }
 
@@ -33,7 +33,7 @@ fn cube_falling_while_spinning(turns: f64) -> Result<FamilyStep> {
 fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let spin = TAU * turns;
-    let turning = BodyMotion::STILL.with_spin(spin * DVec3::Y);
+    let turning = BodyMotion::STILL_MOTION.with_spin(spin * DVec3::Y);
     let expected = contact_at(rod_angle_at_wall(wall) / spin, 1e-15);
     rod_beside_wall(turning, wall, expected)
 }
@@ -41,11 +41,11 @@ fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
 /// Makes an arm that hangs down from its centre of rotation, and swings round until it hits a wall above the centre.
 /// The scene is like T9 of `tests/it/scenes.rs`. At the start its tip moves along the wall, so that a bound on the
 /// speeds of that moment finds no approach.
-fn swinging_arm(spin: f64) -> Result<FamilyStep> {
+fn arm_swinging_into_wall(spin: f64) -> Result<FamilyStep> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(ROD_HALF_SIDES.1, 0.5 * arm, ROD_HALF_SIDES.1)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
-    let swinging = BodyMotion::STILL.with_spin(spin * DVec3::Z);
+    let swinging = BodyMotion::STILL_MOTION.with_spin(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
     let step = FamilyStep::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-15);

@@ -4,39 +4,39 @@ use crate::stability::families;
 use crate::truth::Surface;
 use rstest::rstest;
 
-const FREE_CLAIM: Claim = Claim::NoContact;
+const NO_CONTACT_CLAIM: ContactClaim = ContactClaim::NoContact;
 
-fn contact(time: f64) -> Claim {
-    Claim::Contact { time }
+fn contact_claim(time: f64) -> ContactClaim {
+    ContactClaim::Contact { time }
 }
 
-fn unresolved(safe_until: f64) -> Claim {
-    Claim::Unresolved { safe_until }
+fn unresolved_claim(safe_until: f64) -> ContactClaim {
+    ContactClaim::Unresolved { safe_until }
 }
 
 /// Tests the verdict on each kind of claim, on a step with a contact at 0.5, a step without contact, and a step that
 /// starts with one body inside the other.
 #[rstest]
-#[case("margin", contact(0.5), Verdict::Right)]
-#[case("margin", contact(0.5 - 1e-7), Verdict::Right)]
-#[case("margin", contact(0.49), Verdict::Early)]
-#[case("margin", contact(0.5001), Verdict::Late)]
-#[case("margin", contact(f64::NAN), Verdict::Late)]
-#[case("margin", FREE_CLAIM, Verdict::Missed)]
-#[case("margin", unresolved(0.4), Verdict::Unresolved)]
-#[case("margin", unresolved(0.6), Verdict::Late)]
-#[case("margin", Claim::Refused, Verdict::Refused)]
-#[case("cubes passing", FREE_CLAIM, Verdict::Right)]
-#[case("cubes passing", contact(0.5), Verdict::FalseContact)]
-#[case("cubes passing", unresolved(0.9), Verdict::Unresolved)]
-#[case("one inside the other", contact(0.0), Verdict::Right)]
-#[case("one inside the other", contact(0.1), Verdict::Late)]
-#[case("one inside the other", FREE_CLAIM, Verdict::Missed)]
-#[case("one inside the other", unresolved(0.0), Verdict::Unresolved)]
-#[case("one inside the other", unresolved(0.1), Verdict::Late)]
-fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict: Verdict) {
+#[case("margin", contact_claim(0.5), Verdict::Right)]
+#[case("margin", contact_claim(0.5 - 1e-7), Verdict::Right)]
+#[case("margin", contact_claim(0.49), Verdict::Early)]
+#[case("margin", contact_claim(0.5001), Verdict::Late)]
+#[case("margin", contact_claim(f64::NAN), Verdict::Late)]
+#[case("margin", NO_CONTACT_CLAIM, Verdict::Missed)]
+#[case("margin", unresolved_claim(0.4), Verdict::Unresolved)]
+#[case("margin", unresolved_claim(0.6), Verdict::Late)]
+#[case("margin", ContactClaim::Refused, Verdict::Refused)]
+#[case("cubes passing", NO_CONTACT_CLAIM, Verdict::Right)]
+#[case("cubes passing", contact_claim(0.5), Verdict::FalseContact)]
+#[case("cubes passing", unresolved_claim(0.9), Verdict::Unresolved)]
+#[case("one inside the other", contact_claim(0.0), Verdict::Right)]
+#[case("one inside the other", contact_claim(0.1), Verdict::Late)]
+#[case("one inside the other", NO_CONTACT_CLAIM, Verdict::Missed)]
+#[case("one inside the other", unresolved_claim(0.0), Verdict::Unresolved)]
+#[case("one inside the other", unresolved_claim(0.1), Verdict::Late)]
+fn claims_are_judged(#[case] family: &str, #[case] claim: ContactClaim, #[case] verdict: Verdict) {
     let family = families().into_iter().find(|f| f.name == family).unwrap();
-    let step = (family.make)(family.parameter_values[1]).unwrap();
+    let step = (family.make_step)(family.parameter_values[1]).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
     let outcome = QueryOutcome::Answered(TimedReply {
         reply: Reply::new(claim, 1),
@@ -60,7 +60,7 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
 ) {
     let mut families = families().into_iter();
     let family = families.find(|f| f.name == "margin").unwrap();
-    let step = (family.make)(0.0).unwrap();
+    let step = (family.make_step)(0.0).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
     let case = &step.cases[0];
     let Truth::Hit { lo, .. } = case.expected_truth else {
@@ -68,7 +68,7 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
     };
     let reply = Reply {
         tolerance,
-        ..Reply::new(contact(lo - 0.01), 1)
+        ..Reply::new(contact_claim(lo - 0.01), 1)
     };
     let outcome = QueryOutcome::Answered(TimedReply { reply, micros: 1.0 });
     let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);

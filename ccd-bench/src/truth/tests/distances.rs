@@ -68,8 +68,8 @@ fn nearest_points_are_as_near_as_a_grid_finds() {
         }
         let (p, q) = nearest_or_common_points(&a, &b);
         let found = (p - q).length();
-        let grid = triangle_grid(&a, STEPS)
-            .flat_map(|p| triangle_grid(&b, STEPS).map(move |q| (p - q).length()));
+        let grid = grid_points_in_triangle(&a, STEPS)
+            .flat_map(|p| grid_points_in_triangle(&b, STEPS).map(move |q| (p - q).length()));
         let least = grid.fold(f64::INFINITY, lesser);
         // Each point has a grid point within an edge divided by the steps.
         let spacing = 2.0 * 2.0 * f64::sqrt(3.0) / f64::from(STEPS) * 2.0;
@@ -86,7 +86,7 @@ fn random_unit_vector(rng: &mut impl Rng) -> DVec3 {
     random_vector(rng, 1.0).normalize()
 }
 
-fn triangle_grid([a, b, c]: &[DVec3; 3], steps: u32) -> impl Iterator<Item = DVec3> {
+fn grid_points_in_triangle([a, b, c]: &[DVec3; 3], steps: u32) -> impl Iterator<Item = DVec3> {
     let share = move |k: u32| f64::from(k) / f64::from(steps);
     (0..=steps).flat_map(move |i| {
         (0..=steps - i).map(move |j| a + share(i) * (b - a) + share(j) * (c - a))

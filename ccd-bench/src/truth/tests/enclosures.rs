@@ -8,7 +8,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 /// unevaluated sums of two floats, from 120 decimals.
 #[rustfmt::skip]
 #[expect(clippy::approx_constant, reason = "floats, not the constants near them")]
-const KNOWN_VALUES: [(f64, [f64; 2], [f64; 2]); 11] = [
+const KNOWN_SINES_AND_COSINES: [(f64, [f64; 2], [f64; 2]); 11] = [
     (1e-08, [1e-08, -1.6666666666666668e-25], [1.0, -5e-17]),
     (0.1, [0.09983341664682815, 3.08001512929492e-18], [0.9950041652780258, -5.50210156918377e-17]),
     (0.7853981633974483, [0.7071067811865475, 4.1036934489363755e-17], [0.7071067811865476, -2.6687565161377232e-17]),
@@ -24,7 +24,7 @@ const KNOWN_VALUES: [(f64, [f64; 2], [f64; 2]); 11] = [
 
 #[test]
 fn sines_and_cosines_hold_the_exact_values() {
-    for (x, sine, cosine) in KNOWN_VALUES {
+    for (x, sine, cosine) in KNOWN_SINES_AND_COSINES {
         let enclosed = sin_cos(point_interval(x));
         for ([high, low], found) in [(sine, enclosed.0), (cosine, enclosed.1)] {
             // Differences of neighbouring floats are exact.
@@ -91,7 +91,7 @@ fn assert_close(found: &IntervalMatrix, expected: DMat3, off: f64) {
     let rows = expected.transpose().to_cols_array_2d();
     for (&found, expected) in found.0.iter().flatten().zip(rows.iter().flatten()) {
         assert!(
-            (found.mid() - expected).abs() <= off,
+            (found.midpoint() - expected).abs() <= off,
             "{found:?} {expected}"
         );
         assert!(width(found) <= 4.0 * off, "{:e}", width(found));

@@ -8,14 +8,14 @@ use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// The allowed change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.
-const SCENE_ROUNDING: f64 = 1e-14;
+const CONTACT_TIME_TOLERANCE: f64 = 1e-14;
 
-fn assert_hit(bodies: [&Surface; 2], query: &Motions, exact: f64) {
+fn assert_hit_at(bodies: [&Surface; 2], query: &Motions, exact: f64) {
     let truth = judge(bodies, query);
     let Truth::Hit { lo, hi } = truth else {
         panic!("{truth:?}, expected {exact}");
     };
-    let off = SCENE_ROUNDING * query.duration;
+    let off = CONTACT_TIME_TOLERANCE * query.duration;
     assert!(
         lo <= exact + off && exact - off <= hi,
         "{lo} {hi}, expected {exact}"
@@ -47,7 +47,7 @@ fn a_cube_falls_flat_on_a_slab() {
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
     for spin in [0.0, 1.0, 50.0, -300.0] {
         let fall = falling_motion(DQuat::IDENTITY, 3.0, spin * DVec3::Z);
-        assert_hit(
+        assert_hit_at(
             [&cube, &slab],
             &query(fall, still_motion(0.0, 0.0, -1.0), 1.0),
             0.625,
@@ -60,7 +60,7 @@ fn a_cube_falls_flat_on_a_slab() {
         DVec3::ZERO,
     );
     let straight = query(straight.unwrap(), still_motion(0.0, 0.0, -1.0), 1.0);
-    assert_hit([&cube, &slab], &straight, 0.625);
+    assert_hit_at([&cube, &slab], &straight, 0.625);
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn a_rod_turns_down_onto_a_slab() {
     assert!((exact - 0.196802112).abs() < 1e-9);
     let turn = spinning_motion(h * DVec3::Z, PI * DVec3::Y);
     let query = query(turn, still_motion(0.0, 0.0, -1.0), 1.0);
-    assert_hit([&rod, &cuboid(9.0, 9.0, 1.0)], &query, exact);
+    assert_hit_at([&rod, &cuboid(9.0, 9.0, 1.0)], &query, exact);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn a_rod_turns_to_a_wall_at_any_speed() {
     for half_turns in [1.0, 1.9, 2.0, 7.3, 40.0] {
         let exact = (f64::asin(h / f64::hypot(l, w)) - f64::atan2(w, l)) / (half_turns * PI);
         let turn = spinning_motion(DVec3::ZERO, half_turns * PI * DVec3::Y);
-        assert_hit(
+        assert_hit_at(
             [&rod, &wall],
             &query(turn, still_motion(h + 1.0, 0.0, 0.0), 1.0),
             exact,
@@ -150,7 +150,7 @@ fn an_edge_meets_a_parallel_edge() {
     let position = r * edge + 0.1 * f64::sqrt(2.0) * ahead;
     let post_motion = Motion::still(pose_at(position, DQuat::from_rotation_z(psi + FRAC_PI_4)));
     let turn = spinning_motion(DVec3::ZERO, 1.5 * DVec3::Z);
-    assert_hit([&rod, &post], &query(turn, post_motion, 1.0), exact);
+    assert_hit_at([&rod, &post], &query(turn, post_motion, 1.0), exact);
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn edges_cross_and_a_corner_comes_down() {
     let above = falling_motion(DQuat::from_rotation_x(FRAC_PI_4), 3.0, DVec3::ZERO);
     let below = Motion::still(pose_at(DVec3::ZERO, DQuat::from_rotation_y(FRAC_PI_4)));
     let crossing = query(above, below, 1.0);
-    assert_hit([&cube, &cube], &crossing, (3.0 - f64::sqrt(2.0)) / 4.0);
+    assert_hit_at([&cube, &cube], &crossing, (3.0 - f64::sqrt(2.0)) / 4.0);
     let corner_down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let corner = query(
         falling_motion(corner_down, 3.0, DVec3::ZERO),
@@ -167,7 +167,7 @@ fn edges_cross_and_a_corner_comes_down() {
         1.0,
     );
     let exact = (3.0 - f64::sqrt(3.0) / 2.0) / 4.0;
-    assert_hit([&cube, &cuboid(9.0, 9.0, 1.0)], &corner, exact);
+    assert_hit_at([&cube, &cuboid(9.0, 9.0, 1.0)], &corner, exact);
 }
 
 #[test]
@@ -177,7 +177,7 @@ fn two_rods_turn_towards_each_other() {
     let exact = (f64::asin(apart / 2.0 / f64::hypot(l, w)) - f64::atan2(w, l)) / 2.0;
     assert!((exact - 0.411356590).abs() < 1e-9);
     let turn = |side: f64| spinning_motion(side * apart / 2.0 * DVec3::X, -side * 2.0 * DVec3::Y);
-    assert_hit([&rod, &rod], &query(turn(-1.0), turn(1.0), 1.0), exact);
+    assert_hit_at([&rod, &rod], &query(turn(-1.0), turn(1.0), 1.0), exact);
 }
 
 #[test]

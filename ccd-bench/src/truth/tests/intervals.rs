@@ -6,10 +6,10 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// The number of random pairs of operands for each operation.
-const PAIR_COUNT: u32 = 20_000;
+const RANDOM_PAIR_COUNT: u32 = 20_000;
 
 /// Special floats, such as the least and the largest ones, and those whose squares are barely normal or finite.
-const EXTREMES: [f64; 12] = [
+const SPECIAL_FLOATS: [f64; 12] = [
     0.0,
     5e-324,
     1e-323,
@@ -26,7 +26,7 @@ const EXTREMES: [f64; 12] = [
 
 fn random_float(rng: &mut impl Rng) -> f64 {
     let size = match rng.random_range(0..5) {
-        0 => EXTREMES[rng.random_range(0..EXTREMES.len())],
+        0 => SPECIAL_FLOATS[rng.random_range(0..SPECIAL_FLOATS.len())],
         1 => f64::from(rng.random_range(0_u32..9)),
         2 => rng.random_range(0.5..2.0),
         // Denormal ones, and any.
@@ -57,7 +57,7 @@ fn to_rational(x: f64) -> Relaxed {
 
 /// Returns three exact numbers in an interval to test with: its bounds and its middle.
 fn sample_numbers(x: Interval) -> [Relaxed; 3] {
-    [x.inf(), x.mid(), x.sup()].map(to_rational)
+    [x.inf(), x.midpoint(), x.sup()].map(to_rational)
 }
 
 fn is_below(x: f64, exact: &Relaxed) -> bool {
@@ -104,7 +104,7 @@ fn results_for_all_pairs(
 fn sums_products_and_quotients_hold_the_exact_ones_tightly() {
     let mut rng = Pcg64::seed_from_u64(11);
     let mut quotients = 0;
-    for _ in 0..PAIR_COUNT {
+    for _ in 0..RANDOM_PAIR_COUNT {
         let [x, y] = [(); 2].map(|()| random_interval(&mut rng));
         let named = |operation: &str| format!("{x:?} {operation} {y:?}");
         assert_tight(
@@ -133,14 +133,14 @@ fn sums_products_and_quotients_hold_the_exact_ones_tightly() {
             );
         }
     }
-    assert!(quotients > PAIR_COUNT / 3, "{quotients}");
+    assert!(quotients > RANDOM_PAIR_COUNT / 3, "{quotients}");
 }
 
 #[test]
 fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
     let mut rng = Pcg64::seed_from_u64(12);
     let mut roots = 0;
-    for _ in 0..PAIR_COUNT {
+    for _ in 0..RANDOM_PAIR_COUNT {
         let x = random_interval(&mut rng);
         let straddles = contains(x, &Relaxed::ZERO);
         let mut squares = sample_numbers(x).map(|a| &a * &a).to_vec();
@@ -154,7 +154,7 @@ fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
         sizes.sort_by(f64::total_cmp);
         let (least, most) = (sizes[0], sizes[sizes.len() - 1]);
         assert_eq!(x.abs(), Interval::new(least, most));
-        assert_eq!(x.mag(), most);
+        assert_eq!(x.magnitude(), most);
         if x.sup() < 0.0 {
             assert_eq!(x.sqrt(), Interval::ENTIRE);
             continue;
@@ -174,15 +174,15 @@ fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
             "{x:?}"
         );
     }
-    assert!(roots > PAIR_COUNT / 3, "{roots}");
+    assert!(roots > RANDOM_PAIR_COUNT / 3, "{roots}");
 }
 
 #[test]
 fn middles_and_radii_reach_both_bounds() {
     let mut rng = Pcg64::seed_from_u64(13);
-    for _ in 0..PAIR_COUNT {
+    for _ in 0..RANDOM_PAIR_COUNT {
         let x = random_interval(&mut rng);
-        let (mid, rad) = (x.mid(), x.rad());
+        let (mid, rad) = (x.midpoint(), x.radius());
         assert!(x.inf() <= mid && mid <= x.sup(), "{x:?}");
         let reached = [
             to_rational(mid) - to_rational(x.inf()),
@@ -198,7 +198,7 @@ fn middles_and_radii_reach_both_bounds() {
         );
     }
     for x in [Interval::ENTIRE, Interval::new(1.0, f64::INFINITY)] {
-        assert_eq!([x.mid(), x.rad()], [0.0, f64::INFINITY]);
+        assert_eq!([x.midpoint(), x.radius()], [0.0, f64::INFINITY]);
     }
 }
 
@@ -223,7 +223,7 @@ fn results_that_are_floats_stay_exact_where_nothing_is_multiplied() {
     );
     // 1/3 is not a float: both are neighbours of it.
     let third = point_interval(1.0) / point_interval(3.0);
-    assert!(third.inf() < third.sup() && third.rad() < 1e-16);
+    assert!(third.inf() < third.sup() && third.radius() < 1e-16);
 }
 
 #[test]

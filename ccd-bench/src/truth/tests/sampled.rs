@@ -9,7 +9,7 @@ use ccd_decomp::TriangleMesh;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-const SAMPLES: u32 = 600;
+const TIME_STEP_COUNT: u32 = 600;
 
 #[test]
 fn brackets_agree_with_all_pairs_at_many_times() {
@@ -31,8 +31,8 @@ fn brackets_agree_with_all_pairs_at_many_times() {
         let surfaces = meshes.each_ref().map(Surface::new);
         let referee = Referee::new(&surfaces[0], &surfaces[1]);
         let query = query(a, b, 1.0);
-        let first = (0..=SAMPLES)
-            .map(|k| f64::from(k) / f64::from(SAMPLES))
+        let first = (0..=TIME_STEP_COUNT)
+            .map(|k| f64::from(k) / f64::from(TIME_STEP_COUNT))
             .find(|&time| meshes_pierce(&meshes, [&a, &b], time));
         let truth = referee.first_contact(&query);
         match (truth, first) {
@@ -78,8 +78,9 @@ fn meshes_pierce(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -
             .map(|face| face.each_ref().map(corner))
             .collect::<Vec<_>>()
     });
-    let through =
-        |a: &[DVec3; 3], b: &[DVec3; 3]| (0..3).any(|i| passes([a[i], a[(i + 1) % 3]], b));
+    let through = |a: &[DVec3; 3], b: &[DVec3; 3]| {
+        (0..3).any(|i| crosses_triangle([a[i], a[(i + 1) % 3]], b))
+    };
     let [a, b] = placed;
     a.iter()
         .any(|a| b.iter().any(|b| through(a, b) || through(b, a)))
@@ -87,7 +88,7 @@ fn meshes_pierce(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -
 
 /// Returns true if a segment passes through a triangle: p + s (q − p) = a + β (b − a) + γ (c − a) with all parameters
 /// in range.
-fn passes([p, q]: [DVec3; 2], [a, b, c]: &[DVec3; 3]) -> bool {
+fn crosses_triangle([p, q]: [DVec3; 2], [a, b, c]: &[DVec3; 3]) -> bool {
     let columns = ccd_core::glam::DMat3::from_cols(p - q, b - a, c - a);
     let shares = columns.inverse() * (p - a);
     shares.min_element() >= 0.0 && shares.x <= 1.0 && shares.y + shares.z <= 1.0

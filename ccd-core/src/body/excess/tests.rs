@@ -35,8 +35,8 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
         // The triangles that replace the body represent the same shape.
         let ball = Body::sphere(1.0).unwrap();
         assert_eq!(
-            Excess::sum_of_bodies(&body, &ball),
-            Excess::sum_of_bodies(&ball, &body)
+            ExcessSum::sum_of_bodies(&body, &ball),
+            ExcessSum::sum_of_bodies(&ball, &body)
         );
     }
     assert!(Body::cylinder(1.0, 2.0).unwrap().excess() > 1e-5);
@@ -46,7 +46,7 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
 #[test]
 fn a_sum_is_rounded_away_from_what_is_claimed() {
     let exceeding = |excess| Body::sphere(1.0).unwrap().with_excess(excess).unwrap();
-    let exact = Excess::sum_of_bodies(&exceeding(0.0), &exceeding(0.0));
+    let exact = ExcessSum::sum_of_bodies(&exceeding(0.0), &exceeding(0.0));
     // Exact bodies keep their bits.
     assert_eq!(
         (
@@ -55,9 +55,9 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
         ),
         (0.3, 0.3)
     );
-    let both = Excess::sum_of_bodies(&exceeding(0.1), &exceeding(0.2));
-    assert!(both.distance_of_overlap() > 0.1 + 0.2);
-    assert!(both.upper_bound_of_shapes(0.3) > 0.3 + both.distance_of_overlap());
+    let both = ExcessSum::sum_of_bodies(&exceeding(0.1), &exceeding(0.2));
+    assert!(both.upper_bound_of_overlap() > 0.1 + 0.2);
+    assert!(both.upper_bound_of_shapes(0.3) > 0.3 + both.upper_bound_of_overlap());
     assert!(
         both.upper_bound_of_shapes(both.certain_nearness_threshold(1.0)) >= 1.0 - 1e-15
             && both.certain_nearness_threshold(1.0) < 0.7

@@ -14,13 +14,13 @@ fn solid_body(triangles: &[Triangle]) -> Body {
 /// Asserts that every face's outward normal agrees with the direction that `out_of` gives for the face's centroid.
 fn assert_outward_normals(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
     for piece in 0..body.pieces().len() as u32 {
-        let out = out_of(body.centroid(piece));
+        let out = out_of(body.mean_of_points(piece));
         let Facing::OutwardNormal(normal) = body.facing(piece) else {
             panic!("{:?}", body.facing(piece));
         };
         assert!(normal.dot(out) > 0.1, "{normal} {out}");
         let inside = body.point_inside(piece).unwrap();
-        assert!((inside - body.centroid(piece)).dot(out) < 0.0);
+        assert!((inside - body.mean_of_points(piece)).dot(out) < 0.0);
     }
 }
 

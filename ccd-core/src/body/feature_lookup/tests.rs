@@ -6,7 +6,7 @@ use crate::body::polytope::{Facet, Polytope};
 use crate::tests::scene::{RngExt, rng};
 
 /// Creates a prism of 60 sides; every third facet is virtual, which means no face of the mesh.
-fn prism() -> Pieces {
+fn prism_with_virtual_facets() -> Pieces {
     let count = 60;
     let rim = |height: f64| {
         (0..count).map(move |k| {
@@ -37,7 +37,7 @@ fn prism() -> Pieces {
 
 #[test]
 fn names_agree_with_a_scan_of_all_facets() {
-    let pieces = prism();
+    let pieces = prism_with_virtual_facets();
     let piece = pieces.get(0);
     // The piece belongs to no list, so that nothing is stored.
     let bare = Piece {

@@ -5,7 +5,7 @@ use super::edges::check_facets;
 use super::error::{HullFault, HullTreeError};
 use super::hull::{FacetClass, Hull, HullNode};
 use super::identity::PointNumbering;
-use super::inherit::{Child, inherit_facet_data};
+use super::inherit::{NumberedChild, inherit_facet_data};
 use super::inside::PreparedHull;
 use super::node::{FacetData, Node};
 use super::{HullTree, Hulls};
@@ -15,7 +15,7 @@ use crate::body::pieces::Pieces;
 use crate::body::pieces::builder::{PiecesBuilder, PolytopeParts};
 use crate::body::polytope::Polytope;
 use crate::error::InputError;
-use crate::math::exact::first_too_fine_point;
+use crate::math::exact::first_point_below_exact_range;
 use crate::math::order::greater;
 use crate::math::vector::bounding_box;
 use glam::DVec3;
@@ -102,11 +102,11 @@ fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
 
 /// Creates the leaf node for a piece, whose hull is the piece itself.
 fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
-    if let Some(point) = first_too_fine_point(&piece.points) {
+    if let Some(point) = first_point_below_exact_range(&piece.points) {
         let point = point as u32;
         return Err(HullFault::CoordinateTooSmall { point }.at(at));
     }
-    let facet_data = FacetData::facets_of_piece(&piece);
+    let facet_data = FacetData::facet_data_of_piece(&piece);
     let loops = piece.facets.into_iter().map(|facet| facet.corners);
     Ok(Node {
         facet_data,
@@ -134,8 +134,8 @@ fn inner_node<'a>(
     let [left, right] = children.map(|(_, child)| child);
     let even = |child: &Node<'_>| child.has_uniform_radius && child.radius == left.radius;
     let has_uniform_radius = even(left) && even(right);
-    let of_left = Child::new(left, &identity.left_numbers);
-    let of_right = Child::new(right, &identity.right_numbers);
+    let of_left = NumberedChild::new(left, &identity.left_numbers);
+    let of_right = NumberedChild::new(right, &identity.right_numbers);
     let radius = greater(left.radius, right.radius);
     Ok(Node {
         facet_data: inherit_facet_data(hull, &identity.positions, [of_left, of_right]),

@@ -38,11 +38,11 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
             subtree_sizes[at] += subtree_sizes[left as usize] + subtree_sizes[right as usize];
         }
     }
-    let row = Postorder {
+    let row = BottomUpComputation {
         hierarchy,
         order: &order,
         subtree_sizes: &subtree_sizes,
-        make,
+        compute_value: make,
     };
     let mut done: Vec<T> = order.iter().map(|_| T::default()).collect();
     row.compute_subtree(0..order.len(), &mut done, parts)?;
@@ -54,15 +54,15 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
 }
 
 /// The nodes of a tree in postorder, with the function that computes a node's value from its children's values.
-struct Postorder<'a, F> {
+struct BottomUpComputation<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
     /// The number of nodes in each node's subtree.
     subtree_sizes: &'a [usize],
-    make: F,
+    compute_value: F,
 }
 
-impl<F> Postorder<'_, F> {
+impl<F> BottomUpComputation<'_, F> {
     /// Computes the values of one subtree, split into at most `parts` parts that may run in parallel. The parts are
     /// shared between both children by size. Each child gets fewer of them, so that the depth of recursion is at most
     /// `parts`.
@@ -123,7 +123,7 @@ impl<F> Postorder<'_, F> {
             }
             HierarchyNode::Leaf(_) => [here; 2],
         };
-        done[here] = (self.make)(node, children.map(|child| &done[child]))?;
+        done[here] = (self.compute_value)(node, children.map(|child| &done[child]))?;
         Ok(())
     }
 }

@@ -1,9 +1,9 @@
 //! Decides with exact arithmetic whether a piece's facets bound a convex polytope.
 
-use crate::body::facets::{edges_of, fan_of};
+use crate::body::facets::{edges_of, fan_triangles};
 use crate::body::piece::Piece;
 use crate::body::support::Support;
-use crate::math::exact::{first_too_fine_point, side};
+use crate::math::exact::{first_point_below_exact_range, side};
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -27,7 +27,7 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
 /// convex part of a face. From every corner of the facet an edge then leads up along any direction that goes up from
 /// there in that face.
 fn is_convex(hull: &Piece<'_>) -> bool {
-    if hull.facets.is_empty() || first_too_fine_point(hull.points).is_some() {
+    if hull.facets.is_empty() || first_point_below_exact_range(hull.points).is_some() {
         return false;
     }
     let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;
@@ -35,7 +35,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for corners in hull.facets.iter() {
         corners.iter().for_each(|&v| on_facets[v as usize] = true);
-        triangles.extend(fan_of(corners));
+        triangles.extend(fan_triangles(corners));
         if !are_coplanar(hull.points, corners) || !is_convex_polygon(hull.points, corners, middle) {
             return false;
         }
@@ -45,7 +45,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
     on_facets.into_iter().all(|on| on)
         && triangles.iter().all(behind)
         && is_locally_convex(&triangles, position)
-        && winds_once(&triangles, position, middle)
+        && covers_one_direction_once(&triangles, position, middle)
 }
 
 /// Returns whether all corners are in the plane of the first three.
@@ -87,7 +87,7 @@ fn is_locally_convex(triangles: &[[u32; 3]], position: impl Fn(&[u32; 3]) -> [DV
 }
 
 /// Returns whether the ray from `middle` through the first triangle meets no other triangle and no edge.
-fn winds_once(
+fn covers_one_direction_once(
     triangles: &[[u32; 3]],
     position: impl Fn(&[u32; 3]) -> [DVec3; 3],
     middle: DVec3,

@@ -23,7 +23,7 @@ impl PointNumbering {
     pub(super) fn new(hull: &Hull, [left, right]: [&Node<'_>; 2]) -> Result<Self, HullFault> {
         let own = hull.points.len();
         let all = [&hull.points[..], &left.points, &right.points];
-        let same = representatives(all, own);
+        let same = representative_indices(all, own);
         let mut numbers = same.clone();
         let mut positions = hull.points.clone();
         let points = left.points.iter().chain(right.points.iter());
@@ -60,7 +60,7 @@ impl PointNumbering {
 
 /// Returns, for each point of three concatenated lists, the index of the equal point that represents it. This is the
 /// last equal one among the first `own` points, or otherwise the first equal one.
-fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
+fn representative_indices(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
     // Adding zero turns −0 into 0.
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let points = lists.into_iter().flatten();

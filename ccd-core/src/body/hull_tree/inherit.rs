@@ -8,7 +8,7 @@ use super::edges::EdgeMap;
 use super::hull::{FacetClass, Hull};
 use super::inside::{is_coplanar_and_cooriented, non_collinear_corners};
 use super::node::{FacetData, Node};
-use crate::body::facets::{edges_of, fan_of};
+use crate::body::facets::{edges_of, fan_triangles};
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;
@@ -22,7 +22,7 @@ impl FacetData {
     };
 
     /// Returns the origin, class and mesh faces of each facet of a piece.
-    pub(super) fn facets_of_piece(piece: &Polytope) -> Vec<FacetData> {
+    pub(super) fn facet_data_of_piece(piece: &Polytope) -> Vec<FacetData> {
         let mut facet_data = Vec::with_capacity(piece.facets.len());
         let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
         let tree = PointTree::new(&starts);
@@ -48,7 +48,7 @@ impl FacetData {
     }
 
     /// Merges the data of two facets that together tile a facet of the parent's hull.
-    fn merge_facets(parts: [&ChildFacet<'_>; 2]) -> FacetData {
+    fn merge_facet_data(parts: [&ChildFacet<'_>; 2]) -> FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
             origin: match class {
@@ -63,15 +63,18 @@ impl FacetData {
 
 /// A child of a node, with its points numbered as in [`PointNumbering`](super::identity::PointNumbering).
 #[derive(Clone, Copy)]
-pub(super) struct Child<'a> {
+pub(super) struct NumberedChild<'a> {
     node: &'a Node<'a>,
     /// The common number of each of the child's points.
-    ids: &'a [u32],
+    common_numbers: &'a [u32],
 }
 
-impl<'a> Child<'a> {
+impl<'a> NumberedChild<'a> {
     pub(super) fn new(node: &'a Node<'a>, ids: &'a [u32]) -> Self {
-        Child { node, ids }
+        NumberedChild {
+            node,
+            common_numbers: ids,
+        }
     }
 }
 
@@ -79,7 +82,7 @@ impl<'a> Child<'a> {
 pub(super) fn inherit_facet_data(
     hull: &Hull,
     positions: &[DVec3],
-    children: [Child<'_>; 2],
+    children: [NumberedChild<'_>; 2],
 ) -> Vec<FacetData> {
     let triangles = children.map(|child| single_triangle_facet_data(&child));
     let sides =
@@ -91,7 +94,7 @@ pub(super) fn inherit_facet_data(
         match parts {
             [Some(part), _] | [_, Some(part)] if is_same_loop(&part, corners) => part.facet.clone(),
             [Some(one), Some(other)] if tiles_facet(positions, corners, [&one, &other]) => {
-                FacetData::merge_facets([&one, &other])
+                FacetData::merge_facet_data([&one, &other])
             }
             _ => FacetData::VIRTUAL_FACET_DATA,
         }
@@ -101,7 +104,7 @@ pub(super) fn inherit_facet_data(
 
 /// A facet of a child's hull with its corners and its data.
 struct ChildFacet<'a> {
-    child: Child<'a>,
+    child: NumberedChild<'a>,
     /// The corners, as indices of the child's points.
     corners: &'a [u32],
     facet: &'a FacetData,
@@ -110,7 +113,9 @@ struct ChildFacet<'a> {
 impl ChildFacet<'_> {
     /// Returns the common numbers of the facet's corners.
     fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
-        self.corners.iter().map(|&v| self.child.ids[v as usize])
+        self.corners
+            .iter()
+            .map(|&v| self.child.common_numbers[v as usize])
     }
 
     fn edges(&self) -> impl Iterator<Item = (u32, u32)> + Clone {
@@ -120,10 +125,10 @@ impl ChildFacet<'_> {
     fn mesh_faces(&self) -> Vec<Face> {
         let node = self.child.node;
         match self.facet.origin {
-            FacetOrigin::Face(id) => fan_of(self.corners)
+            FacetOrigin::Face(id) => fan_triangles(self.corners)
                 .map(|corners| Face {
                     id,
-                    vertices: corners.map(|v| vertex_of(node, v)),
+                    vertices: corners.map(|v| vertex_id_of(node, v)),
                     corners: corners.map(|v| node.points[v as usize]),
                 })
                 .collect(),
@@ -134,9 +139,9 @@ impl ChildFacet<'_> {
 
 /// The facets of a child's hull, which can be looked up by a directed edge.
 struct ChildFacets<'a> {
-    child: Child<'a>,
+    child: NumberedChild<'a>,
     /// The data of both sides of the triangle, if the child is a single triangle, which lists no facets.
-    single_triangle: Option<&'a FacetData>,
+    single_triangle_data: Option<&'a FacetData>,
     /// A map from each directed edge to the index of the facet that has it.
     facet_at_edge: EdgeMap,
 }
@@ -146,7 +151,11 @@ const TRIANGLE_SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> ChildFacets<'a> {
     /// Creates the lookup for a child; `positions` is the number of common numbers.
-    fn new(child: Child<'a>, single_triangle: Option<&'a FacetData>, positions: usize) -> Self {
+    fn new(
+        child: NumberedChild<'a>,
+        single_triangle: Option<&'a FacetData>,
+        positions: usize,
+    ) -> Self {
         let sides = TRIANGLE_SIDES.iter().map(|corners| &corners[..]);
         let loops = child
             .node
@@ -154,12 +163,12 @@ impl<'a> ChildFacets<'a> {
             .iter()
             .chain(sides.filter(|_| single_triangle.is_some()));
         let edges = loops.zip(0..).flat_map(|(corners, k)| {
-            let id = |v: u32| child.ids[v as usize];
+            let id = |v: u32| child.common_numbers[v as usize];
             edges_of(corners).map(move |(from, to)| ((id(from), id(to)), k))
         });
         ChildFacets {
             child,
-            single_triangle,
+            single_triangle_data: single_triangle,
             facet_at_edge: EdgeMap::new(positions, edges),
         }
     }
@@ -170,7 +179,7 @@ impl<'a> ChildFacets<'a> {
             Some(corners) => (corners, node.facet_data.get(k)?),
             None => (
                 &TRIANGLE_SIDES.get(k - node.facets.len())?[..],
-                self.single_triangle?,
+                self.single_triangle_data?,
             ),
         };
         Some(ChildFacet {
@@ -187,7 +196,7 @@ impl<'a> ChildFacets<'a> {
 }
 
 /// Returns the facet data of a child that is a single triangle; `None` for other children.
-fn single_triangle_facet_data(child: &Child<'_>) -> Option<FacetData> {
+fn single_triangle_facet_data(child: &NumberedChild<'_>) -> Option<FacetData> {
     let alone = child.node.facets.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
         origin: match child.node.leaf_faces.as_deref().unwrap_or_default() {
@@ -200,7 +209,7 @@ fn single_triangle_facet_data(child: &Child<'_>) -> Option<FacetData> {
 }
 
 /// Returns the mesh's vertex number of a point of a node.
-fn vertex_of(node: &Node<'_>, point: u32) -> u32 {
+fn vertex_id_of(node: &Node<'_>, point: u32) -> u32 {
     let known = node.vertex_ids.get(point as usize);
     known.copied().unwrap_or(point)
 }

@@ -1,8 +1,8 @@
 //! Tests exactly whether points are in a convex hull `[SHE97]`.
 
 use super::loops::PolygonList;
-use crate::body::facets::fan_of;
-use crate::math::exact::{is_degenerate, line_side_along, side};
+use crate::body::facets::fan_triangles;
+use crate::math::exact::{is_degenerate, side, side_of_line_along};
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 pub(super) struct PreparedHull<'a> {
     points: &'a [DVec3],
     /// The facets as fans of triangles.
-    fans: Vec<[DVec3; 3]>,
+    fan_triangles: Vec<[DVec3; 3]>,
     /// The corners of the first facet, which decide if the hull is flat.
     first_facet_corners: Vec<DVec3>,
 }
@@ -21,10 +21,10 @@ impl<'a> PreparedHull<'a> {
     /// occur exactly once in reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &PolygonList) -> Self {
         let at = |&v: &u32| points[v as usize];
-        let fans = facets.iter().flat_map(fan_of);
+        let fans = facets.iter().flat_map(fan_triangles);
         PreparedHull {
             points,
-            fans: fans.map(|fan| fan.map(|v| at(&v))).collect(),
+            fan_triangles: fans.map(|fan| fan.map(|v| at(&v))).collect(),
             first_facet_corners: facets
                 .get(0)
                 .map_or(Vec::new(), |corners| corners.iter().map(at).collect()),
@@ -41,7 +41,7 @@ impl<'a> PreparedHull<'a> {
     /// # Complexity
     /// O(n log n) for n points and facets in all, if few points are near each facet.
     pub(super) fn first_point_outside(&self, positions: &[DVec3]) -> Option<usize> {
-        if self.fans.is_empty() {
+        if self.fan_triangles.is_empty() {
             return positions
                 .iter()
                 .position(|&p| !is_in_simplex(self.points, p));
@@ -53,7 +53,7 @@ impl<'a> PreparedHull<'a> {
         let mut outside = vec![false; positions.len()];
         // The facets whose planes contain the point, which is behind all others.
         let mut level = vec![0; positions.len()];
-        for &triangle in &self.fans {
+        for &triangle in &self.fan_triangles {
             tree.for_each_not_behind(triangle, |k| match side(triangle, positions[k as usize]) {
                 Ordering::Less => {}
                 Ordering::Equal => level[k as usize] += 1,
@@ -61,7 +61,7 @@ impl<'a> PreparedHull<'a> {
             });
         }
         (0..positions.len()).find(|&k| {
-            let behind = level[k] < self.fans.len();
+            let behind = level[k] < self.fan_triangles.len();
             outside[k] || !(behind || is_in_polygon(&self.first_facet_corners, positions[k]))
         })
     }
@@ -89,7 +89,7 @@ fn is_on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
 pub(super) fn is_coplanar_and_cooriented(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
     projectable_corners(polygon).is_some_and(|(fan, axis)| {
         let in_plane = |&p: &DVec3| side(fan, p).is_eq();
-        let turn = |[a, b, c]: [DVec3; 3]| line_side_along(axis, [a, b], c);
+        let turn = |[a, b, c]: [DVec3; 3]| side_of_line_along(axis, [a, b], c);
         let same_side = turn(fan).is_gt() == turn(triangle).is_gt();
         same_side && triangle.iter().all(in_plane)
     })
@@ -105,7 +105,7 @@ fn projectable_corners(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     (1..polygon.len().saturating_sub(1)).find_map(|k| {
         let fan = [0, k, k + 1].map(|k| polygon[k]);
         let [a, b, c] = fan;
-        let axis = (0..3).find(|&axis| line_side_along(axis, [a, b], c).is_ne())?;
+        let axis = (0..3).find(|&axis| side_of_line_along(axis, [a, b], c).is_ne())?;
         Some((fan, axis))
     })
 }
@@ -116,7 +116,7 @@ fn is_in_polygon(corners: &[DVec3], point: DVec3) -> bool {
         return false;
     };
     let [a, b, c] = fan;
-    let front = line_side_along(axis, [a, b], c);
+    let front = side_of_line_along(axis, [a, b], c);
     let in_plane = |p: &DVec3| side(fan, *p).is_eq();
     if !(in_plane(&point) && corners.iter().all(in_plane)) {
         return false;
@@ -124,7 +124,7 @@ fn is_in_polygon(corners: &[DVec3], point: DVec3) -> bool {
     let mut inner = false;
     for (k, &from) in corners.iter().enumerate() {
         let to = corners[(k + 1) % corners.len()];
-        let turn = line_side_along(axis, [from, to], point);
+        let turn = side_of_line_along(axis, [from, to], point);
         if turn.is_eq() {
             continue;
         }

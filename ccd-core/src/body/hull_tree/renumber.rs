@@ -23,10 +23,10 @@ fn renumbered_hierarchy(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, H
     let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
     let nodes = (0..renamed.len()).filter(|&at| matches!(renamed[at], HierarchyNode::Leaf(_)));
-    let leaves = sort_by_content(nodes.collect(), |one, other| {
+    let leaves = sort_numbers_by(nodes.collect(), |one, other| {
         compare_pieces([hulls, hulls], [one, other])
     });
-    let known = sort_by_content((0..pieces.len()).collect(), |one, other| {
+    let known = sort_numbers_by((0..pieces.len()).collect(), |one, other| {
         compare_pieces([pieces, pieces], [one, other])
     });
     let mut known = known.into_iter().peekable();
@@ -48,7 +48,7 @@ fn renumbered_hierarchy(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, H
 }
 
 /// Returns the numbers sorted by `order`, and by number where `order` finds two of them equal.
-fn sort_by_content(
+fn sort_numbers_by(
     mut numbers: Vec<usize>,
     order: impl Fn(usize, usize) -> Ordering,
 ) -> Vec<usize> {

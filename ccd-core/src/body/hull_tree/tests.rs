@@ -127,7 +127,7 @@ fn features_take_the_best_class_of_their_facets() {
     let class = |node, support: &[u32]| {
         let mut point = ConvexCombination::EMPTY;
         support.iter().for_each(|&v| point.push(v, 1.0));
-        gap.class_of(node, &point)
+        gap.facet_class_at(node, &point)
     };
     use FacetClass::{Contained, Free, Original};
     assert_eq!(class(0, &[]), Free);
@@ -153,7 +153,7 @@ fn thick_and_thin_pieces_are_bridged_everywhere() {
     assert_eq!(whole.hulls().get(0).radius, 0.5);
     assert_eq!(whole.facet_classes(0), [FacetClass::Free; 6]);
     assert_eq!(
-        whole.class_of(0, &ConvexCombination::point(0)),
+        whole.facet_class_at(0, &ConvexCombination::point(0)),
         FacetClass::Free
     );
     assert_eq!(whole.facet_classes(2), [FacetClass::Original; 6]);

@@ -47,7 +47,7 @@ impl TryFrom<StoredPieces> for Pieces {
         let triangles = face_ids.len();
         // Each triangle has three corners, and every corner has a number.
         if points.len() % 3 != 0 || points.len() / 3 != triangles {
-            return Err(InputError::FaceIds {
+            return Err(InputError::FaceIdCountMismatch {
                 faces: points.len() / 3,
                 ids: triangles,
             });

@@ -1,6 +1,6 @@
 //! Tests that pieces belong to the same connected part exactly if shared points connect them.
 
-use super::{DisjointSets, ExtremePoints, shells};
+use super::{DisjointSets, ExtremePoints, part_extreme_points};
 use crate::body::pieces::Pieces;
 use crate::tests::meshes::{cube, translated_triangles};
 use crate::tests::scene::{RngExt, direction, pieces, rng};
@@ -12,7 +12,7 @@ fn parts_are_found_and_their_extremes() {
     for x in [0.0, 5.0, -7.0] {
         parts.extend(translated_triangles(&cube(1.0, 3), x * DVec3::X));
     }
-    let found = shells(&pieces(&parts));
+    let found = part_extreme_points(&pieces(&parts));
     assert_eq!(found.len(), 3);
     for shell in &found {
         let middle = 0.5 * (shell[0].x + shell[3].x);
@@ -29,9 +29,9 @@ fn parts_are_found_and_their_extremes() {
 fn one_point_in_common_connects_and_negative_zero_is_zero() {
     let corner = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let touching = [-DVec3::ZERO, -DVec3::X, -DVec3::Y];
-    assert_eq!(shells(&pieces(&[corner, touching])).len(), 1);
+    assert_eq!(part_extreme_points(&pieces(&[corner, touching])).len(), 1);
     let beside = touching.map(|p| p - 1e-300 * DVec3::ONE);
-    assert_eq!(shells(&pieces(&[corner, beside])).len(), 2);
+    assert_eq!(part_extreme_points(&pieces(&[corner, beside])).len(), 2);
 }
 
 #[test]
@@ -44,15 +44,15 @@ fn a_chain_of_many_is_one_part_in_any_order() {
         chain.push([at, next, at + direction(&mut rng)]);
         at = next;
     }
-    assert_eq!(shells(&pieces(&chain)).len(), 1);
+    assert_eq!(part_extreme_points(&pieces(&chain)).len(), 1);
     chain.reverse();
-    assert_eq!(shells(&pieces(&chain)).len(), 1);
+    assert_eq!(part_extreme_points(&pieces(&chain)).len(), 1);
     let every_other: Vec<_> = chain.iter().step_by(2).copied().collect();
-    assert_eq!(shells(&pieces(&every_other)).len(), 1_000);
+    assert_eq!(part_extreme_points(&pieces(&every_other)).len(), 1_000);
 }
 
 /// Finds the connected parts by comparing all pairs of points, as a reference.
-fn shells_by_brute_force(pieces: &Pieces) -> Vec<ExtremePoints> {
+fn part_extreme_points_by_brute_force(pieces: &Pieces) -> Vec<ExtremePoints> {
     let points = pieces.points();
     let mut parts = DisjointSets((0..points.len() as u32).collect());
     for piece in 0..pieces.len() {
@@ -93,7 +93,10 @@ fn numbers_of_any_kind_give_the_same_parts() {
             .collect();
         let ids: Vec<u32> = (0..count).collect();
         let pieces = Pieces::triangles(&vertices, &faces, &ids).unwrap();
-        assert_eq!(shells(&pieces), shells_by_brute_force(&pieces));
+        assert_eq!(
+            part_extreme_points(&pieces),
+            part_extreme_points_by_brute_force(&pieces)
+        );
         // One number belongs to several places, and numbers are far above the count of points.
         for number in [&|k: u32| k % 2, &|k: u32| u32::MAX - k] as [&dyn Fn(u32) -> u32; 2] {
             let polytopes: Vec<_> = (0..pieces.len())
@@ -104,7 +107,10 @@ fn numbers_of_any_kind_give_the_same_parts() {
                 })
                 .collect();
             let pieces = Pieces::polytopes(&polytopes).unwrap();
-            assert_eq!(shells(&pieces), shells_by_brute_force(&pieces));
+            assert_eq!(
+                part_extreme_points(&pieces),
+                part_extreme_points_by_brute_force(&pieces)
+            );
         }
     }
 }

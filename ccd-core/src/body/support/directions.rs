@@ -8,7 +8,7 @@ pub const TABLE_DIRECTION_COUNT: usize = 2 + 7 * 16;
 
 /// The squared cosines of the angles from the pole that are halfway between circles: 11.25, 33.75, 56.25 and 78.75
 /// degrees.
-const COS_SQUARED: [f64; 4] = [
+const LATITUDE_BORDER_SQUARED_COSINES: [f64; 4] = [
     0.961939766255643,
     0.691341716182545,
     0.308658283817455,
@@ -16,7 +16,7 @@ const COS_SQUARED: [f64; 4] = [
 ];
 
 /// The tangents of the longitudes that are halfway between meridians: 11.25, 33.75, 56.25 and 78.75 degrees.
-const MERIDIAN_TANGENTS: [f64; 4] = [
+const MERIDIAN_BORDER_TANGENTS: [f64; 4] = [
     0.198912367379658,
     0.668178637919299,
     1.496605762665489,
@@ -25,7 +25,7 @@ const MERIDIAN_TANGENTS: [f64; 4] = [
 
 /// Returns all directions in the order of their numbers: the north pole, the circles from north to south, the south
 /// pole.
-pub(super) fn all_directions() -> impl Iterator<Item = DVec3> {
+pub(super) fn table_directions() -> impl Iterator<Item = DVec3> {
     let circle = |latitude: u32| {
         let (sin, cos) = (f64::from(latitude) * FRAC_PI_8).sin_cos();
         (0..16).map(move |longitude| {
@@ -41,10 +41,10 @@ pub(super) fn all_directions() -> impl Iterator<Item = DVec3> {
 /// Returns the number of the fixed direction that is nearest to a vector of any length in latitude and in longitude.
 /// The number is arbitrary if the vector is not finite.
 #[inline]
-pub(super) fn nearest_direction(v: DVec3) -> usize {
+pub(super) fn nearest_direction_number(v: DVec3) -> usize {
     let square = v.length_squared();
-    let from_pole = count(COS_SQUARED.map(|c| v.z * v.z < c * square));
-    let from_axis = count(MERIDIAN_TANGENTS.map(|t| v.y.abs() > t * v.x.abs()));
+    let from_pole = count(LATITUDE_BORDER_SQUARED_COSINES.map(|c| v.z * v.z < c * square));
+    let from_axis = count(MERIDIAN_BORDER_TANGENTS.map(|t| v.y.abs() > t * v.x.abs()));
     let latitude = if v.z < 0.0 { 8 - from_pole } else { from_pole };
     let longitude = match (v.x < 0.0, v.y < 0.0) {
         (false, false) => from_axis,

@@ -43,7 +43,7 @@ impl SupportTable {
             start_corners: [first; TABLE_DIRECTION_COUNT],
         };
         let mut at = first;
-        for (number, direction) in directions::all_directions().enumerate() {
+        for (number, direction) in directions::table_directions().enumerate() {
             at = table.hill_climb(at, direction);
             table.start_corners[number] = at;
         }
@@ -53,17 +53,17 @@ impl SupportTable {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal`](crate::Support::extremal_point), provided that the facets are those of
+    /// The guarantee of [`Support::extremal_point`](crate::Support::extremal_point), provided that the facets are those of
     /// the hull.
     #[inline]
     pub fn extremal_point(&self, direction: DVec3) -> u32 {
         self.hill_climb(
-            self.start_corners[directions::nearest_direction(direction)],
+            self.start_corners[directions::nearest_direction_number(direction)],
             direction,
         )
     }
 
-    /// Like `SupportTable::extremal`, but starts at a given corner, such as the last answer. If that corner is on no
+    /// Like `SupportTable::extremal_point`, but starts at a given corner, such as the last answer. If that corner is on no
     /// facet, the start is taken from the table.
     #[inline]
     pub fn extremal_point_from(&self, start: u32, direction: DVec3) -> u32 {
@@ -107,7 +107,7 @@ impl SupportTable {
                 if !(highest >= height - slack) {
                     return at;
                 }
-                match self.higher_across_plateau(at, height, slack, direction) {
+                match self.find_higher_across_plateau(at, height, slack, direction) {
                     Some(higher) => (next, highest) = higher,
                     None => return at,
                 }
@@ -119,7 +119,7 @@ impl SupportTable {
 
     /// Returns a corner higher than `at` that can be reached across corners as high as `at` up to rounding; `None` if
     /// there is no higher one.
-    fn higher_across_plateau(
+    fn find_higher_across_plateau(
         &self,
         at: u32,
         height: f64,

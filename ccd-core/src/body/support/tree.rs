@@ -19,7 +19,7 @@ const LANES: usize = 8;
 #[derive(Clone, Debug)]
 pub struct SupportTree {
     blocks: Vec<Block>,
-    groups: Vec<Discs>,
+    groups: Vec<DiscGroup>,
     /// The index in `groups` of each level's first group; the lowest level is that above the blocks. The last level is
     /// one group.
     level_starts: Vec<usize>,
@@ -40,11 +40,11 @@ struct Block {
 /// `centre` along `normal`, and at most `radius` across.
 #[derive(Clone, Debug, Default)]
 #[repr(align(32))]
-struct Discs {
+struct DiscGroup {
     centre: [[f32; LANES]; 3],
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
-    thickness: [f32; LANES],
+    half_thickness: [f32; LANES],
     /// The rounding error by which the bound of each disc is raised. In lanes without a disc it is −∞, so that these
     /// lanes are never visited.
     rounding: [f32; LANES],
@@ -76,7 +76,7 @@ impl SupportTree {
             tree.level_starts.push(tree.groups.len());
             let groups = sorted.chunks(LANES * width);
             tree.groups
-                .extend(groups.map(|points| Discs::new(points, width)));
+                .extend(groups.map(|points| DiscGroup::new(points, width)));
             width *= LANES;
         }
         tree
@@ -85,7 +85,7 @@ impl SupportTree {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal`](crate::Support::extremal_point), for any points.
+    /// The guarantee of [`Support::extremal_point`](crate::Support::extremal_point), for any points.
     ///
     /// # Complexity
     /// About logarithmic in the number of points of a curved surface; linear if all are equally far.
@@ -106,7 +106,7 @@ impl SupportTree {
     pub(super) fn visited_node_count(&self, direction: DVec3) -> usize {
         let mut search = Search::new(direction);
         self.descend(self.level_starts.len(), 0, &mut search);
-        search.visits
+        search.visit_count
     }
 
     /// Searches below a node: visits its children in descending order of their bounds while they may contain a farther
@@ -114,7 +114,7 @@ impl SupportTree {
     fn descend(&self, level: usize, at: usize, search: &mut Search) {
         #[cfg(test)]
         {
-            search.visits += 1;
+            search.visit_count += 1;
         }
         let Some(below) = level.checked_sub(1) else {
             return search.visit_block(&self.blocks[at]);
@@ -143,7 +143,7 @@ struct Search {
     min_height: f32,
     highest_point: u32,
     #[cfg(test)]
-    visits: usize,
+    visit_count: usize,
 }
 
 impl Search {
@@ -158,7 +158,7 @@ impl Search {
             min_height: f32::NEG_INFINITY,
             highest_point: 0,
             #[cfg(test)]
-            visits: 0,
+            visit_count: 0,
         }
     }
 
@@ -189,12 +189,12 @@ impl Block {
     }
 }
 
-impl Discs {
+impl DiscGroup {
     /// Builds the discs around at most eight consecutive runs of `width` points each.
     fn new(points: &[DVec3], width: usize) -> Self {
-        let mut discs = Discs {
+        let mut discs = DiscGroup {
             rounding: [f32::NEG_INFINITY; LANES],
-            ..Discs::default()
+            ..DiscGroup::default()
         };
         for (lane, points) in points.chunks(width).enumerate() {
             let disc = Disc::enclosing(points);
@@ -203,7 +203,7 @@ impl Discs {
                 discs.normal[axis][lane] = disc.normal[axis];
             }
             discs.radius[lane] = disc.radius;
-            discs.thickness[lane] = disc.thickness;
+            discs.half_thickness[lane] = disc.thickness;
             discs.rounding[lane] = DISC_HEIGHT_ERROR_F32;
         }
         discs
@@ -220,7 +220,7 @@ impl Discs {
             let across = square - along * along;
             let across = if across > 0.0 { across } else { 0.0 }.sqrt();
             let centre = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
-            let reach = self.radius[k] * across + self.thickness[k] * along.abs();
+            let reach = self.radius[k] * across + self.half_thickness[k] * along.abs();
             bounds[k] = centre + reach + self.rounding[k];
         }
         bounds

@@ -1,6 +1,6 @@
 //! Builds the tree with eight children per node from a binary hierarchy.
 
-use super::fit::{NodePoints, Sample, fit};
+use super::fit::{NodePoints, PointSample, fit};
 use super::group::longest_length;
 use super::{
     BodyBox, BoxGroup, LANES, Node, NodeChildren, NodeId, Slab, StoredTriangleGroup, Tree,
@@ -15,10 +15,10 @@ use glam::DVec3;
 
 /// The nodes and groups of a wide tree before boxes are fitted to the pieces below them.
 #[derive(Default)]
-pub(crate) struct Layout {
+pub(crate) struct TreeLayout {
     nodes: Vec<NodeLayout>,
-    boxes: Vec<ChildNodes>,
-    triangles: Vec<ChildTriangles>,
+    node_groups: Vec<ChildNodes>,
+    triangle_groups: Vec<ChildTriangles>,
 }
 
 /// Returns the largest distance of the pieces' points from the body's origin, rounding radii included.
@@ -105,7 +105,7 @@ struct ChildTriangles {
 /// just exceed it are split into two.
 const TRIANGLE_GROUPS_PER_NODE_GROUP: u64 = 6;
 
-impl Layout {
+impl TreeLayout {
     /// Arranges the nodes of the wide tree, and returns the layout and the pieces in the tree's order.
     ///
     /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
@@ -115,7 +115,7 @@ impl Layout {
         hierarchy: &Hierarchy,
     ) -> Result<(Self, Pieces), InputError> {
         let ranges = PieceRanges::new(hierarchy, pieces.len())?;
-        let layout = Layout::build_layout(hierarchy, &ranges, pieces.are_all_triangles());
+        let layout = TreeLayout::build_layout(hierarchy, &ranges, pieces.are_all_triangles());
         Ok((layout, pieces.with_piece_order(&ranges.order)))
     }
 
@@ -131,14 +131,16 @@ impl Layout {
                 Vec::new()
             },
         };
-        let mut layout = Layout::default();
+        let mut layout = TreeLayout::default();
         layout.push_node(&opener, 0);
         let mut waiting = vec![(0u32, 0u32)];
         while let Some((parent, at)) = waiting.pop() {
             let (start, end) = ranges.node_ranges[at as usize];
             let below = if triangles && ranges.len(at) <= LANES {
-                layout.triangles.push(ChildTriangles { parent, start, end });
-                NodeChildren::Triangles(layout.triangles.len() as u32 - 1)
+                layout
+                    .triangle_groups
+                    .push(ChildTriangles { parent, start, end });
+                NodeChildren::Triangles(layout.triangle_groups.len() as u32 - 1)
             } else if ranges.len(at) > 1 {
                 let (members, count) = opener.choose_children(at);
                 let first = layout.nodes.len() as u32;
@@ -147,12 +149,12 @@ impl Layout {
                     waiting.push((child, member));
                 }
                 let count = count as u32;
-                layout.boxes.push(ChildNodes {
+                layout.node_groups.push(ChildNodes {
                     parent,
                     first,
                     count,
                 });
-                NodeChildren::Boxes(layout.boxes.len() as u32 - 1)
+                NodeChildren::Boxes(layout.node_groups.len() as u32 - 1)
             } else {
                 NodeChildren::Piece(start)
             };
@@ -176,24 +178,24 @@ impl Layout {
     /// its own pieces alone, so that all can be computed in parallel.
     pub(crate) fn fit_tree(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
-        parallel_for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
+        parallel_for_each(&mut nodes, &PointSample::EMPTY, |sample, k, node| {
             *node = self.nodes[k].fit_node(pieces, sample);
         });
-        let mut boxes = vec![BoxGroup::default(); self.boxes.len()];
+        let mut boxes = vec![BoxGroup::default(); self.node_groups.len()];
         parallel_for_each(&mut boxes, &(), |(), k, group| {
             let ChildNodes {
                 parent,
                 first,
                 count,
-            } = self.boxes[k];
+            } = self.node_groups[k];
             let children = &nodes[first as usize..][..count as usize];
             *group = BoxGroup::new(children, first, nodes[parent as usize].centre);
         });
         // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
-        let mut triangles = vec![StoredTriangleGroup::default(); self.triangles.len()];
+        let mut triangles = vec![StoredTriangleGroup::default(); self.triangle_groups.len()];
         parallel_for_each(&mut triangles, &(), |(), k, group| {
-            let ChildTriangles { parent, start, end } = self.triangles[k];
+            let ChildTriangles { parent, start, end } = self.triangle_groups[k];
             let corners = pieces.points_of(start as usize..end as usize).as_chunks().0;
             *group =
                 StoredTriangleGroup::new(corners, after + start, nodes[parent as usize].centre);
@@ -201,7 +203,7 @@ impl Layout {
         Tree {
             body_box: BodyBox::fit_to(
                 &self.nodes[0].node_points(pieces),
-                &mut Sample::EMPTY.clone(),
+                &mut PointSample::EMPTY.clone(),
             ),
             slabs: self.slabs(pieces, &nodes),
             nodes,
@@ -212,7 +214,7 @@ impl Layout {
     }
 }
 
-impl Layout {
+impl TreeLayout {
     /// Returns the slabs around all flat nodes, with the nodes' ids; none unless all pieces are triangles.
     fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
         if !pieces.are_all_triangles() {
@@ -233,7 +235,7 @@ impl Layout {
 }
 
 impl NodeLayout {
-    fn fit_node(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
+    fn fit_node(&self, pieces: &Pieces, sample: &mut PointSample) -> Node {
         fit(&self.node_points(pieces), self.children, sample)
     }
 

@@ -9,7 +9,7 @@ use crate::math::principal::principal_axes;
 use crate::math::vector::{bounding_box, length, unit};
 use crate::rounding::{FRAME_ERROR_F64, UNIT_ROUNDOFF_F64};
 use glam::{DMat3, DVec3, Vec3};
-pub(crate) use sample::Sample;
+pub(crate) use sample::PointSample;
 
 /// The points of all pieces below a node, to which a box is fitted.
 pub(crate) struct NodePoints<'a> {
@@ -22,7 +22,7 @@ pub(crate) struct NodePoints<'a> {
 
 /// The sines and cosines of the angles by which trial frames are turned about the mean normal: 0 to 75 degrees in steps
 /// of 15.
-const TRIED_ROTATIONS: [(f64, f64); 6] = [
+const TRIAL_ROTATIONS: [(f64, f64); 6] = [
     (0.0, 1.0),
     (0.258_819_045_102_520_74, 0.965_925_826_289_068_3),
     (0.5, 0.866_025_403_784_438_6),
@@ -39,7 +39,11 @@ const TRIED_ROTATIONS: [(f64, f64); 6] = [
 ///
 /// # Guarantee
 /// The box and the ball contain all points: the sample only chooses the frame.
-pub(crate) fn fit(node_points: &NodePoints<'_>, below: NodeChildren, sample: &mut Sample) -> Node {
+pub(crate) fn fit(
+    node_points: &NodePoints<'_>,
+    below: NodeChildren,
+    sample: &mut PointSample,
+) -> Node {
     sample.fill_from(node_points);
     let frame = best_frame(sample, node_points.are_triangles);
     FittedBox::fit_along(frame, node_points.points).to_node(node_points, below)
@@ -48,11 +52,11 @@ pub(crate) fn fit(node_points: &NodePoints<'_>, below: NodeChildren, sample: &mu
 /// Returns the frame whose box around the sample has the least surface area. The frames tried are along the
 /// coordinates, along principal axes of the points, and, for triangles, along principal axes by area or about the mean
 /// normal.
-pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
+pub(super) fn best_frame(sample: &PointSample, of_triangles: bool) -> DMat3 {
     let mut best = DMat3::IDENTITY;
-    let mut least = sample.surface(&best);
+    let mut least = sample.half_surface_area(&best);
     let mut consider = |frame: DMat3| {
-        let surface = sample.surface(&frame);
+        let surface = sample.half_surface_area(&frame);
         // A dropped frame only makes the box less tight. A frame that is not orthonormal would make it too small.
         // Written so that a frame with NaN is dropped.
         if surface < least && is_orthonormal(&frame) {
@@ -70,7 +74,7 @@ pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     }));
     if let Some(normal) = unit(triangles().map(across).sum()) {
         let (x, y) = normal.any_orthonormal_pair();
-        for (sin, cos) in TRIED_ROTATIONS {
+        for (sin, cos) in TRIAL_ROTATIONS {
             let turned = [x * cos + y * sin, y * cos - x * sin];
             consider(DMat3::from_cols(turned[0], turned[1], normal));
         }

@@ -19,7 +19,7 @@ pub(crate) type Rows3 = [[f32; LANES]; 3];
 pub(crate) struct BoxGroup {
     pub(crate) centre: Rows3,
     pub(crate) axes: [Rows3; 3],
-    pub(crate) half: Rows3,
+    pub(crate) half_extents: Rows3,
     pub(crate) rounding_radius: [f32; LANES],
     pub(crate) radius: [f32; LANES],
     pub(crate) header: GroupHeader,
@@ -47,7 +47,7 @@ pub(crate) struct TriangleGroup {
     pub(crate) corners: [Rows3; 3],
     /// The radius of the ball around the mean of the corners, for each triangle.
     pub(crate) radius: [f32; LANES],
-    pub(crate) members: GroupHeader,
+    pub(crate) header: GroupHeader,
 }
 
 /// The fields that both kinds of groups have: the origin of coordinates, and the ids of the children.
@@ -84,7 +84,7 @@ impl BoxGroup {
             for (rows, axis) in group.axes.iter_mut().zip(node.axes) {
                 set_lane(rows, lane, axis);
             }
-            for (row, half) in group.half.iter_mut().zip(node.half) {
+            for (row, half) in group.half_extents.iter_mut().zip(node.half) {
                 row[lane] = (half + off).next_up();
             }
             group.rounding_radius[lane] = node.rounding;
@@ -131,7 +131,7 @@ impl TriangleGroup {
         let mut group = TriangleGroup {
             corners: [[[0.0; LANES]; 3]; 3],
             radius: row.radius,
-            members: row.header,
+            header: row.header,
         };
         let origin = row.header.origin;
         for (lane, triangle) in triangles.iter().enumerate() {

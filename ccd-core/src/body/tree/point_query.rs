@@ -8,7 +8,7 @@ use glam::DVec3;
 use std::ops::Range;
 
 /// Returns the pieces whose boxes contain a point up to rounding, without pieces that are triangles.
-pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
+pub(crate) fn polytopes_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, 0.0).filter_map(|leaf| match leaf {
         Leaf::Piece(piece) => Some(piece),
         Leaf::Triangles(_) => None,
@@ -27,13 +27,13 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
 /// Returns whether a point is certainly farther than `reach` from all triangles of the body's surface.
 pub(crate) fn is_far_from_surface(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     leaves_near(tree, point, reach).all(|leaf| match leaf {
-        Leaf::Triangles(mut triangles) => {
-            triangles.all(|piece| is_farther_than(pieces.triangle(piece as usize), point, reach))
-        }
+        Leaf::Triangles(mut triangles) => triangles.all(|piece| {
+            is_triangle_certainly_farther(pieces.triangle(piece as usize), point, reach)
+        }),
         Leaf::Piece(piece) => pieces
             .get(piece as usize)
             .mesh_triangles()
-            .all(|(_, triangle)| is_farther_than(triangle, point, reach)),
+            .all(|(_, triangle)| is_triangle_certainly_farther(triangle, point, reach)),
     })
 }
 
@@ -72,7 +72,11 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
 
 /// Returns whether a tested axis proves that a point is farther than `reach` from a triangle. It tries the normal of
 /// the plane, and the directions from the edges and corners.
-pub(crate) fn is_farther_than(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
+pub(crate) fn is_triangle_certainly_farther(
+    triangle: [DVec3; 3],
+    point: DVec3,
+    reach: f64,
+) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();
     let separates = |axis: DVec3| {

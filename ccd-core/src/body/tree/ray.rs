@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 /// The sums of a ray's signed crossings with a surface: 1 where the ray leaves the solid, −1 where it enters.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RayCrossings {
+pub(crate) struct RayCrossingSums {
     /// The sum of the crossings beyond the ray's start. For a closed surface this is the winding number about points
     /// just ahead of the start.
     pub(crate) sum_ahead: i32,
@@ -29,14 +29,14 @@ pub(crate) struct RayCrossings {
 /// # Guarantee
 /// The count of crossings ahead of the point by more than rounding is that of exact arithmetic, and no crossing
 /// behind the point is counted. The surface of pieces that are not triangles consists of the mesh's faces on them.
-pub(crate) fn crossings(
+pub(crate) fn count_crossings(
     tree: &Tree,
     pieces: &Pieces,
     from: DVec3,
     slack: f64,
-) -> Option<RayCrossings> {
+) -> Option<RayCrossingSums> {
     let start = RayStart { from, slack };
-    (0..MAX_RAYS).find_map(|k| crossings_along(tree, pieces, start, direction(k)))
+    (0..MAX_RAYS).find_map(|k| count_crossings_along(tree, pieces, start, direction(k)))
 }
 
 /// The start point of a ray, and the distance up to which a triangle counts as containing it.
@@ -56,13 +56,13 @@ fn direction(k: u32) -> DVec3 {
     DVec3::new(radius * cos, radius * sin, height)
 }
 
-fn crossings_along(
+fn count_crossings_along(
     tree: &Tree,
     pieces: &Pieces,
     start: RayStart,
     along: DVec3,
-) -> Option<RayCrossings> {
-    let mut found = RayCrossings {
+) -> Option<RayCrossingSums> {
+    let mut found = RayCrossingSums {
         sum_ahead: 0,
         sum_at_start: 0,
         triangles_at_start: 0,
@@ -134,7 +134,7 @@ impl Sign {
     }
 }
 
-impl RayCrossings {
+impl RayCrossingSums {
     /// Adds the crossing of the ray with a triangle, if any; `None` if rounding leaves it uncertain whether they cross.
     fn add(&mut self, triangle: [DVec3; 3], start: RayStart) -> Option<()> {
         let along = self.direction;
@@ -169,7 +169,7 @@ impl RayCrossings {
             Sign::Unclear
         } else {
             match Sign::of_number(height, size(a) * size(b) * size(c)) {
-                Sign::Unclear => sign_by_edges(triangle, corners, sign),
+                Sign::Unclear => ray_side_by_edges(triangle, corners, sign),
                 clear => clear,
             }
         };
@@ -187,7 +187,7 @@ impl RayCrossings {
 
 /// Returns whether a triangle is ahead of a ray's start or behind it, computed from the triangle's edges. The edges may
 /// be far shorter than the vectors to the corners.
-fn sign_by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+fn ray_side_by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);

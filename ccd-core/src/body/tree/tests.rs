@@ -16,25 +16,33 @@ use glam::{DVec3, Vec3};
 const CHECK_TOLERANCE: f64 = 1e-14;
 
 /// Asserts that a body's tree has each piece once, within all bounds above it; returns the number of groups.
-fn check(body: &Body) -> usize {
+fn assert_tree_bounds_pieces(body: &Body) -> usize {
     let (tree, pieces) = (body.tree(), body.pieces());
     let mut seen = vec![0; pieces.len()];
-    let below_root = check_subtree(tree, pieces, 0, &mut seen);
+    let below_root = assert_subtree_bounds_pieces(tree, pieces, 0, &mut seen);
     assert!(seen.iter().all(|&n| n == 1), "each piece once: {seen:?}");
     assert_eq!(below_root.len(), pieces.len());
-    assert!(tree.span() >= farthest(pieces) * (1.0 - CHECK_TOLERANCE));
-    assert!(tree.bytes() >= size_of::<Node>() * tree.nodes.len());
+    assert!(
+        tree.max_distance_from_origin()
+            >= max_distance_from_origin(pieces) * (1.0 - CHECK_TOLERANCE)
+    );
+    assert!(tree.memory_usage() >= size_of::<Node>() * tree.nodes.len());
     tree.box_groups.len() + tree.triangle_groups.len()
 }
 
-fn farthest(pieces: &Pieces) -> f64 {
+fn max_distance_from_origin(pieces: &Pieces) -> f64 {
     let reach =
         |p: crate::Piece<'_>| p.points.iter().map(|&x| length(x)).fold(0.0, greater) + p.radius;
     pieces.iter().map(reach).fold(0.0, greater)
 }
 
 /// Asserts that a node and all nodes below it bound their pieces, and returns the pieces below.
-fn check_subtree(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
+fn assert_subtree_bounds_pieces(
+    tree: &Tree,
+    pieces: &Pieces,
+    id: NodeId,
+    seen: &mut [u32],
+) -> Vec<u32> {
     let NodeOrTriangle::Node(node) = tree.get(id) else {
         let piece = tree.piece(id).expect("a triangle");
         seen[piece as usize] += 1;
@@ -51,8 +59,8 @@ fn check_subtree(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> 
             let group = tree.box_group(group);
             for child in members(&group.header) {
                 let lane = (child - group.header.first) as usize;
-                let inside = check_subtree(tree, pieces, child, seen);
-                check_lane(group, lane, pieces, &inside);
+                let inside = assert_subtree_bounds_pieces(tree, pieces, child, seen);
+                assert_lane_bounds_pieces(group, lane, pieces, &inside);
                 let leaf = tree.piece(child).is_some();
                 assert_eq!(group.leaf_mask >> lane & 1 == 1, leaf);
                 below.extend(inside);
@@ -60,18 +68,18 @@ fn check_subtree(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> 
         }
         NodeChildren::Triangles(group) => {
             let group = &tree.triangle_group(group, pieces);
-            for child in members(&group.members) {
-                let lane = (child - group.members.first) as usize;
-                let inside = check_subtree(tree, pieces, child, seen);
+            for child in members(&group.header) {
+                let lane = (child - group.header.first) as usize;
+                let inside = assert_subtree_bounds_pieces(tree, pieces, child, seen);
                 let [piece] = inside[..] else {
                     panic!("one triangle");
                 };
-                check_triangle(group, lane, pieces.triangle(piece as usize));
+                assert_lane_holds_triangle(group, lane, pieces.triangle(piece as usize));
                 below.push(piece);
             }
         }
     }
-    check_node(node, pieces, &below);
+    assert_node_bounds_pieces(node, pieces, &below);
     below
 }
 
@@ -81,7 +89,7 @@ fn members(members: &GroupHeader) -> std::ops::Range<NodeId> {
 }
 
 /// Asserts that a node's box and ball contain all points of its pieces, rounding radii included.
-fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
+fn assert_node_bounds_pieces(node: &Node, pieces: &Pieces, below: &[u32]) {
     assert!(node.half.iter().all(|h| h.is_finite()) && node.radius.is_finite());
     for axis in node.axes {
         assert!((axis.as_dvec3().length() - 1.0).abs() < 4.0 * f64::from(f32::EPSILON));
@@ -106,7 +114,7 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
 }
 
 /// Asserts that the box and the ball in one lane of a group contain the child's points, about the rounded centre.
-fn check_lane(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
+fn assert_lane_bounds_pieces(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     let at =
         |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
     let centre = group.header.origin + at(&group.centre);
@@ -118,7 +126,8 @@ fn check_lane(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
             assert!(way.length() + piece.radius <= f64::from(group.radius[lane]) + slack);
             for k in 0..3 {
                 let reach = way.dot(at(&group.axes[k])).abs() + piece.radius;
-                let half = f64::from(group.half[k][lane]) + f64::from(group.rounding_radius[lane]);
+                let half =
+                    f64::from(group.half_extents[k][lane]) + f64::from(group.rounding_radius[lane]);
                 assert!(reach <= half + slack);
             }
             let from_origin = (point - group.header.origin).length() + piece.radius;
@@ -128,18 +137,18 @@ fn check_lane(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
 }
 
 /// Asserts that a group has a triangle's corners correctly rounded, and that its ball contains the exact corners.
-fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
+fn assert_lane_holds_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
     let mean = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     for (k, &corner) in triangle.iter().enumerate() {
-        let exact = corner - group.members.origin;
-        let slack = CHECK_TOLERANCE * (corner.length() + group.members.origin.length());
+        let exact = corner - group.header.origin;
+        let slack = CHECK_TOLERANCE * (corner.length() + group.header.origin.length());
         for axis in 0..3 {
             let rounded = f64::from(group.corners[k][axis][lane]);
             let allowed = exact[axis].abs() * f64::from(f32::EPSILON) / 2.0;
             assert!((rounded - exact[axis]).abs() <= allowed + f64::from(f32::MIN_POSITIVE));
         }
         assert!((corner - mean).length() <= f64::from(group.radius[lane]) + slack);
-        assert!(exact.length() <= f64::from(group.members.reach) + slack);
+        assert!(exact.length() <= f64::from(group.header.reach) + slack);
     }
 }
 
@@ -157,7 +166,7 @@ fn soups_of_every_kind_and_count() {
     let mut rng = rng(1);
     for count in (1..=80).chain([200, 511, 512, 513, 3_000]) {
         for _ in 0..3 {
-            let groups = check(&body(&random_soup(&mut rng, count)));
+            let groups = assert_tree_bounds_pieces(&body(&random_soup(&mut rng, count)));
             // Eight lanes are used: there are not many more groups than clusters of eight.
             assert!(groups <= 1 + count / 2, "{groups} for {count}");
         }
@@ -168,12 +177,12 @@ fn soups_of_every_kind_and_count() {
 fn single_equal_and_degenerate_pieces() {
     let corner = [DVec3::ZERO, DVec3::X, DVec3::Y];
     for count in [1, 2, 8, 9, 65, 300] {
-        check(&body(&vec![corner; count]));
-        check(&body(&vec![[DVec3::ONE; 3]; count]));
+        assert_tree_bounds_pieces(&body(&vec![corner; count]));
+        assert_tree_bounds_pieces(&body(&vec![[DVec3::ONE; 3]; count]));
         let line = |k: usize| [0.0, 0.3, 1.0].map(|t| (k as f64 + t) * DVec3::new(1.0, 2.0, 3.0));
-        check(&body(&(0..count).map(line).collect::<Vec<_>>()));
+        assert_tree_bounds_pieces(&body(&(0..count).map(line).collect::<Vec<_>>()));
         let flat = |k: usize| corner.map(|p| p + DVec3::new((k % 7) as f64, (k / 7) as f64, 0.0));
-        check(&body(&(0..count).map(flat).collect::<Vec<_>>()));
+        assert_tree_bounds_pieces(&body(&(0..count).map(flat).collect::<Vec<_>>()));
     }
 }
 
@@ -182,11 +191,11 @@ fn coordinates_up_to_the_largest_and_down_to_the_least() {
     let mut rng = rng(2);
     for scale in [1e-300, 1e-30, 1e-12, 1e6, 9e11] {
         for count in [1, 7, 100] {
-            let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::Mixed, count, 0.5)
+            let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::MixedSizes, count, 0.5)
                 .iter()
                 .map(|t| t.map(|p| p * scale))
                 .collect();
-            check(&body(&triangles));
+            assert_tree_bounds_pieces(&body(&triangles));
         }
     }
 }
@@ -207,13 +216,13 @@ fn components_whose_squares_are_no_numbers() {
                 [0, 1, 2].map(|k| t[k] * scale[k])
             })
             .collect();
-        check(&body(&triangles));
+        assert_tree_bounds_pieces(&body(&triangles));
     }
     // Frames computed from such normals had lengths off by up to a third.
     for k in 0..2_000 {
         let tiny = 1e-163 * 1.002f64.powi(k);
         let across = DVec3::new(-tiny, tiny, 0.3 * tiny);
-        check(&body(&[[DVec3::ZERO, DVec3::new(1.0, 1.0, -2.0), across]]));
+        assert_tree_bounds_pieces(&body(&[[DVec3::ZERO, DVec3::new(1.0, 1.0, -2.0), across]]));
     }
 }
 
@@ -235,7 +244,7 @@ fn polytopes_balls_and_capsules_are_held_with_their_radii() {
             })
             .collect();
         let pieces = Pieces::polytopes(&polytopes).unwrap();
-        check(&Body::new(&pieces, Volume::Surface).unwrap());
+        assert_tree_bounds_pieces(&Body::new(&pieces, Volume::Surface).unwrap());
     }
 }
 

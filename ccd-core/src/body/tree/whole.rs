@@ -1,6 +1,6 @@
 //! The bounding box of a whole body, in f64.
 
-use super::fit::{NodePoints, Sample, best_frame};
+use super::fit::{NodePoints, PointSample, best_frame};
 use crate::math::order::greater;
 use crate::math::vector::{bounding_box, componentwise_max, length};
 use crate::rounding::UNIT_ROUNDOFF_F64;
@@ -17,7 +17,7 @@ pub(crate) struct BodyBox {
     pub(crate) centre: DVec3,
     /// The axes of the box as columns; `slack` covers their error.
     pub(crate) axes: DMat3,
-    pub(crate) half: DVec3,
+    pub(crate) half_extents: DVec3,
     /// An upper bound of the distances of the pieces' points from the centre.
     pub(crate) radius: f64,
     /// The pieces' rounding radius, plus a bound of the errors of the axes and half extents.
@@ -26,7 +26,7 @@ pub(crate) struct BodyBox {
 
 impl BodyBox {
     /// Fits the box to all points of a body, in the best frame that a sample of the points gives.
-    pub(super) fn fit_to(node_points: &NodePoints<'_>, sample: &mut Sample) -> Self {
+    pub(super) fn fit_to(node_points: &NodePoints<'_>, sample: &mut PointSample) -> Self {
         sample.fill_from(node_points);
         let axes = best_frame(sample, node_points.are_triangles);
         let turned = axes.transpose();
@@ -50,7 +50,7 @@ impl BodyBox {
         BodyBox {
             centre,
             axes,
-            half,
+            half_extents: half,
             radius: (radius + node_points.radius) * (1.0 + 8.0 * UNIT_ROUNDOFF_F64),
             slack: node_points.radius + (3.0 * largest + 32.0 * UNIT_ROUNDOFF_F64) * radius,
         }

@@ -7,7 +7,7 @@ use crate::motion::pose::{Frame, Pose};
 use crate::problem::Problem;
 use crate::rounding::RAY_BOX_WIDENING_F64;
 use crate::settings::Settings;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{direction, random_box_corners};
 use crate::tests::worst::{WorstCaseSearch, share};
 
@@ -32,14 +32,14 @@ fn worst_box() {
         let [_, high] = node.projection_on(n);
         let axes = node.axes.map(|axis| axis.dot(n).abs());
         let allowed = RAY_BOX_WIDENING_F64 * node.radius * (axes[0] + axes[1] + axes[2]);
-        let middle = Double3::from(n).dot(Double3::from(node.centre));
+        let middle = DoubleDouble3::from(n).dot(DoubleDouble3::from(node.centre));
         let lost = |p| {
-            let height = Double3::from(n).dot(Double3::from(p));
-            let reach = Double::from(high - node.centre.dot(n)) - Double::from(allowed);
+            let height = DoubleDouble3::from(n).dot(DoubleDouble3::from(p));
+            let reach = DoubleDouble::from(high - node.centre.dot(n)) - DoubleDouble::from(allowed);
             (height - middle - reach).get()
         };
         let worst = points.iter().map(|&p| lost(p));
         Some(share(worst.fold(f64::NEG_INFINITY, greater), allowed))
     });
-    found.assert_within(400.0);
+    found.assert_tight_bound(400.0);
 }

@@ -1,17 +1,17 @@
 //! Converts pieces to triangles with mesh numbers.
 
 use super::{Corner, Face, NearSurface, PointBits};
-use crate::body::facets::fan_of;
+use crate::body::facets::fan_triangles;
 use crate::body::feature::Feature;
 use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
-use crate::body::tree::point_query::pieces_at;
+use crate::body::tree::point_query::polytopes_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
 /// A triangle: its feature in the mesh, and its corners with their mesh numbers. Corners have a number if the mesh has
 /// one.
-type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
+type NumberedTriangle = (Feature, [(DVec3, Option<u32>); 3]);
 
 impl NearSurface<'_> {
     /// Adds the triangles of a piece to the surface.
@@ -30,8 +30,8 @@ impl NearSurface<'_> {
 
     /// Returns the triangles of a piece: the mesh's triangles on it, or else those of its facets. A piece without
     /// facets gives one triangle if it has up to three points, and otherwise a degenerate triangle for each point.
-    fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
-        let mesh: Vec<Unpacked> = self.mesh_triangles_of(index, piece);
+    fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<NumberedTriangle> {
+        let mesh: Vec<NumberedTriangle> = self.mesh_triangles_of(index, piece);
         if !mesh.is_empty() {
             return mesh;
         }
@@ -52,7 +52,7 @@ impl NearSurface<'_> {
                 corners.map(|k| (point(k), self.mesh_number_of_point(index, k))),
             )
         };
-        let facets = piece.facets.iter().flat_map(fan_of);
+        let facets = piece.facets.iter().flat_map(fan_triangles);
         let hull = match piece.points.len() as u32 {
             _ if !piece.facets.is_empty() => facets.collect(),
             1 => vec![[0, 0, 0]],
@@ -64,7 +64,7 @@ impl NearSurface<'_> {
     }
 
     /// Returns the triangles of the mesh that lie on a polytope; empty if the polytope has none.
-    fn mesh_triangles_of(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
+    fn mesh_triangles_of(&self, index: u32, piece: &Piece<'_>) -> Vec<NumberedTriangle> {
         let mut triangles = piece.mesh_triangles().peekable();
         if triangles.peek().is_none() {
             return Vec::new();
@@ -99,7 +99,7 @@ impl NearSurface<'_> {
             id,
             ..
         } = &self.corners[corner as usize];
-        let there = || pieces_at(self.body.tree(), here.map(f64::from_bits).into());
+        let there = || polytopes_at(self.body.tree(), here.map(f64::from_bits).into());
         id.or_else(|| {
             let numbers = there().filter_map(|piece| {
                 let points = self.body.pieces().get(piece as usize).points;
@@ -123,7 +123,7 @@ impl NearSurface<'_> {
 
     fn find_or_add_corner(&mut self, point: DVec3, id: Option<u32>) -> u32 {
         let place = point_bits(point);
-        *self.corner_index.entry((place, id)).or_insert_with(|| {
+        *self.corner_indices.entry((place, id)).or_insert_with(|| {
             self.corners.push(Corner {
                 at: self.body_to_a.point(point),
                 position_bits: place,

@@ -113,7 +113,9 @@ fn a_piece_of_many_faces_is_sorted_once() {
     };
     let shifted = at(0.0, 0.0, 0.0099);
     let gaps = |a: &Body, b: &Body, pose: Pose| -> Vec<f64> {
-        let pairs = still(a, b, pose, &config).contacts_at(0.0).unwrap();
+        let pairs = problem_of_still_bodies(a, b, pose, &config)
+            .contacts_at(0.0)
+            .unwrap();
         pairs.iter().map(|pair| pair.separation.upper).collect()
     };
     let (of_hull, of_triangles) = (
@@ -131,7 +133,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
         budget: 2 * count,
         ..config
     };
-    let refused = still(&hull, &socket, shifted, &config).contacts_at(0.0);
+    let refused = problem_of_still_bodies(&hull, &socket, shifted, &config).contacts_at(0.0);
     let budget = 2 * count;
     assert_eq!(refused, Err(ContactsError::TooManyPairs { budget }));
 }
@@ -153,6 +155,6 @@ fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
         let body = Body::new(&pieces, Volume::Surface).unwrap();
         let pairs = contacts(&point, &body, at(0.0, 0.0, 1.0), 0.6);
         assert_eq!(feature_names(&pairs), ["v0 v0"], "{radii:?}");
-        check_bounds(&pairs, 0.5, -DVec3::Z);
+        check_separations(&pairs, 0.5, -DVec3::Z);
     }
 }

@@ -169,7 +169,7 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
         for f in edges(b) {
             let ends = |mesh: &Mesh, ends: [u32; 2]| ends.map(|v| mesh.points[v as usize]);
             let names = [e, f].map(|[v, w]| Feature::Edge(v, w));
-            offers.edges(ends(a, e), ends(b, f), names);
+            offers.add_edge_pair(ends(a, e), ends(b, f), names);
         }
     }
     offers.into_expected_pairs([a, b])
@@ -243,7 +243,7 @@ impl CollectedPairs {
 
     /// Adds the pair of two edges whose nearest points are inside both edges. The pair is clear if the edges are nearer
     /// there than at any end.
-    fn edges(&mut self, e: [DVec3; 2], f: [DVec3; 2], names: Key) {
+    fn add_edge_pair(&mut self, e: [DVec3; 2], f: [DVec3; 2], names: Key) {
         let (d, along, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
         let across = d.cross(along);
         let s = way.cross(along).dot(across) / across.length_squared();

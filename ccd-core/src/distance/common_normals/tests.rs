@@ -24,7 +24,7 @@ fn rotated_offsets(turn: DQuat, offsets: &[DVec3]) -> Vec<DVec3> {
 }
 
 /// Returns vectors from a point of the plane z = 0 to points around it in that plane.
-fn level() -> Vec<DVec3> {
+fn level_offsets() -> Vec<DVec3> {
     vec![DVec3::X, -DVec3::X, 0.1 * DVec3::Y, -3.0 * DVec3::Y]
 }
 
@@ -111,7 +111,7 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
 
 #[test]
 fn surfaces_that_enclose_each_other_have_no_common_normal() {
-    let normals = common_normals(&level(), &[DVec3::Z, -DVec3::Z]);
+    let normals = common_normals(&level_offsets(), &[DVec3::Z, -DVec3::Z]);
     assert_eq!(normals.nearest_normal(DVec3::Z), None);
     assert_eq!(
         common_normals(&[DVec3::NAN], &[]).nearest_normal(DVec3::X),

@@ -87,7 +87,7 @@ impl<'a> FlatOutline<'a> {
     }
 
     /// Returns a point on each side of the outline, with the direction from that side into the outline.
-    fn side_points(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+    fn side_half_planes(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let count = self.count();
         (0..count).map(move |k| {
             let (from, to) = (self.corner(k), self.corner((k + 1) % count));
@@ -96,7 +96,7 @@ impl<'a> FlatOutline<'a> {
     }
 
     fn contains_point(&self, point: DVec3) -> bool {
-        self.side_points()
+        self.side_half_planes()
             .all(|(from, inward)| inward.dot(point - from) > 0.0)
     }
 
@@ -105,7 +105,7 @@ impl<'a> FlatOutline<'a> {
     fn points_beside_edge(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let way = to - from;
         let (mut enter, mut leave) = (0.0, 1.0);
-        for (side, inward) in self.side_points() {
+        for (side, inward) in self.side_half_planes() {
             let (depth, speed) = (inward.dot(from - side), inward.dot(way));
             match () {
                 () if speed > 0.0 => enter = greater(enter, -depth / speed),

@@ -269,7 +269,7 @@ fn points_near_very_long_faces_are_decided() {
 
 /// Returns the outcome for a plate in a cube, perpendicular to y, and so thin that no face proves an intersection; `x`
 /// and `z` are its half extents.
-fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Option<Outcome> {
+fn outcome_of_plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Option<Outcome> {
     let cube = solid(&cube(1.0, n));
     let plate = Body::cuboid([x, 1e-33, z]).unwrap();
     let problem = Problem::about(
@@ -286,24 +286,24 @@ fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Option<Outcome> {
 #[test]
 fn a_thin_piece_is_examined_at_its_corners() {
     // The middle of the plate is outside, and half of its corners are inside.
-    let found = plate_in_cube(1, 1.5 * DVec3::X, [1.5, 0.25]);
+    let found = outcome_of_plate_in_cube(1, 1.5 * DVec3::X, [1.5, 0.25]);
     assert!(
         matches!(found, Some(Outcome::Overlapping { overlap: Overlap::AInsideB(p), .. }) if p.x == 0.0),
         "{found:?}"
     );
-    let beside = plate_in_cube(1, 3.0 * DVec3::X, [1.5, 0.25]);
+    let beside = outcome_of_plate_in_cube(1, 3.0 * DVec3::X, [1.5, 0.25]);
     assert_eq!(beside, None);
 }
 
 #[test]
 fn a_thin_piece_is_examined_beside_edges_on_it() {
     // All corners of the plate are outside, and so is its middle: two faces of the cube meet on it.
-    let found = plate_in_cube(2, 2.0 * DVec3::X, [2.5, 3.0]);
+    let found = outcome_of_plate_in_cube(2, 2.0 * DVec3::X, [2.5, 3.0]);
     assert!(
         matches!(found, Some(Outcome::Overlapping { overlap: Overlap::AInsideB(p), .. }) if p.abs().max_element() < 1.0),
         "{found:?}"
     );
-    let beside = plate_in_cube(2, 4.0 * DVec3::X, [2.5, 3.0]);
+    let beside = outcome_of_plate_in_cube(2, 4.0 * DVec3::X, [2.5, 3.0]);
     assert_eq!(beside, None);
 }
 

@@ -1,6 +1,6 @@
 //! Tests that intersecting pieces are distinguished from touching ones.
 
-use super::{InnerPolytope, Intersection, intersects};
+use super::{Intersection, OverlapPolytope, decide_intersection};
 use crate::body::Body;
 use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
@@ -8,7 +8,7 @@ use crate::distance::oracle::{Claim, DistanceOracle, PiecePair};
 use crate::distance::separation;
 use crate::math::order::greater;
 use crate::motion::pose::{Frame, Pose};
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{RngExt, point_in_ball, rng, rotation, two_random_triangles};
@@ -17,9 +17,9 @@ use glam::DVec3;
 const ROUNDING: f64 = 1e-13;
 
 /// Returns whether the pieces intersect, and asserts that this is decided.
-fn assert_decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
+fn intersects_decidedly(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
-    match intersects(pair, &checked, ROUNDING, &mut InnerPolytope::default()) {
+    match decide_intersection(pair, &checked, ROUNDING, &mut OverlapPolytope::default()) {
         Intersection::Certain => true,
         Intersection::None => false,
         Intersection::Undecided => panic!("{pair:?}"),
@@ -40,7 +40,7 @@ fn triangles(a: &Triangle, b: &Triangle) -> bool {
         b_to_a: Frame::IDENTITY,
     };
     let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
-    assert_decided(&pair, &claim)
+    intersects_decidedly(&pair, &claim)
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn boxes(b_to_a: Frame) -> bool {
         a: named(middle),
         b: named(b_to_a.inverse_point(middle)),
     };
-    assert_decided(&pair, &claim)
+    intersects_decidedly(&pair, &claim)
 }
 
 /// Returns four corners of the cube of half extent 1, and weights with which they represent a point.
@@ -178,7 +178,7 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
             b_to_a: turn.into(),
         };
         let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
-        assert_decided(&pair, &claim)
+        intersects_decidedly(&pair, &claim)
     };
     assert!(cross(0.0) && cross(0.5) && cross(1.0 - 1e-9));
     assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
@@ -204,7 +204,7 @@ fn false_claims_do_not_change_the_decision() {
             b: ConvexCombination::point(rng.random_range(0..8)),
         };
         let exact = overlaps_by_separating_axes(&pair);
-        assert_eq!(assert_decided(&pair, &lie), exact, "{pose:?}");
+        assert_eq!(intersects_decidedly(&pair, &lie), exact, "{pose:?}");
         overlaps += usize::from(exact);
         others += usize::from(!exact);
     }
@@ -265,7 +265,7 @@ fn flat_differences_have_no_tetrahedron() {
             b_to_a: at(turn * DVec3::Z),
         };
         assert_eq!(super::tetrahedron(&pair, ROUNDING), None);
-        assert!(!InnerPolytope::default().start_with_tetrahedron(&pair, ROUNDING));
+        assert!(!OverlapPolytope::default().start_with_tetrahedron(&pair, ROUNDING));
     }
 }
 
@@ -285,9 +285,9 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
     };
     let (checked, mut inner) = (
         separation::check(&pair, &claim, ROUNDING),
-        InnerPolytope::default(),
+        OverlapPolytope::default(),
     );
-    let decision = intersects(&pair, &checked, ROUNDING, &mut inner);
+    let decision = decide_intersection(&pair, &checked, ROUNDING, &mut inner);
     assert_eq!(decision, Intersection::None);
     assert!(inner.corners.is_empty());
 }
@@ -303,7 +303,7 @@ fn balls_that_touch_exactly_do_not_intersect() {
     };
     let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
     let checked = separation::check(&pair, &claim, 0.0);
-    let decision = intersects(&pair, &checked, 0.0, &mut InnerPolytope::default());
+    let decision = decide_intersection(&pair, &checked, 0.0, &mut OverlapPolytope::default());
     assert_eq!(decision, Intersection::None);
 }
 
@@ -311,18 +311,19 @@ fn balls_that_touch_exactly_do_not_intersect() {
 /// axes are the normals of both pieces and the cross products of their edges; for flat pieces also the normals of their
 /// edges within either plane.
 fn overlaps_by_separating_axes(pair: &PiecePair<'_>) -> bool {
-    let a = PieceFeatures::of_piece(&pair.a, |p| p);
-    let b = PieceFeatures::of_piece(&pair.b, |p| pair.b_to_a.point(p));
-    let across = |p: &[Double3], q: &[Double3]| -> Vec<Double3> {
+    let a = PieceFeatures::from_piece(&pair.a, |p| p);
+    let b = PieceFeatures::from_piece(&pair.b, |p| pair.b_to_a.point(p));
+    let across = |p: &[DoubleDouble3], q: &[DoubleDouble3]| -> Vec<DoubleDouble3> {
         let crossed = p.iter().flat_map(|e| q.iter().map(|f| e.cross(*f)));
         crossed.collect()
     };
-    let depth = |axis: &Double3| {
-        let heights =
-            |points: &[Double3]| -> Vec<Double> { points.iter().map(|p| axis.dot(*p)).collect() };
+    let depth = |axis: &DoubleDouble3| {
+        let heights = |points: &[DoubleDouble3]| -> Vec<DoubleDouble> {
+            points.iter().map(|p| axis.dot(*p)).collect()
+        };
         let (p, q) = (heights(&a.points), heights(&b.points));
-        let farthest = |h: &[Double]| h.iter().copied().reduce(Double::max).unwrap();
-        let nearest = |h: &[Double]| h.iter().copied().reduce(Double::min).unwrap();
+        let farthest = |h: &[DoubleDouble]| h.iter().copied().reduce(DoubleDouble::max).unwrap();
+        let nearest = |h: &[DoubleDouble]| h.iter().copied().reduce(DoubleDouble::min).unwrap();
         let (one, other) = (farthest(&p) - nearest(&q), farthest(&q) - nearest(&p));
         (one.min(other) / axis.length()).get()
     };
@@ -343,14 +344,14 @@ fn overlaps_by_separating_axes(pair: &PiecePair<'_>) -> bool {
 
 /// The points, the distinct edges and the facet normals of a piece.
 struct PieceFeatures {
-    points: Vec<Double3>,
-    edges: Vec<Double3>,
-    normals: Vec<Double3>,
+    points: Vec<DoubleDouble3>,
+    edges: Vec<DoubleDouble3>,
+    normals: Vec<DoubleDouble3>,
 }
 
 impl PieceFeatures {
-    fn of_piece(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
-        let points: Vec<Double3> = piece.points.iter().map(|&p| place(p).into()).collect();
+    fn from_piece(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
+        let points: Vec<DoubleDouble3> = piece.points.iter().map(|&p| place(p).into()).collect();
         let all: Vec<u32> = (0..points.len() as u32).collect();
         let loops: Vec<&[u32]> = if piece.facets.is_empty() {
             vec![&all]

@@ -17,19 +17,23 @@ use crate::settings::{Settings, StartPolicy};
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{
-    Kind, Pcg64, RngExt, Scene, body, direction, distance, pieces, rng, scene,
+    Pcg64, RngExt, Scene, SceneKind, body, direction, distance, pieces, rng, scene,
 };
 use glam::DVec3;
 use rand::seq::SliceRandom;
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
+    BestFirst::default().answer_first_contact(problem, &mut ExhaustiveOracle)
 }
 
 /// Draws a scene that does not begin in contact.
 fn scene_apart_at_start(rng: &mut Pcg64) -> Scene {
     loop {
-        let kind = [Kind::Any, Kind::Sliding, Kind::NearRim][rng.random_range(0..3)];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::Sliding,
+            SceneKind::NearRim,
+        ][rng.random_range(0..3)];
         let scene = scene(rng, kind, 12);
         let problem = scene.problem();
         if distance(&problem, 0.0) > 2.0 * problem.tolerance {
@@ -47,7 +51,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
         let problem = scene.problem();
         let (margin, tolerance) = (problem.margin, problem.tolerance);
         let answer = solve(&problem);
-        let twin = Naive::default().solve(&problem, &mut ExhaustiveOracle);
+        let twin = Naive::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
         let (until, least) = match (answer.outcome, twin.outcome) {
             (Outcome::Contact { time, contact }, Outcome::Contact { time: other, .. }) => {
                 hits += 1;
@@ -94,7 +98,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
     let mut rng = rng(11);
     let (mut hits, mut misses, mut later) = (0, 0, 0);
     for number in 0..800 {
-        let scene = scene_apart_at_start(&mut rng).accelerating(&mut rng);
+        let scene = scene_apart_at_start(&mut rng).with_accelerations(&mut rng);
         let problem = scene.problem();
         if distance(&problem, 0.0) <= 2.0 * problem.tolerance {
             continue;
@@ -181,7 +185,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
         };
         let mut last = 0.0;
         for budget in 0..visits.min(60) {
-            scene.config.budget = budget;
+            scene.settings.budget = budget;
             let answer = solve(&scene.problem());
             let Outcome::Unresolved(Unresolved {
                 safe_until,
@@ -199,7 +203,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
             last = safe_until;
             ended += 1;
         }
-        scene.config.budget = work;
+        scene.settings.budget = work;
         assert!(!matches!(
             solve(&scene.problem()).outcome,
             Outcome::Unresolved(_)
@@ -216,8 +220,14 @@ fn answers_do_not_depend_on_earlier_queries() {
         let scene = scene_apart_at_start(&mut rng);
         let problem = scene.problem();
         let fresh = solve(&problem);
-        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
-        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
+        assert_eq!(
+            kept.answer_first_contact(&problem, &mut ExhaustiveOracle),
+            fresh
+        );
+        assert_eq!(
+            kept.answer_first_contact(&problem, &mut ExhaustiveOracle),
+            fresh
+        );
     }
 }
 
@@ -227,7 +237,7 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
     let (mut unresolved, mut others) = (0, 0);
     for _ in 0..300 {
         let mut scene = scene_apart_at_start(&mut rng);
-        scene.config.budget = 20_000;
+        scene.settings.budget = 20_000;
         let problem = scene.problem();
         let truth = match solve(&problem).outcome {
             Outcome::Contact { time, .. } => time,
@@ -246,7 +256,7 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
             ConstantOracle(Ok(lie)),
             ConstantOracle(Err(GiveUpReason::Cycle)),
         ] {
-            let answer = BestFirst::default().solve(&problem, &mut { oracle });
+            let answer = BestFirst::default().answer_first_contact(&problem, &mut { oracle });
             match answer.outcome {
                 Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                     unresolved += 1;

@@ -1,6 +1,6 @@
 //! The reusable lists of the search for the nearest pieces.
 
-use crate::engine::capacity::empty;
+use crate::engine::capacity::clear_and_shrink;
 use crate::engine::nodes::siblings::Siblings;
 use crate::engine::queue::Queue;
 
@@ -18,8 +18,8 @@ pub(crate) struct SearchBuffers {
 impl SearchBuffers {
     pub(crate) fn clear(&mut self) {
         self.waiting_pairs.clear();
-        empty(&mut self.touching_pairs);
-        empty(&mut self.pieces);
+        clear_and_shrink(&mut self.touching_pairs);
+        clear_and_shrink(&mut self.pieces);
     }
 
     /// Returns all measured pairs of pieces that are not proven apart, and the list of pieces as scratch memory.

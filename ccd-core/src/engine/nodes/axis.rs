@@ -1,7 +1,7 @@
 //! Finds separating axes of eight pairs of nodes at once.
 
 use super::shape::{Children, OtherNode};
-use crate::math::simd::{LEAST_DIVISOR, Vec3x8, choose, splat};
+use crate::math::simd::{LEAST_DIVISOR, Vec3x8, select_vectors, splat};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.
@@ -24,7 +24,7 @@ pub(crate) fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(
     offset: Vec3x8<L>,
 ) -> AxesX8<L> {
     let level = offset.level();
-    let between = children.offset_to(other.offset_near(offset));
+    let between = children.offset_from_nearest(other.offset_to_nearest(offset));
     let between = axis_along(children, other, offset, between);
     let own = oriented_towards(children.normal(level), offset);
     let own = AxesX8::new(
@@ -99,7 +99,7 @@ pub(crate) fn oriented_towards<L: Simd>(n: Vec3x8<L>, offset: Vec3x8<L>) -> Vec3
 fn wider_gap_axis<L: Simd>(a: AxesX8<L>, b: AxesX8<L>) -> AxesX8<L> {
     let pick = b.gap.simd_gt(a.gap);
     AxesX8 {
-        n: choose(pick, b.n, a.n),
+        n: select_vectors(pick, b.n, a.n),
         gap: pick.select(b.gap, a.gap),
         split_extent: pick.select(b.split_extent, a.split_extent),
         other_extent: pick.select(b.other_extent, a.other_extent),

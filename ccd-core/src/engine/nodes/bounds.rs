@@ -9,7 +9,7 @@ use super::shape::{Children, OtherNode};
 use crate::body::tree::LANES;
 use crate::math::order::lesser;
 use crate::math::simd::splat;
-use crate::tuning::{ADDED_THICKNESS, MIN_SWEEP, REVISIT_DISTANCE};
+use crate::tuning::{MIN_REVISIT_SWEEP, REVISIT_DISTANCE, THICKNESS_PER_RADIUS};
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 /// The free times of eight pairs of nodes, and the choices for the next step of each pair.
@@ -32,7 +32,7 @@ pub(crate) struct EightPairBounds {
 /// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
 /// much larger, planes that turn with the body of these nodes are tried, too.
 #[inline(always)]
-pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
+pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     level: L,
     children: &C,
     other: &P,
@@ -45,8 +45,8 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
     let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
     let revisit = widest.gap - motion.slack - (radius + other.radius()) * REVISIT_DISTANCE;
-    let split_child = (widest.split_extent + radius * ADDED_THICKNESS)
-        - (widest.other_extent + ADDED_THICKNESS * other.radius());
+    let split_child = (widest.split_extent + radius * THICKNESS_PER_RADIUS)
+        - (widest.other_extent + THICKNESS_PER_RADIUS * other.radius());
     let mut free = pairs.free(widest).max(pairs.free(passing));
     let mut revisit = mask_bits(revisit.simd_gt(0.0));
     if let Some(past) = PassingPairs::new(&pairs, widest) {
@@ -103,16 +103,21 @@ impl<L: Simd> PassingPairs<L> {
         match motion.larger_body? {
             LargerBody::SplitBody => Some(PassingPairs {
                 turning_plane_time: pairs.free_times_with_split_body(axis),
-                spin: motion.split.rate,
-                arm_length: splat(level, motion.split.distance_from_centre(other.centre())),
+                spin: motion.split_rotation.rate,
+                arm_length: splat(
+                    level,
+                    motion.split_rotation.distance_from_centre(other.centre()),
+                ),
                 large_radius: children.radius(level),
                 small_radius: splat(level, other.radius()),
                 large_is_piece: children.pieces(level),
             }),
             LargerBody::OtherBody => Some(PassingPairs {
                 turning_plane_time: pairs.free_times_with_other_body(axis),
-                spin: motion.other.rate,
-                arm_length: motion.other.distances_from_centre(children.centre(level)),
+                spin: motion.other_rotation.rate,
+                arm_length: motion
+                    .other_rotation
+                    .distances_from_centre(children.centre(level)),
                 large_radius: splat(level, other.radius()),
                 small_radius: children.radius(level),
                 large_is_piece: mask32x8::splat(level, other.is_piece()),
@@ -123,7 +128,7 @@ impl<L: Simd> PassingPairs<L> {
     /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
     fn revisit_mask(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
-        let swept = free * self.spin * self.arm_length - self.large_radius * MIN_SWEEP;
+        let swept = free * self.spin * self.arm_length - self.large_radius * MIN_REVISIT_SWEEP;
         let clear = apart - self.small_radius * REVISIT_DISTANCE;
         swept.simd_gt(0.0) | self.large_is_piece & clear.simd_gt(0.0)
     }
@@ -137,10 +142,10 @@ impl<L: Simd> PassingPairs<L> {
 #[repr(align(32))]
 pub(crate) struct FreeTimes([u32; LANES]);
 
-const LANE_MASK: u32 = LANES as u32 - 1;
+const LANE_INDEX_MASK: u32 = LANES as u32 - 1;
 
 /// The value of a finished pair, greater than all others.
-const FINISHED_BITS: u32 = f32::INFINITY.to_bits() | LANE_MASK;
+const FINISHED_BITS: u32 = f32::INFINITY.to_bits() | LANE_INDEX_MASK;
 
 impl FreeTimes {
     /// Creates the times of a single pair, in the first lane, with a free time of 0.
@@ -157,7 +162,7 @@ impl FreeTimes {
         let free = free.simd_gt(0.0).select(free, splat(level, 0.0));
         let used = mask32x8::from_bitmask(level, used.into());
         let free: u32x8<L> = used.select(free, splat(level, f32::INFINITY)).bitcast();
-        FreeTimes(*(free & !LANE_MASK | lanes))
+        FreeTimes(*(free & !LANE_INDEX_MASK | lanes))
     }
 
     /// Returns the least free time; infinity if all pairs are finished.
@@ -176,7 +181,7 @@ impl FreeTimes {
     /// Returns the lane with the least free time.
     #[inline]
     pub(crate) fn least_lane(&self) -> usize {
-        (self.least_bits() & LANE_MASK) as usize
+        (self.least_bits() & LANE_INDEX_MASK) as usize
     }
 
     /// Marks the pair with the least free time as finished, and returns its lane.
@@ -187,7 +192,7 @@ impl FreeTimes {
         for bits in &mut self.0 {
             *bits = if *bits == least { FINISHED_BITS } else { *bits };
         }
-        (least & LANE_MASK) as usize
+        (least & LANE_INDEX_MASK) as usize
     }
 
     /// Returns the least of the eight values, by halving the lanes until one is left.
@@ -199,7 +204,7 @@ impl FreeTimes {
     }
 
     /// Marks the pair in a lane as finished.
-    pub(crate) fn finish(&mut self, lane: usize) {
+    pub(crate) fn finish_lane(&mut self, lane: usize) {
         self.0[lane] = FINISHED_BITS;
     }
 
@@ -212,7 +217,7 @@ impl FreeTimes {
 /// Returns the free time in a packed value, without the bits of its lane.
 #[inline]
 fn unpack_time(bits: u32) -> f32 {
-    f32::from_bits(bits & !LANE_MASK)
+    f32::from_bits(bits & !LANE_INDEX_MASK)
 }
 
 #[cfg(test)]

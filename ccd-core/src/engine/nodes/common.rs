@@ -5,9 +5,9 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::relative::RelativePath;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
-use crate::rounding::{ARM_DISTANCE_SHARE, LEAST_GAP_F32, RATE_ERROR_F32};
+use crate::rounding::{ARM_INCREASE_PER_DISTANCE, LEAST_GAP_F32, RATE_ERROR_F32};
 use crate::shortcuts::Shortcut;
-use crate::tuning::{CLOSED_GAP, MUCH_LARGER_RATIO};
+use crate::tuning::{CLOSED_GAP, MIN_TURNING_PLANE_RADIUS_RATIO};
 use glam::Vec3;
 use std::cell::OnceCell;
 
@@ -29,7 +29,7 @@ pub(crate) struct NodeContext<'p> {
     /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,
     /// A bound of the rounding of closing rates.
-    pub(crate) rate_slack: f32,
+    pub(crate) rate_allowance: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.
     pub(crate) closed_gap: f32,
     /// The ratio of radii above which a node counts as much larger than another.
@@ -48,7 +48,7 @@ fn speed(a: &BodyWithPath<'_>, b: &BodyWithPath<'_>) -> f64 {
         let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
         let start = distance(other.path.point_at_start(ball), own.path.centre_at(0.0));
         let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
-        own.path.rate * (reach(own) + ARM_DISTANCE_SHARE * places)
+        own.path.rate * (reach(own) + ARM_INCREASE_PER_DISTANCE * places)
     };
     straight + turning(a, b) + turning(b, a)
 }
@@ -76,10 +76,10 @@ impl<'p> NodeContext<'p> {
             gap: round_up_to_f32(problem.gap()),
             node_gap: round_up_to_f32(problem.node_gap()),
             rounding: round_up_to_f32(problem.rounding),
-            rate_slack: RATE_ERROR_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
+            rate_allowance: RATE_ERROR_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
             closed_gap: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
             much_larger_ratio: if problem.uses_shortcut(Shortcut::TurningNodes) {
-                MUCH_LARGER_RATIO
+                MIN_TURNING_PLANE_RADIUS_RATIO
             } else {
                 f32::INFINITY
             },

@@ -18,8 +18,8 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) velocity: Vec3,
     /// The derivative of `velocity`; `None` if both centres accelerate equally.
     pub(crate) acceleration: Option<Vec3>,
-    pub(crate) split: BodyRotation,
-    pub(crate) other: BodyRotation,
+    pub(crate) split_rotation: BodyRotation,
+    pub(crate) other_rotation: BodyRotation,
     /// The time left to the end of the duration.
     pub(crate) horizon: f32,
     /// The gap to keep, plus the rounding of a gap.
@@ -27,7 +27,7 @@ pub(crate) struct RelativeMotionF32 {
     /// The excess of a gap over the slack up to which the gap counts as closed.
     pub(crate) closed_gap: f32,
     /// A bound of the rounding of a closing rate.
-    pub(crate) rate_slack: f32,
+    pub(crate) rate_allowance: f32,
     pub(crate) larger_body: Option<LargerBody>,
 }
 
@@ -52,7 +52,7 @@ pub(crate) struct EightPairs<'a, L: Simd, C, P> {
     /// The velocity of the other node's centre due to rotation.
     pub(crate) other_rotational_velocity: Vec3x8<L>,
     /// An upper bound of the speeds of the other node's points due to rotation.
-    pub(crate) other_speed: f32x8<L>,
+    pub(crate) other_rotational_speed: f32x8<L>,
 }
 
 impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
@@ -69,8 +69,8 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         motion: &'a RelativeMotionF32,
     ) -> Self {
         let (centre, other_centre) = (children.centre(level), Vec3x8::splat(level, other.centre()));
-        let turning = motion.split.velocity(centre);
-        let other_turning = motion.other.velocity(other_centre);
+        let turning = motion.split_rotation.velocity(centre);
+        let other_turning = motion.other_rotation.velocity(other_centre);
         let velocity = Vec3x8::splat(level, motion.velocity);
         EightPairs {
             children,
@@ -80,12 +80,12 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the second derivatives.
             speed: turning.length()
-                + children.radius(level) * motion.split.rate
-                + motion.rate_slack,
+                + children.radius(level) * motion.split_rotation.rate
+                + motion.rate_allowance,
             other_rotational_velocity: other_turning,
-            other_speed: other_turning.length()
-                + motion.other.rate * other.radius()
-                + motion.rate_slack,
+            other_rotational_speed: other_turning.length()
+                + motion.other_rotation.rate * other.radius()
+                + motion.rate_allowance,
         }
     }
 
@@ -94,17 +94,18 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     pub(crate) fn free(&self, axis: AxesX8<L>) -> f32x8<L> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
-        let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
+        let mut rate = axis.n.dot(self.velocity) + motion.rate_allowance;
         let mut second_derivative = splat(axis.n.level(), LEAST_SECOND_DERIVATIVE_F32);
-        if motion.split.is_turning {
-            let m = motion.split.cross_angular_velocity(axis.n);
+        if motion.split_rotation.is_turning {
+            let m = motion.split_rotation.cross_angular_velocity(axis.n);
             rate += self.children.extent_along(m);
-            second_derivative += second_derivative_bound(m, motion.split.rate, self.speed);
+            second_derivative += second_derivative_bound(m, motion.split_rotation.rate, self.speed);
         }
-        if motion.other.is_turning {
-            let m = motion.other.cross_angular_velocity(axis.n);
+        if motion.other_rotation.is_turning {
+            let m = motion.other_rotation.cross_angular_velocity(axis.n);
             rate += self.other.extent_along(m);
-            second_derivative += second_derivative_bound(m, motion.other.rate, self.other_speed);
+            second_derivative +=
+                second_derivative_bound(m, motion.other_rotation.rate, self.other_rotational_speed);
         }
         let apart = axis.gap - motion.slack;
         if let Some(acceleration) = motion.acceleration {
@@ -116,7 +117,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
                 rate,
                 second_derivative + along + rounding,
             )
-        } else if motion.split.is_turning || motion.other.is_turning {
+        } else if motion.split_rotation.is_turning || motion.other_rotation.is_turning {
             clock::free_time(apart, motion.closed_gap, rate, second_derivative)
         } else {
             clock::free_time_at_constant_rate(apart, motion.closed_gap, rate)

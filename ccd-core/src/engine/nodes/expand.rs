@@ -1,6 +1,6 @@
 //! Splits one node of a pair: its children are bounded against the other node, at the poses at the pair's clock.
 
-use super::bounds::{EightPairBounds, bound};
+use super::bounds::{EightPairBounds, bound_eight_pairs};
 use super::common::NodeContext;
 use super::eight_pairs::BodyRotation;
 use super::eight_pairs::{LargerBody, RelativeMotionF32};
@@ -37,7 +37,7 @@ pub(crate) struct Split {
 
 impl Split {
     /// Creates the split of a node in which all its children are bounded.
-    pub(crate) fn of_all_children(body: WhichBody, node: NodeId, other: NodeId) -> Self {
+    pub(crate) fn with_all_children(body: WhichBody, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
             node,
@@ -60,7 +60,7 @@ pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansi
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn measure(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
+pub(crate) fn measure_children(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
     let mut expansion = bound_children(common, split, s, ClosingRate::Unit);
     // A second visit would give the same result.
     expansion.bounds.revisit_mask = 0;
@@ -85,11 +85,11 @@ fn bound_children(
     s: f64,
     closing_rate: ClosingRate,
 ) -> Expansion {
-    vectorize!(common.problem.level, level => split_node(level, common, split, s, closing_rate))
+    vectorize!(common.problem.level, level => bound_children_at_level(level, common, split, s, closing_rate))
 }
 
 #[inline(always)]
-fn split_node<L: Simd>(
+fn bound_children_at_level<L: Simd>(
     level: L,
     common: &NodeContext<'_>,
     split: &Split,
@@ -110,7 +110,7 @@ fn split_node<L: Simd>(
         }
         NodeChildren::Triangles(group) => {
             let group = &tree.triangle_group(group, body.pieces());
-            let members = &group.members;
+            let members = &group.header;
             (motion.bound(group, members), members.first)
         }
         NodeChildren::Piece(_) => unreachable!("a single piece has no children"),
@@ -121,7 +121,7 @@ fn split_node<L: Simd>(
 /// The relative motion of the two bodies at a clock, in the frame of the body whose node is split.
 struct RelativeMotion<'p, L: Simd> {
     level: L,
-    common: &'p NodeContext<'p>,
+    node_context: &'p NodeContext<'p>,
     split: &'p Split,
     split_side: &'p BodyWithPath<'p>,
     other_side: &'p BodyWithPath<'p>,
@@ -146,7 +146,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
         let view = common.relative_path_from(split.body);
         RelativeMotion {
             level,
-            common,
+            node_context: common,
             split,
             split_side: split.body.of(common.problem),
             other_side: split.body.other().of(common.problem),
@@ -168,7 +168,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
         let other_centre = centre + offset;
         let group_view = GroupMotion {
             rotation,
-            turn: rotation.narrow(),
+            rotation_f32: rotation.narrow(),
             centre: centre.as_vec3(),
             other_centre,
             motion: self,
@@ -191,7 +191,7 @@ struct GroupMotion<'m, L: Simd> {
     /// The rotation from the other body's frame to the split body's frame.
     rotation: PackedMatrix<L>,
     /// The same rotation in f32, by columns.
-    turn: [f32x4<L>; 3],
+    rotation_f32: [f32x4<L>; 3],
     /// The centre of rotation of the split body, relative to the group's origin.
     centre: Vec3,
     other_centre: PackedVector<L>,
@@ -205,15 +205,19 @@ impl<L: Simd> GroupMotion<'_, L> {
             ClosingRate::Unit => self.motion_at_unit_rate(other.centre(), other.radius()),
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.members.count);
-        bound(self.motion.level, group, other, &motion, lanes)
+        bound_eight_pairs(self.motion.level, group, other, &motion, lanes)
     }
 
     #[inline(always)]
     fn node(&self, node: &Node) -> OtherBox {
         let [u, v, w] = node.axes;
         OtherBox {
-            centre: self.placed(node.centre).as_vec3(),
-            axes: [self.turned(u), self.turned(v), self.turned(w)],
+            centre: self.to_group_point(node.centre).as_vec3(),
+            axes: [
+                self.to_group_vector(u),
+                self.to_group_vector(v),
+                self.to_group_vector(w),
+            ],
             half: node.half,
             rounding: node.rounding,
             radius: node.radius,
@@ -223,21 +227,25 @@ impl<L: Simd> GroupMotion<'_, L> {
 
     /// Transforms a point of the other body to the group's coordinates.
     #[inline(always)]
-    fn placed(&self, point: DVec3) -> PackedVector<L> {
+    fn to_group_point(&self, point: DVec3) -> PackedVector<L> {
         let level = self.motion.level;
         let arm = PackedVector::new(level, point) - self.motion.relative_path.other_centre(level);
         self.rotation * arm + self.other_centre
     }
 
     #[inline(always)]
-    fn turned(&self, v: Vec3) -> Vec3 {
-        let [x, y, z] = self.turn;
+    fn to_group_vector(&self, v: Vec3) -> Vec3 {
+        let [x, y, z] = self.rotation_f32;
         as_vec3(x * v.x + y * v.y + z * v.z)
     }
 
     #[inline(always)]
     fn triangle(&self, [a, b, c]: [DVec3; 3]) -> OtherTriangle {
-        let (a, b, c) = (self.placed(a), self.placed(b), self.placed(c));
+        let (a, b, c) = (
+            self.to_group_point(a),
+            self.to_group_point(b),
+            self.to_group_point(c),
+        );
         let (a, b, c) = (a.to_dvec3(), b.to_dvec3(), c.to_dvec3());
         let centre = (a + b + c) / 3.0;
         let (p, q, r) = (a - centre, b - centre, c - centre);
@@ -252,7 +260,7 @@ impl<L: Simd> GroupMotion<'_, L> {
 
     #[inline(always)]
     fn split_rotation(&self) -> BodyRotation {
-        match self.motion.common.spin(self.motion.split.body) {
+        match self.motion.node_context.spin(self.motion.split.body) {
             Some((spin, rate)) => BodyRotation {
                 is_turning: true,
                 spin,
@@ -265,7 +273,11 @@ impl<L: Simd> GroupMotion<'_, L> {
 
     #[inline(always)]
     fn other_rotation(&self) -> BodyRotation {
-        match self.motion.common.spin(self.motion.split.body.other()) {
+        match self
+            .motion
+            .node_context
+            .spin(self.motion.split.body.other())
+        {
             Some((_, rate)) => BodyRotation {
                 is_turning: true,
                 spin: self.motion.relative_state.spin.as_vec3(),
@@ -281,7 +293,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_rotation(), self.other_rotation());
         let reach = self.members.reach;
-        let common = self.motion.common;
+        let common = self.motion.node_context;
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
         let slack = greater((common.gap + rounding).next_up(), common.node_gap);
@@ -292,12 +304,12 @@ impl<L: Simd> GroupMotion<'_, L> {
                 .relative_state
                 .acceleration
                 .map(|change| change.as_vec3()),
-            split,
-            other,
+            split_rotation: split,
+            other_rotation: other,
             horizon: self.motion.horizon,
             slack,
             closed_gap: common.closed_gap,
-            rate_slack: common.rate_slack,
+            rate_allowance: common.rate_allowance,
             larger_body: if split.is_turning && reach > common.much_larger_ratio * radius {
                 Some(LargerBody::SplitBody)
             } else if other.is_turning && radius > common.much_larger_ratio * reach {
@@ -314,12 +326,12 @@ impl<L: Simd> GroupMotion<'_, L> {
         RelativeMotionF32 {
             velocity: Vec3::ZERO,
             acceleration: None,
-            split: BodyRotation::NONE,
-            other: BodyRotation::NONE,
+            split_rotation: BodyRotation::NONE,
+            other_rotation: BodyRotation::NONE,
             horizon: 0.0,
             slack: self.rounding(centre, radius),
             closed_gap: 0.0,
-            rate_slack: 1.0,
+            rate_allowance: 1.0,
             larger_body: None,
         }
     }
@@ -330,7 +342,7 @@ impl<L: Simd> GroupMotion<'_, L> {
         let [x, y, z] = centre.abs().to_array();
         let rounding = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
             + GAP_ERROR_PER_RADIUS_F32 * (radius + self.members.reach);
-        (rounding + self.motion.common.rounding).next_up()
+        (rounding + self.motion.node_context.rounding).next_up()
     }
 }
 

@@ -1,7 +1,7 @@
 //! The geometry of nodes, in the coordinates of the split group.
 
 use crate::body::tree::{BoxGroup, TriangleGroup};
-use crate::math::simd::{LEAST_DIVISOR, Vec3x8, choose, load, splat};
+use crate::math::simd::{LEAST_DIVISOR, Vec3x8, load, select_vectors, splat};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 
@@ -21,7 +21,7 @@ pub(crate) trait Children {
     }
     /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
     /// from the children's centres to the target.
-    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
+    fn offset_from_nearest<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children are single pieces, and cannot be split.
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
@@ -42,7 +42,7 @@ pub(crate) trait OtherNode {
     }
     /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads
     /// from the given points to the node's centre.
-    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
+    fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;
 }
@@ -77,13 +77,13 @@ impl Children for BoxGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_from_nearest<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         to
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let level = n.level();
-        let ([u, v, w], [x, y, z]) = (&self.axes, &self.half);
+        let ([u, v, w], [x, y, z]) = (&self.axes, &self.half_extents);
         let axes = [
             Vec3x8::load(level, u),
             Vec3x8::load(level, v),
@@ -99,7 +99,7 @@ impl Children for BoxGroup {
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         // The half size was measured in the same way.
-        load(n.level(), &self.half[2]) + load(n.level(), &self.rounding_radius)
+        load(n.level(), &self.half_extents[2]) + load(n.level(), &self.rounding_radius)
     }
     #[inline(always)]
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
@@ -125,10 +125,10 @@ impl Children for TriangleGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_from_nearest<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         let level = to.level();
         let to = self.centre(level) + to;
-        to - nearest_of_edges(self.corners(level), to)
+        to - nearest_on_edges(self.corners(level), to)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -181,7 +181,7 @@ impl OtherNode for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
         let [u, v, w] = splat_vectors(offset.level(), self.axes);
         let x = offset.dot(u).min(self.half[0]).max(-self.half[0]);
         let y = offset.dot(v).min(self.half[1]).max(-self.half[1]);
@@ -229,10 +229,10 @@ impl OtherNode for OtherTriangle {
         self.radius
     }
     #[inline(always)]
-    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
         let level = offset.level();
         let from = Vec3x8::splat(level, Vec3::ZERO) - offset;
-        offset + nearest_of_edges(splat_vectors(level, self.corners), from)
+        offset + nearest_on_edges(splat_vectors(level, self.corners), from)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -257,15 +257,19 @@ fn splat_vectors<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
 /// Returns the points on triangles' edges that are nearest to `to`. If an interior point is nearer, the triangle's
 /// normal is the better axis anyway.
 #[inline(always)]
-fn nearest_of_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
-    let (p, q, r) = (foot(a, b, to), foot(b, c, to), foot(c, a, to));
+fn nearest_on_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
+    let (p, q, r) = (
+        nearest_on_segment(a, b, to),
+        nearest_on_segment(b, c, to),
+        nearest_on_segment(c, a, to),
+    );
     let first = nearer_points(p, q, to);
     nearer_points(first, r, to)
 }
 
 /// Returns the points of segments that are nearest to `to`.
 #[inline(always)]
-fn foot<L: Simd>(a: Vec3x8<L>, b: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
+fn nearest_on_segment<L: Simd>(a: Vec3x8<L>, b: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
     let edge = b - a;
     let t = (to - a).dot(edge) / edge.dot(edge).max(LEAST_DIVISOR);
     a + edge * t.min(1.0).max(0.0)
@@ -275,5 +279,5 @@ fn foot<L: Simd>(a: Vec3x8<L>, b: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
 fn nearer_points<L: Simd>(p: Vec3x8<L>, q: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
     let (from_p, from_q) = (p - to, q - to);
     let pick = from_p.dot(from_p).simd_lt(from_q.dot(from_q));
-    choose(pick, p, q)
+    select_vectors(pick, p, q)
 }

@@ -10,17 +10,17 @@ use crate::problem::{BodyWithPath, Problem, WhichBody};
 #[derive(Debug)]
 pub(crate) struct Siblings {
     /// For each pair, how long after `start_clock` it is certified apart; infinite for a finished pair.
-    free: FreeTimes,
+    free_times: FreeTimes,
     start_clock: f64,
     /// The split that created the pairs.
     split: Split,
     first: NodeId,
     /// The children that are to be split before the other node, as bits.
-    split_child: u8,
+    split_child_mask: u8,
     /// True if the other node is a single piece, and cannot be split.
     other_is_piece: bool,
     /// The pairs for which a second visit is better than a split, as bits.
-    revisit: u8,
+    revisit_mask: u8,
     /// The number of times that the pair was advanced since it was removed from the pairs of its split; 0 before that.
     times_advanced: u8,
 }
@@ -45,7 +45,7 @@ impl NextStep {
             (None, Some(_)) => WhichBody::A,
             _ => WhichBody::B,
         };
-        NextStep::Split(Split::of_all_children(body, 0, 0))
+        NextStep::Split(Split::with_all_children(body, 0, 0))
     }
 }
 
@@ -53,13 +53,13 @@ impl Siblings {
     /// Creates the pair of both roots, of which the root of `body` is split first.
     pub(crate) fn roots(body: WhichBody) -> Self {
         Siblings {
-            free: FreeTimes::single_in_first_lane(),
+            free_times: FreeTimes::single_in_first_lane(),
             start_clock: 0.0,
-            split: Split::of_all_children(body, 0, 0),
+            split: Split::with_all_children(body, 0, 0),
             first: 0,
-            split_child: 1,
+            split_child_mask: 1,
             other_is_piece: false,
-            revisit: 0,
+            revisit_mask: 0,
             times_advanced: 0,
         }
     }
@@ -68,13 +68,13 @@ impl Siblings {
     #[inline]
     pub(crate) fn new(expansion: &Expansion, split: Split, s: f64) -> Self {
         Siblings {
-            free: expansion.bounds.free_times,
+            free_times: expansion.bounds.free_times,
             start_clock: s,
             split,
             first: expansion.first,
-            split_child: expansion.bounds.split_child_mask,
+            split_child_mask: expansion.bounds.split_child_mask,
             other_is_piece: expansion.bounds.other_is_piece,
-            revisit: expansion.bounds.revisit_mask,
+            revisit_mask: expansion.bounds.revisit_mask,
             times_advanced: 0,
         }
     }
@@ -82,7 +82,7 @@ impl Siblings {
     /// Returns the least clock of the pairs, rounded down; infinite if all are finished.
     #[inline]
     pub(crate) fn clock(&self) -> f64 {
-        let free = self.free.least_time();
+        let free = self.free_times.least_time();
         if free > 0.0 {
             // One step down undoes the rounding of the sum.
             greater(
@@ -97,7 +97,7 @@ impl Siblings {
     /// Returns the nodes of A and of B that form the pair with the least clock.
     #[inline]
     pub(crate) fn least_pair(&self) -> [NodeId; 2] {
-        self.pair(self.free.least_lane())
+        self.pair(self.free_times.least_lane())
     }
 
     fn pair(&self, lane: usize) -> [NodeId; 2] {
@@ -114,10 +114,10 @@ impl Siblings {
         let horizon = (1.0 - self.start_clock) as f32;
         for lane in 0..LANES {
             // The other pairs are already certified to the end.
-            if self.free.time_of_lane(lane) < horizon {
+            if self.free_times.time_of_lane(lane) < horizon {
                 match keeps_apart(self.pair(lane)) {
-                    Some(true) => self.free.finish(lane),
-                    Some(false) => self.revisit &= !(1 << lane),
+                    Some(true) => self.free_times.finish_lane(lane),
+                    Some(false) => self.revisit_mask &= !(1 << lane),
                     None => {}
                 }
             }
@@ -133,7 +133,7 @@ impl Siblings {
     /// Removes the pair with the least clock, and returns it as a group of one pair, whose clock is `clock`.
     pub(crate) fn remove_least_pair(&mut self, clock: f64) -> Self {
         Siblings {
-            free: FreeTimes::single_in_lane(self.free.finish_least_lane()),
+            free_times: FreeTimes::single_in_lane(self.free_times.finish_least_lane()),
             start_clock: clock,
             times_advanced: self.times_advanced.saturating_add(1),
             ..*self
@@ -145,26 +145,26 @@ impl Siblings {
     #[inline(always)]
     pub(crate) fn take_least_pair(&mut self, problem: &Problem<'_>, s: f64) -> NextStep {
         let advanced = s > self.start_clock;
-        let lane = self.free.finish_least_lane();
+        let lane = self.free_times.finish_least_lane();
         let Split {
             body, node, other, ..
         } = self.split;
         let child = self.first + lane as NodeId;
         // A second visit at the same instant would give the same result.
-        if advanced && self.revisit >> lane & 1 == 1 {
+        if advanced && self.revisit_mask >> lane & 1 == 1 {
             return NextStep::Split(Split {
                 lane_mask: 1 << lane,
-                ..Split::of_all_children(body, node, other)
+                ..Split::with_all_children(body, node, other)
             });
         }
-        let split_child = self.split_child >> lane & 1 == 1;
+        let split_child = self.split_child_mask >> lane & 1 == 1;
         if self.other_is_piece && !split_child {
             return measure_step(problem, self.pair(lane));
         }
         // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);
         let k = usize::from(split_child);
-        NextStep::Split(Split::of_all_children(bodies[k], nodes[k], nodes[1 - k]))
+        NextStep::Split(Split::with_all_children(bodies[k], nodes[k], nodes[1 - k]))
     }
 }
 

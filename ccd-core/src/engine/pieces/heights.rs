@@ -4,7 +4,7 @@ use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
-use crate::motion::track::{Angle, AxisMotion, RotatingVector, Track};
+use crate::motion::track::{AngleSinCos, AxisMotion, RotatingVector, Track};
 use crate::problem::BodyWithPath;
 use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use glam::DVec3;
@@ -55,7 +55,7 @@ pub(crate) struct PointTracks([(Track, f64); MAX_TRACKED_POINTS]);
 impl PointTracks {
     /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
     #[inline]
-    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [PointHeight; MAX_TRACKED_POINTS] {
+    pub(crate) fn at(&self, angle: AngleSinCos, tau: f64) -> [PointHeight; MAX_TRACKED_POINTS] {
         self.0.map(|(track, second_derivative)| PointHeight {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
@@ -100,7 +100,7 @@ impl<'a> Heights<'a> {
     fn init_few_points(&mut self) {
         let (mut least_height, mut farthest, mut few) = (f64::INFINITY, 0.0, self.point_tracks);
         for (k, (track, arm)) in self.tracks().enumerate() {
-            least_height = lesser(least_height, track.height_at(0.0, Angle::ZERO));
+            least_height = lesser(least_height, track.height_at(0.0, AngleSinCos::ZERO));
             farthest = greater(farthest, arm.length_squared());
             if let Some(rest) = few.0.get_mut(k..) {
                 rest.fill((track, track.second_derivative()));
@@ -111,7 +111,9 @@ impl<'a> Heights<'a> {
     }
 
     fn init_many_points(&mut self, middle: DVec3, radius: f64) {
-        self.least_height = self.lowest_track(self.normal).height_at(0.0, Angle::ZERO);
+        self.least_height = self
+            .lowest_track(self.normal)
+            .height_at(0.0, AngleSinCos::ZERO);
         if self.is_nonrotating() {
             return;
         }
@@ -139,15 +141,15 @@ impl<'a> Heights<'a> {
         !(self.angular_speed > 0.0)
     }
 
-    pub(crate) fn angle(&self, tau: f64) -> Angle {
+    pub(crate) fn angle(&self, tau: f64) -> AngleSinCos {
         if tau > 0.0 && !self.is_nonrotating() {
-            Angle::new(self.angular_speed * tau)
+            AngleSinCos::new(self.angular_speed * tau)
         } else {
-            Angle::ZERO
+            AngleSinCos::ZERO
         }
     }
 
-    pub(crate) fn few_tracks(&self) -> Option<&PointTracks> {
+    pub(crate) fn tracks_if_few_points(&self) -> Option<&PointTracks> {
         (self.piece.points.len() <= MAX_TRACKED_POINTS).then_some(&self.point_tracks)
     }
 
@@ -160,11 +162,13 @@ impl<'a> Heights<'a> {
         };
         match self.piece.bounding_ball() {
             Some(_) => self.bound_many_points(self.angle(tau), tau),
-            None => self.points_at(tau).fold(start, |bound, point| PointHeight {
-                height: lesser(bound.height, point.height),
-                rate: lesser(bound.rate, point.rate),
-                second_derivative: greater(bound.second_derivative, point.second_derivative),
-            }),
+            None => self
+                .point_heights_at(tau)
+                .fold(start, |bound, point| PointHeight {
+                    height: lesser(bound.height, point.height),
+                    rate: lesser(bound.rate, point.rate),
+                    second_derivative: greater(bound.second_derivative, point.second_derivative),
+                }),
         }
     }
 
@@ -199,17 +203,17 @@ impl<'a> Heights<'a> {
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
-    pub(crate) fn least_value_after(&self, tau: f64, of: impl Fn(&PointHeight) -> f64) -> f64 {
+    pub(crate) fn least_point_value(&self, tau: f64, of: impl Fn(&PointHeight) -> f64) -> f64 {
         match self.piece.bounding_ball() {
             Some(_) => of(&self.bound_all_points(tau)),
             None => self
-                .points_at(tau)
+                .point_heights_at(tau)
                 .map(|point| of(&point))
                 .fold(f64::INFINITY, lesser),
         }
     }
 
-    fn points_at(&self, tau: f64) -> impl Iterator<Item = PointHeight> {
+    fn point_heights_at(&self, tau: f64) -> impl Iterator<Item = PointHeight> {
         let angle = self.angle(tau);
         self.tracks().map(move |(track, _)| PointHeight {
             height: track.height_at(tau, angle),
@@ -218,7 +222,7 @@ impl<'a> Heights<'a> {
         })
     }
 
-    fn bound_many_points(&self, angle: Angle, tau: f64) -> PointHeight {
+    fn bound_many_points(&self, angle: AngleSinCos, tau: f64) -> PointHeight {
         if self.is_nonrotating() {
             return PointHeight {
                 height: self.least_height + self.axis_motion.linear_displacement(tau),
@@ -282,11 +286,11 @@ pub(crate) fn least_free_time_of_many_points(
 ) -> f64 {
     let of_below = || {
         let bound = above.bound_all_points(tau);
-        below.least_value_after(tau, |x| free(&bound, x))
+        below.least_point_value(tau, |x| free(&bound, x))
     };
     let of_above = || {
         let bound = below.bound_all_points(tau);
-        above.least_value_after(tau, |y| free(y, &bound))
+        above.least_point_value(tau, |y| free(y, &bound))
     };
     match (above.is_nonrotating(), below.is_nonrotating()) {
         (true, _) => of_below(),

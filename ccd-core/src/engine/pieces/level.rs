@@ -6,14 +6,14 @@ use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
 use crate::problem::{Problem, WhichBody};
-use crate::rounding::RESTING_DECREASE;
+use crate::rounding::APPROACH_DECREASE;
 use crate::touching_plane::TouchingPlane;
 use crate::tuning::MIN_RESTING_SLACK;
 use glam::DVec3;
 
 /// The state of a [`TouchingPlane`] that keeps two pieces apart: the body with which it moves, and the least gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PlaneContact {
+pub(crate) struct TouchingPlaneState {
     /// The body with which the plane moves.
     plane_body: WhichBody,
     /// The gap along the plane's normal below which the pieces count as approaching.
@@ -31,7 +31,7 @@ impl TouchingPlane {
         let [frame_a, frame_b] = &snapshot.frames;
         let from = frame_a.inverse_point(problem.to_local_point(contact.separation.witness_a));
         let gap = snapshot.gap_along_normal(normal, from);
-        let resting = RESTING_DECREASE * problem.rounding;
+        let resting = APPROACH_DECREASE * problem.rounding;
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
             normals: [frame_a, frame_b].map(|frame| frame.inverse_vector(normal)),
@@ -46,23 +46,27 @@ impl Snapshot<'_> {
     ///
     /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
     /// between the faces there.
-    pub(crate) fn choose_plane(
+    pub(crate) fn choose_plane_body(
         &self,
         plane: &TouchingPlane,
         ids: [u32; 2],
         from: DVec3,
-    ) -> Option<PlaneContact> {
-        let resting = RESTING_DECREASE * self.problem.rounding;
+    ) -> Option<TouchingPlaneState> {
+        let resting = APPROACH_DECREASE * self.problem.rounding;
         let of = |plane_body: WhichBody| {
             let normal = self.plane_normal(plane_body)?;
             let gap = self.gap_along_normal(normal, from);
-            let level = PlaneContact {
+            let level = TouchingPlaneState {
                 plane_body,
                 min_gap: greater(plane.least_gap, gap - resting),
             };
-            self.is_between_solids(ids, normal, from).then_some(level)
+            self.is_plane_between_solids(ids, normal, from)
+                .then_some(level)
         };
-        let time = |level: &PlaneContact| self.plane_time(level, from).unwrap_or(f64::INFINITY);
+        let time = |level: &TouchingPlaneState| {
+            self.touching_plane_time(level, from)
+                .unwrap_or(f64::INFINITY)
+        };
         [WhichBody::A, WhichBody::B]
             .into_iter()
             .filter_map(of)
@@ -73,7 +77,11 @@ impl Snapshot<'_> {
     }
 
     /// Returns a time for which the pieces certainly do not approach along the plane's normal; `None` if they never do.
-    pub(crate) fn plane_time(&self, level: &PlaneContact, from: DVec3) -> Option<f64> {
+    pub(crate) fn touching_plane_time(
+        &self,
+        level: &TouchingPlaneState,
+        from: DVec3,
+    ) -> Option<f64> {
         let Some(normal) = self.plane_normal(level.plane_body) else {
             return Some(0.0);
         };
@@ -88,7 +96,7 @@ impl Snapshot<'_> {
 
     /// Returns the normal of the plane that moves with a body, in the problem's coordinates.
     fn plane_normal(&self, plane_body: WhichBody) -> Option<DVec3> {
-        let [in_a, in_b] = self.problem.touching.as_ref()?.normals;
+        let [in_a, in_b] = self.problem.touching_plane.as_ref()?.normals;
         let [frame_a, frame_b] = &self.frames;
         Some(match plane_body {
             WhichBody::A => frame_a.rotation * in_a,
@@ -103,9 +111,9 @@ impl Snapshot<'_> {
 
     /// Returns whether the plane with this normal has the solids of the two pieces on different sides. Two pieces that
     /// both lie in the plane are apart on either side of it, wherever the solids are.
-    fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
-        let in_one_plane =
-            self.gap_along_normal(-normal, from) >= -2.0 * RESTING_DECREASE * self.problem.rounding;
+    fn is_plane_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
+        let in_one_plane = self.gap_along_normal(-normal, from)
+            >= -2.0 * APPROACH_DECREASE * self.problem.rounding;
         if !in_one_plane {
             return true;
         }

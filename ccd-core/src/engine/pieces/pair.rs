@@ -1,6 +1,6 @@
 //! Advances one pair of pieces: checks the oracle's claim, and computes a new clock.
 
-use super::level::PlaneContact;
+use super::level::TouchingPlaneState;
 use super::snapshot::Snapshot;
 use crate::answer::{Contact, Separation};
 use crate::body::piece::ConvexCombination;
@@ -11,7 +11,7 @@ use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::RESTING_DECREASE;
+use crate::rounding::APPROACH_DECREASE;
 use crate::settings::StartPolicy;
 use glam::DVec3;
 
@@ -20,7 +20,7 @@ use glam::DVec3;
 pub(crate) struct Pair<C> {
     pub(crate) a: u32,
     pub(crate) b: u32,
-    goal: ContactRule,
+    contact_rule: ContactRule,
     /// True once the pair has been advanced.
     was_advanced: bool,
     /// What the oracle remembers for its next call on this pair.
@@ -37,10 +37,10 @@ enum ContactRule {
     Separated,
     /// The pair was in contact at the start, up to rounding. It is in contact again once its gap cannot be proven to be
     /// above `floor`.
-    Resting { floor: f64 },
+    InContactAtStart { floor: f64 },
     /// The pair touches, but the plane of the contact at the start keeps its pieces apart. The pair is in contact once
     /// it approaches along the normal of that plane.
-    PlaneContact(PlaneContact),
+    TouchingPlane(TouchingPlaneState),
 }
 
 /// The result of one advance of a pair.
@@ -64,7 +64,7 @@ impl<C: Default + Clone> Pair<C> {
         Pair {
             a,
             b,
-            goal: ContactRule::Apart,
+            contact_rule: ContactRule::Apart,
             was_advanced: false,
             cache: C::default(),
         }
@@ -107,8 +107,13 @@ impl<C: Default + Clone> Pair<C> {
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
-                let inner = &mut meter.scratch_memory().inner_polytope;
-                match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
+                let inner = &mut meter.scratch_memory().overlap_polytope;
+                match overlap::decide_intersection(
+                    &snapshot.pieces,
+                    &checked,
+                    problem.rounding,
+                    inner,
+                ) {
                     Intersection::Certain => {
                         return PairStep::Overlap(contact(snapshot, ids, &checked));
                     }
@@ -118,31 +123,33 @@ impl<C: Default + Clone> Pair<C> {
                 }
             }
             let level = || {
-                let plane = problem.touching.as_ref()?;
-                let level = snapshot.choose_plane(plane, ids, checked.witness_a)?;
-                Some(ContactRule::PlaneContact(level))
+                let plane = problem.touching_plane.as_ref()?;
+                let level = snapshot.choose_plane_body(plane, ids, checked.witness_a)?;
+                Some(ContactRule::TouchingPlane(level))
             };
-            let goal = match self.goal {
+            let goal = match self.contact_rule {
                 ContactRule::Apart => self
-                    .goal_ignoring_start(problem, oracle, meter)
+                    .rule_ignoring_start_contact(problem, oracle, meter)
                     .or_else(level),
                 ContactRule::Separated => level(),
-                ContactRule::Resting { .. } | ContactRule::PlaneContact(_) => Some(self.goal),
+                ContactRule::InContactAtStart { .. } | ContactRule::TouchingPlane(_) => {
+                    Some(self.contact_rule)
+                }
             };
             match goal {
-                Some(goal) => self.goal = goal,
+                Some(goal) => self.contact_rule = goal,
                 None => return in_contact(&checked),
             }
-        } else if checked.lower > apart && self.goal != ContactRule::Apart {
-            self.goal = ContactRule::Separated;
+        } else if checked.lower > apart && self.contact_rule != ContactRule::Apart {
+            self.contact_rule = ContactRule::Separated;
         }
-        let (kept, is_resting) = match self.goal {
+        let (kept, is_resting) = match self.contact_rule {
             ContactRule::Apart | ContactRule::Separated => (problem.gap(), false),
-            ContactRule::Resting { floor } => (floor, true),
-            ContactRule::PlaneContact(level) => {
-                let free = snapshot.plane_time(&level, checked.witness_a);
+            ContactRule::InContactAtStart { floor } => (floor, true),
+            ContactRule::TouchingPlane(level) => {
+                let free = snapshot.touching_plane_time(&level, checked.witness_a);
                 meter.stats.point_evaluations += snapshot.evaluations();
-                return step_after(s, free).unwrap_or_else(|| in_contact(&checked));
+                return step_from_free_time(s, free).unwrap_or_else(|| in_contact(&checked));
             }
         };
         // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
@@ -153,20 +160,20 @@ impl<C: Default + Clone> Pair<C> {
             checked
         };
         let free = if is_resting {
-            snapshot.resting_time(&checked, kept, ids)
+            snapshot.resting_free_time(&checked, kept, ids)
         } else {
             free_time(snapshot, &checked, kept)
         };
-        let step = step_after(s, free).or_else(|| {
-            let plane = problem.touching.as_ref()?;
+        let step = step_from_free_time(s, free).or_else(|| {
+            let plane = problem.touching_plane.as_ref()?;
             let began = if is_resting {
                 &Snapshot::new(problem, self.a, self.b, 0.0)
             } else {
                 snapshot
             };
-            let level = began.choose_plane(plane, ids, checked.witness_a)?;
-            self.goal = ContactRule::PlaneContact(level);
-            step_after(s, snapshot.plane_time(&level, checked.witness_a))
+            let level = began.choose_plane_body(plane, ids, checked.witness_a)?;
+            self.contact_rule = ContactRule::TouchingPlane(level);
+            step_from_free_time(s, snapshot.touching_plane_time(&level, checked.witness_a))
         });
         meter.stats.point_evaluations += snapshot.evaluations();
         match step {
@@ -178,7 +185,7 @@ impl<C: Default + Clone> Pair<C> {
 
     /// Returns the goal of a pair that is in contact at the start, if that contact is to be ignored; `None` if it
     /// counts.
-    fn goal_ignoring_start<O: DistanceOracle<Cache = C>>(
+    fn rule_ignoring_start_contact<O: DistanceOracle<Cache = C>>(
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -192,18 +199,18 @@ impl<C: Default + Clone> Pair<C> {
         let start = improve_axis(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting = start.upper <= problem.contact_distance()
-            && start.lower >= -RESTING_DECREASE * problem.rounding;
+            && start.lower >= -APPROACH_DECREASE * problem.rounding;
         if !resting {
             return None;
         }
-        Some(ContactRule::Resting {
-            floor: start.lower - RESTING_DECREASE * problem.rounding,
+        Some(ContactRule::InContactAtStart {
+            floor: start.lower - APPROACH_DECREASE * problem.rounding,
         })
     }
 }
 
 /// Converts a free time at clock `s` to a step; `None` if the time is too short for the clock to advance.
-fn step_after(s: f64, free: Option<f64>) -> Option<PairStep> {
+fn step_from_free_time(s: f64, free: Option<f64>) -> Option<PairStep> {
     match free {
         None => Some(PairStep::FreeUntil(f64::INFINITY)),
         Some(tau) => {

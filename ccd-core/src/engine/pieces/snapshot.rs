@@ -12,7 +12,7 @@ use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::{RATE_ERROR_F64, RESTING_DECREASE};
+use crate::rounding::{APPROACH_DECREASE, RATE_ERROR_F64};
 use crate::shortcuts::Shortcut;
 use crate::shortcuts::turning_pieces::{MovingPiece, PiecePastTurningPlane};
 use crate::tuning::{
@@ -102,7 +102,7 @@ impl<'p> Snapshot<'p> {
     /// axis keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
     pub(crate) fn first_visit_free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
-        match self.fixed_axis_time(direct.normal, direct.slack)? {
+        match self.fixed_plane_free_time(direct.normal, direct.slack)? {
             free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
             free => self.longest_free_time(checked, kept, &direct, free),
         }
@@ -113,7 +113,7 @@ impl<'p> Snapshot<'p> {
     /// planes are fixed, or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
-        let free = self.fixed_axis_time(direct.normal, direct.slack)?;
+        let free = self.fixed_plane_free_time(direct.normal, direct.slack)?;
         self.longest_free_time(checked, kept, &direct, free)
     }
 
@@ -128,7 +128,10 @@ impl<'p> Snapshot<'p> {
     ) -> Option<f64> {
         let passing = self.plane_of_closest_approach(checked, kept);
         if let Some(passing) = &passing {
-            free = greater(free, self.fixed_axis_time(passing.normal, passing.slack)?);
+            free = greater(
+                free,
+                self.fixed_plane_free_time(passing.normal, passing.slack)?,
+            );
         }
         let members = self.moving_pieces();
         for plane in iter::once(direct).chain(&passing) {
@@ -180,7 +183,7 @@ impl<'p> Snapshot<'p> {
     /// Returns the overlap of two pieces of many points along the axis between their middles, as a share of the smaller
     /// bounding radius. It is negative if the pieces are apart along the axis; `None` if a piece has few points.
     #[cfg(feature = "hull-tree")]
-    pub(crate) fn depth_between_middles(&self) -> Option<f64> {
+    pub(crate) fn relative_overlap_along_centre_line(&self) -> Option<f64> {
         let pair = &self.pieces;
         let ((a, radius_a), (b, radius_b)) = (pair.a.bounding_ball()?, pair.b.bounding_ball()?);
         let axis = unit(pair.b_to_a.point(b) - a)?;
@@ -192,7 +195,7 @@ impl<'p> Snapshot<'p> {
     ///
     /// A plane keeps triangles in it apart on either side, though they may be about to pass into each other. If one
     /// of them bounds a solid, the plane keeps them apart on the outside only.
-    pub(crate) fn resting_time(
+    pub(crate) fn resting_free_time(
         &self,
         checked: &CheckedClaim,
         kept: f64,
@@ -210,13 +213,15 @@ impl<'p> Snapshot<'p> {
             }
         };
         // This includes pieces that have passed the plane by the rounding of resting.
-        let in_one_plane = slack(-checked.axis) >= -RESTING_DECREASE * rounding;
+        let in_one_plane = slack(-checked.axis) >= -APPROACH_DECREASE * rounding;
         if !in_one_plane {
             return anyhow();
         }
         let turn = self.pieces.b_to_a.rotation;
         let along = |axis: DVec3| match slack(axis) {
-            slack if is_left(slack) => self.fixed_axis_time(self.frames[0].rotation * axis, slack),
+            slack if is_left(slack) => {
+                self.fixed_plane_free_time(self.frames[0].rotation * axis, slack)
+            }
             _ => Some(0.0),
         };
         match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
@@ -236,7 +241,7 @@ impl<'p> Snapshot<'p> {
     /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is fixed,
     /// or turns with one of the bodies.
     pub(crate) fn plane_free_time(&self, plane: &SeparatingPlane) -> Option<f64> {
-        let free = self.fixed_axis_time(plane.normal, plane.slack)?;
+        let free = self.fixed_plane_free_time(plane.normal, plane.slack)?;
         Some(greater(
             self.turning_plane_time(&self.moving_pieces(), plane, free)?,
             free,
@@ -276,7 +281,7 @@ impl<'p> Snapshot<'p> {
         (slack > 0.0).then_some(SeparatingPlane { normal, slack })
     }
 
-    /// Like [`Snapshot::fixed_axis_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
+    /// Like [`Snapshot::fixed_plane_free_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
     /// not worth trying: the rotation of that body does not use up the slack within `free`.
     pub(crate) fn turning_plane_time(
         &self,
@@ -332,7 +337,7 @@ impl<'p> Snapshot<'p> {
     /// Every point's height along the axis is known exactly
     /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
     /// two points, with a bound on its curvature.
-    pub(crate) fn fixed_axis_time(&self, normal: DVec3, slack: f64) -> Option<f64> {
+    pub(crate) fn fixed_plane_free_time(&self, normal: DVec3, slack: f64) -> Option<f64> {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
         // The highest point along an axis is the lowest along its opposite.
         let clock = self.clock;
@@ -358,7 +363,7 @@ impl<'p> Snapshot<'p> {
         };
         let points = self.pieces.evaluations_per_search();
         self.count_evaluations(points);
-        let crossing = match (a.few_tracks(), b.few_tracks()) {
+        let crossing = match (a.tracks_if_few_points(), b.tracks_if_few_points()) {
             (Some(below), Some(above)) => first_crossing(self.time_left(), rounds, |tau| {
                 self.count_evaluations(points);
                 least_free_time(

@@ -11,14 +11,14 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::MovingBody;
-use crate::rounding::SKIPPED_NEARER_SHARE;
+use crate::rounding::SKIPPED_PAIR_ALLOWANCE;
 #[cfg(feature = "hull-tree")]
 use crate::schedule::Fast;
 use crate::schedule::{BestFirst, Naive};
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::torus;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
-use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude, rng, scene};
+use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, body, distance, magnitude, rng, scene};
 use glam::DVec3;
 use std::time::Duration;
 
@@ -33,7 +33,7 @@ fn schedules() -> Vec<Box<dyn EngineSchedule<ExhaustiveOracle>>> {
 }
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
+    BestFirst::default().answer_first_contact(problem, &mut ExhaustiveOracle)
 }
 
 /// Calls `then` with the problem of two equal tori at rest, one at `x`, the other at the origin.
@@ -43,7 +43,7 @@ fn with_two_tori<R>(
     config: &Settings,
     then: impl FnOnce(&Problem<'_>) -> R,
 ) -> R {
-    let torus = body(&torus(cuts.around_axis, cuts.around_tube));
+    let torus = body(&torus(cuts.segments_around_axis, cuts.segments_around_tube));
     let moving =
         |x: f64| MovingBody::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
     then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
@@ -52,27 +52,27 @@ fn with_two_tori<R>(
 /// The numbers of segments of a torus around its axis and around its tube.
 #[derive(Clone, Copy)]
 struct TorusSegments {
-    around_axis: usize,
-    around_tube: usize,
+    segments_around_axis: usize,
+    segments_around_tube: usize,
 }
 
 const FINE_SEGMENTS: TorusSegments = TorusSegments {
-    around_axis: 64,
-    around_tube: 32,
+    segments_around_axis: 64,
+    segments_around_tube: 32,
 };
 
 const COARSE_SEGMENTS: TorusSegments = TorusSegments {
-    around_axis: 8,
-    around_tube: 6,
+    segments_around_axis: 8,
+    segments_around_tube: 6,
 };
 
 /// Draws a scene with a margin of up to a hundred times its size. Most scenes begin within the margin.
 fn scene_within_margin(rng: &mut Pcg64, most: usize) -> Scene {
-    let mut scene = scene(rng, Kind::Any, most);
+    let mut scene = scene(rng, SceneKind::RandomMotion, most);
     let size = scene.bodies.each_ref().map(|body| body.tree().radius());
     let size = f64::from(size[0]) + f64::from(size[1]);
     let gap = distance(&scene.problem(), 0.0);
-    scene.config.margin = if rng.random_bool(0.5) {
+    scene.settings.margin = if rng.random_bool(0.5) {
         gap * rng.random_range(1.0..1.5)
     } else {
         lesser(size * magnitude(rng, -3.0, 2.0), 1e11)
@@ -94,7 +94,7 @@ fn a_start_within_any_margin_costs_one_distance() {
         };
         let separation = contact.separation;
         assert!(separation.lower <= 0.4 && separation.upper >= 0.4);
-        assert!(separation.upper - separation.lower < 2.0 * SKIPPED_NEARER_SHARE);
+        assert!(separation.upper - separation.lower < 2.0 * SKIPPED_PAIR_ALLOWANCE);
         visits.push(answer.stats.work());
     }
     assert!(visits.iter().all(|&visits| visits < 1_000), "{visits:?}");
@@ -146,17 +146,17 @@ fn bounds_hold_the_distance_and_no_budget_makes_another_answer() {
             "{number}: {found:e} {separation:?}"
         );
         let loose = separation.upper - separation.lower;
-        let slack = 2.0 * SKIPPED_NEARER_SHARE * separation.upper + 8.0 * problem.rounding;
+        let slack = 2.0 * SKIPPED_PAIR_ALLOWANCE * separation.upper + 8.0 * problem.rounding;
         assert!(loose <= slack, "{number}: {separation:?}");
         let visits = full.stats.iterations;
         for budget in 0..visits.min(80) {
-            scene.config.budget = budget;
+            scene.settings.budget = budget;
             let outcome = solve(&scene.problem()).outcome;
             let ending = Outcome::unresolved(0.0, Limit::Budget);
             assert_eq!(outcome, ending, "{number}: {budget} of {visits}");
             ended += 1;
         }
-        scene.config.budget = full.stats.work();
+        scene.settings.budget = full.stats.work();
         assert_eq!(solve(&scene.problem()).outcome, full.outcome, "{number}");
     }
     assert!(touching > 100 && ended > 1_000, "{touching} {ended}");
@@ -172,7 +172,7 @@ fn all_schedules_say_the_same_of_a_start() {
             .into_iter()
             .map(|mut schedule| {
                 schedule
-                    .solve(&scene.problem(), &mut ExhaustiveOracle)
+                    .answer_first_contact(&scene.problem(), &mut ExhaustiveOracle)
                     .outcome
             })
             .collect();
@@ -201,7 +201,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
         };
         for mut schedule in schedules() {
             let answer = with_two_tori(COARSE_SEGMENTS, 3.0, &config, |problem| {
-                schedule.solve(problem, &mut ExhaustiveOracle)
+                schedule.answer_first_contact(problem, &mut ExhaustiveOracle)
             });
             let Outcome::Unresolved(Unresolved {
                 safe_until,
@@ -219,7 +219,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     for _ in 0..50 {
         let mut scene = scene_within_margin(&mut rng, 8);
         let free = solve(&scene.problem());
-        scene.config.deadline = Some(Duration::from_secs(3600));
+        scene.settings.deadline = Some(Duration::from_secs(3600));
         assert_eq!(solve(&scene.problem()), free);
     }
 }
@@ -231,7 +231,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
     let mut touching = 0;
     for _ in 0..300 {
         let mut scene = scene_within_margin(&mut rng, 6);
-        scene.config.budget = 5_000;
+        scene.settings.budget = 5_000;
         let problem = scene.problem();
         let found = distance(&problem, 0.0);
         let lie = Claim {
@@ -243,7 +243,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
             ConstantOracle(Ok(lie)),
             ConstantOracle(Err(GiveUpReason::Cycle)),
         ] {
-            let answer = BestFirst::default().solve(&problem, &mut { oracle });
+            let answer = BestFirst::default().answer_first_contact(&problem, &mut { oracle });
             if let Outcome::Touching { contact } = answer.outcome {
                 touching += 1;
                 let separation = contact.separation;

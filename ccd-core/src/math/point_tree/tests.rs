@@ -2,7 +2,7 @@ use super::*;
 use glam::dvec3;
 
 /// Returns a generator of pseudo-random numbers in −1..1, by a linear congruence.
-fn random_numbers() -> impl FnMut() -> f64 {
+fn number_generator() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
         state = state
@@ -15,7 +15,7 @@ fn random_numbers() -> impl FnMut() -> f64 {
 /// Tests that the visited points are those that a scan of all points finds in front of the plane, or next to it.
 #[test]
 fn nothing_in_front_is_passed_over() {
-    let mut next = random_numbers();
+    let mut next = number_generator();
     let mut point = || dvec3(next(), next(), next());
     for count in [0, 1, 8, 9, 100, 1000] {
         let points: Vec<DVec3> = (0..count).map(|_| point()).collect();

@@ -1,6 +1,6 @@
 //! Tests principal axes by the definition of an eigenvector.
 
-use super::{half_angle, principal_axes};
+use super::{principal_axes, sin_cos_of_half_angle};
 use crate::tests::scene::{RngExt, direction, rng};
 use glam::{DVec3, dvec3};
 
@@ -11,7 +11,7 @@ fn half_an_angle_is_that_of_the_library() {
     let pairs = special.iter().flat_map(|&y| special.map(|x| (y, x)));
     let random = (0..10_000).map(|_| (rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)));
     for (y, x) in pairs.chain(random).filter(|&(y, _)| y != 0.0) {
-        let (s, c) = half_angle(y, x);
+        let (s, c) = sin_cos_of_half_angle(y, x);
         let (sine, cosine) = (0.5 * f64::atan2(y, x)).sin_cos();
         let off = (s - sine).abs() + (c - cosine).abs();
         assert!(off < 1e-14, "{y:e} {x:e}: {s} {c} for {sine} {cosine}");

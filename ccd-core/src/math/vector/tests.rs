@@ -2,7 +2,7 @@
 
 use super::{distance, length, normal, perpendicular_vector, unit};
 use crate::rounding::UNIT_ROUNDOFF_F64;
-use crate::tests::double::Double3;
+use crate::tests::double::DoubleDouble3;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use glam::DVec3;
 
@@ -54,12 +54,12 @@ fn units_are_units_of_the_same_direction() {
             continue;
         };
         denormal += usize::from(v.abs().max_element() < f64::MIN_POSITIVE);
-        let n = Double3::from(n);
+        let n = DoubleDouble3::from(n);
         assert!(
             (n.length().get() - 1.0).abs() <= 4.0 * UNIT_ROUNDOFF_F64,
             "{v:?}"
         );
-        let off = (n - Double3::from(scaled_near_one(v)).unit())
+        let off = (n - DoubleDouble3::from(scaled_near_one(v)).unit())
             .length()
             .get();
         assert!(off <= 4.0 * UNIT_ROUNDOFF_F64, "{v:?}: {off:e}");
@@ -90,7 +90,7 @@ fn lengths_are_right() {
         }
         // The vector is scaled twice by half the exponent: a single power of two may be out of range.
         let half = 2f64.powf((-0.5 * largest.log2()).round());
-        let exact = Double3::from(v * half * half).length().get() / half / half;
+        let exact = DoubleDouble3::from(v * half * half).length().get() / half / half;
         let least = f64::from_bits(1);
         assert!(
             (length(v) - exact).abs() <= 4.0 * UNIT_ROUNDOFF_F64 * exact + least,
@@ -110,8 +110,8 @@ fn normals_are_those_of_triangles_of_any_size() {
         let exponent = || [-1000, -540, -520, -300, 0, 300];
         let [p, q] = [(); 2].map(|()| 2f64.powi(exponent()[rng.random_range(0..6)]));
         let found = normal([DVec3::ZERO, u * p, v * q]).unwrap();
-        let exact = Double3::from(u).cross(Double3::from(v)).unit();
-        let off = (Double3::from(found) - exact).length().get();
+        let exact = DoubleDouble3::from(u).cross(DoubleDouble3::from(v)).unit();
+        let off = (DoubleDouble3::from(found) - exact).length().get();
         assert!(off < 100.0 * UNIT_ROUNDOFF_F64, "{p:e} {q:e}: {off:e}");
     }
     // The corners are on one line, or at one point.

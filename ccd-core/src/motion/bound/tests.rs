@@ -1,7 +1,7 @@
 use super::{Velocities, published_bound, sound_bound};
 use crate::math::vector::{length, unit};
 use crate::rounding::RATE_ERROR_F64;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
@@ -15,13 +15,13 @@ fn worst_sound_bound() {
             spin: DVec3::from(tape.vector(-30..=10)),
         };
         let reach = tape.size(-20..=10);
-        let [n3, v, spin] = [n, motion.linear_velocity, motion.spin].map(Double3::from);
-        let exact = n3.dot(v) + n3.cross(spin).length() * Double::from(reach);
-        let lost = exact - Double::from(sound_bound(&motion, n, reach));
+        let [n3, v, spin] = [n, motion.linear_velocity, motion.spin].map(DoubleDouble3::from);
+        let exact = n3.dot(v) + n3.cross(spin).length() * DoubleDouble::from(reach);
+        let lost = exact - DoubleDouble::from(sound_bound(&motion, n, reach));
         let speed = length(motion.linear_velocity) + length(motion.spin) * reach;
         Some(share(lost.get(), RATE_ERROR_F64 * speed))
     });
-    found.assert_within(16.0);
+    found.assert_tight_bound(16.0);
 }
 
 #[test]

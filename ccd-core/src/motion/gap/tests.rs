@@ -1,6 +1,6 @@
 use super::Gap;
 use crate::rounding::RATE_ERROR_F64;
-use crate::tests::double::Double;
+use crate::tests::double::DoubleDouble;
 use crate::tests::scene::{RngExt, magnitude, rng};
 use crate::tests::worst::{WorstCaseSearch, share};
 
@@ -10,25 +10,25 @@ fn worst_free_time() {
     let found = WorstCaseSearch::of("RATE_F64, a free time", 40_000).search(|tape| {
         let gap = Gap {
             gap: tape.size(-200..=30),
-            rate: tape.any(-60..=60),
+            rate: tape.any_number(-60..=60),
             second_derivative: tape.size(-60..=60),
         };
         let [apart, rate, second_derivative] =
-            [gap.gap, gap.rate, gap.second_derivative].map(Double::from);
-        let two = Double::from(2.0);
+            [gap.gap, gap.rate, gap.second_derivative].map(DoubleDouble::from);
+        let two = DoubleDouble::from(2.0);
         let root = (rate * rate + two * second_derivative * apart).sqrt();
         let exact = if gap.rate > 0.0 {
             two * apart / (rate + root)
         } else {
             (root - rate) / second_derivative
         };
-        let free = Double::from(gap.free_time()) / Double::from(1.0 - RATE_ERROR_F64);
+        let free = DoubleDouble::from(gap.free_time()) / DoubleDouble::from(1.0 - RATE_ERROR_F64);
         Some(share(
-            (free / exact - Double::from(1.0)).get(),
+            (free / exact - DoubleDouble::from(1.0)).get(),
             RATE_ERROR_F64,
         ))
     });
-    found.assert_within(8.0);
+    found.assert_tight_bound(8.0);
 }
 
 /// Tests that the free times of gaps that close ever slower are never late, and nearly exact. If the gap closes at all,
@@ -52,8 +52,9 @@ fn a_free_time_of_parting_is_never_late_and_near() {
             second_derivative: -second_derivative,
         };
         let free = found.free_time();
-        let [gap, rate, second_derivative] = [gap, rate, -second_derivative].map(Double::from);
-        let two = Double::from(2.0);
+        let [gap, rate, second_derivative] =
+            [gap, rate, -second_derivative].map(DoubleDouble::from);
+        let two = DoubleDouble::from(2.0);
         let left = rate * rate + two * second_derivative * gap;
         if left.get() < 0.0 {
             stays += u32::from(free == f64::INFINITY);
@@ -61,7 +62,7 @@ fn a_free_time_of_parting_is_never_late_and_near() {
         }
         closes += 1;
         let exact = two * gap / (rate + left.sqrt());
-        let share = (Double::from(free) / exact).get();
+        let share = (DoubleDouble::from(free) / exact).get();
         assert!(share <= 1.0, "{found:?}: {share}");
         let kept = (left / (rate * rate)).get();
         near += u32::from(kept < 1e-6 || share >= 1.0 - 1e-7);

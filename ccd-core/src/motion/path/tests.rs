@@ -5,7 +5,7 @@ use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::rounding::position_rounding;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::{DMat3, DVec3};
@@ -77,18 +77,19 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
 }
 
 /// Returns the position of a body's point in double-double, from the path's stored coefficients.
-fn exact_position(path: &Path, s: Double, x: DVec3) -> Double3 {
-    let arm = Double3::from(x) - Double3::from(path.centre);
+fn exact_position(path: &Path, s: DoubleDouble, x: DVec3) -> DoubleDouble3 {
+    let arm = DoubleDouble3::from(x) - DoubleDouble3::from(path.centre);
     let rotated = |m: &DMat3| {
-        let row = |k: usize| Double3::from(m.row(k)).dot(arm);
-        Double3([row(0), row(1), row(2)])
+        let row = |k: usize| DoubleDouble3::from(m.row(k)).dot(arm);
+        DoubleDouble3([row(0), row(1), row(2)])
     };
-    let (sin, cos) = (Double::from(path.rate) * s).sin_cos();
+    let (sin, cos) = (DoubleDouble::from(path.rate) * s).sin_cos();
     let turned =
         rotated(&path.cosine_coefficient).scale(cos) + rotated(&path.sine_coefficient).scale(sin);
-    let half = Double::from(0.5) * s;
-    let change = Double3::from(path.velocity) + Double3::from(path.acceleration).scale(half);
-    Double3::from(path.start) + change.scale(s) + turned + rotated(&path.constant_part)
+    let half = DoubleDouble::from(0.5) * s;
+    let change =
+        DoubleDouble3::from(path.velocity) + DoubleDouble3::from(path.acceleration).scale(half);
+    DoubleDouble3::from(path.start) + change.scale(s) + turned + rotated(&path.constant_part)
 }
 
 /// Compares positions on a part of a path with those on the whole path.
@@ -106,7 +107,7 @@ fn worst_part() {
             let to = from + (1.0 - from) * time;
             let arm = DVec3::from(tape.vector(-20..=4));
             let part = path.subpath([from, to]);
-            let [begins, ends, share_of_time] = [from, to, share_of_time].map(Double::from);
+            let [begins, ends, share_of_time] = [from, to, share_of_time].map(DoubleDouble::from);
             let s = begins + share_of_time * (ends - begins);
             let x = path.centre + arm;
             let error = exact_position(&part, share_of_time, x) - exact_position(&path, s, x);
@@ -115,5 +116,5 @@ fn worst_part() {
             Some(share(error.length().get(), allowed))
         },
     );
-    found.assert_within(100.0);
+    found.assert_tight_bound(100.0);
 }

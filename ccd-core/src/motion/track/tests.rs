@@ -2,13 +2,13 @@
 
 mod sin_cos;
 
-use super::{Angle, AxisMotion, Track};
+use super::{AngleSinCos, AxisMotion, Track};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{Velocities, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_crossing};
 use crate::rounding::RATE_ERROR_F64;
-use crate::tests::double::Double;
+use crate::tests::double::DoubleDouble;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::{DQuat, DVec3};
@@ -23,7 +23,7 @@ impl Track {
 
     /// Returns the height after `tau`.
     fn at(&self, tau: f64) -> f64 {
-        self.height_at(tau, Angle::new(self.omega * tau))
+        self.height_at(tau, AngleSinCos::new(self.angular_speed * tau))
     }
 }
 
@@ -82,9 +82,9 @@ fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
 }
 
 /// Returns the time within a duration of 1 at which a track may reach a limit; `None` if it stays below.
-fn crossing(track: &Track, limit: f64) -> Option<f64> {
+fn crossing_time(track: &Track, limit: f64) -> Option<f64> {
     first_crossing(1.0, 64, |tau| {
-        let angle = Angle::new(track.omega * tau);
+        let angle = AngleSinCos::new(track.angular_speed * tau);
         Gap {
             gap: limit - track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
@@ -105,7 +105,7 @@ fn the_first_crossing_is_never_late_and_near() {
         let samples = 64 + (64.0 * motion.spin.length()) as usize;
         let at = |k: usize| k as f64 / samples as f64;
         let truth = (1..=samples).find(|&k| track.at(at(k)) >= limit);
-        let found = crossing(&track, limit);
+        let found = crossing_time(&track, limit);
         let until = found.unwrap_or(1.0);
         let before = highest(&track, motion.spin.length() * until, until);
         let size = 1.0 + motion.linear_velocity.length() + motion.spin.length();
@@ -242,7 +242,7 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
             .iter()
             .all(|track| highest(track, turns, step) < wall)
     );
-    let first = tracks.iter().filter_map(|track| crossing(track, wall));
+    let first = tracks.iter().filter_map(|track| crossing_time(track, wall));
     let first = first.fold(f64::INFINITY, lesser);
     assert!(
         first <= contact && first > 0.98 * contact,
@@ -259,15 +259,16 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         motion.linear_velocity = DVec3::ZERO;
         let track = Track::new(&motion, n, 0.3, arm);
         let horizon = rng.random_range(0.0..1.0);
-        let least = track.least_rotational_height(horizon, Angle::new(track.omega * horizon));
+        let least =
+            track.least_rotational_height(horizon, AngleSinCos::new(track.angular_speed * horizon));
         let times = (0..=400).map(|k| horizon * f64::from(k) / 400.0);
         let seen = times.map(|tau| track.at(tau)).fold(f64::INFINITY, lesser);
         // Samples are rounded, too.
-        let rounding = 1e-15 * (1.0 + track.omega);
+        let rounding = 1e-15 * (1.0 + track.angular_speed);
         assert!(least <= seen + rounding, "{least} {seen} {track:?}");
         // Between two samples the track deviates by this much from a straight line.
         let step = horizon / 400.0;
-        let missed = track.second_derivative() * step * step + 1e-13 * (1.0 + track.omega);
+        let missed = track.second_derivative() * step * step + 1e-13 * (1.0 + track.angular_speed);
         assert!(seen - least <= missed, "{seen} {least} {track:?}");
         if least < track.at(horizon) - missed && least < track.at(0.0) - missed {
             past_trough += 1;
@@ -290,35 +291,36 @@ fn worst_least_until() {
             height: 0.0,
             linear_rate: 0.0,
             linear_acceleration: 0.0,
-            p: tape.any(-60..=10),
-            q: tape.any(-60..=10),
-            omega: tape.size(-40..=4),
+            p: tape.any_number(-60..=10),
+            q: tape.any_number(-60..=10),
+            angular_speed: tape.size(-40..=4),
         };
         // The angle is arbitrary, or next to the lowest point of the circle.
         let trough = (-track.q).atan2(-track.p).rem_euclid(TAU);
         let horizon = match tape.index_below(2) {
             0 => tape.fraction(),
-            _ => lesser(1.0, tape.number_near(trough / track.omega)),
+            _ => lesser(1.0, tape.number_near(trough / track.angular_speed)),
         };
-        let turn = track.omega * horizon;
-        let least = track.least_rotational_height(horizon, Angle::new(turn));
-        let [p, q, omega, time] = [track.p, track.q, track.omega, horizon].map(Double::from);
+        let turn = track.angular_speed * horizon;
+        let least = track.least_rotational_height(horizon, AngleSinCos::new(turn));
+        let [p, q, omega, time] =
+            [track.p, track.q, track.angular_speed, horizon].map(DoubleDouble::from);
         let swing = (p * p + q * q).sqrt();
-        let half = omega * time * Double::from(0.5);
+        let half = omega * time * DoubleDouble::from(0.5);
         let (sin, cos) = half.sin_cos();
-        let two = Double::from(2.0);
+        let two = DoubleDouble::from(2.0);
         let at_end = two * sin * (cos * q - sin * p);
         // A turn that all but reaches the lowest point reaches the same height.
         let exact = if turn >= trough {
             -p - swing
         } else {
-            at_end.min(Double::ZERO)
+            at_end.min(DoubleDouble::ZERO)
         };
         let allowance = RATE_ERROR_F64 * swing.get() * (1.0 + turn);
-        let above = (Double::from(least) + Double::from(allowance) - exact).get();
+        let above = (DoubleDouble::from(least) + DoubleDouble::from(allowance) - exact).get();
         (swing.get() > 0.0 && horizon > 0.0).then(|| share(above, allowance))
     });
-    found.assert_within(30.0);
+    found.assert_tight_bound(30.0);
 }
 
 /// Compares the bound of the second derivative of a track, as stored, with the exact largest second derivative. Earlier
@@ -330,14 +332,14 @@ fn worst_bend() {
             height: 0.0,
             linear_rate: 0.0,
             linear_acceleration: 0.0,
-            p: tape.any(-100..=20),
-            q: tape.any(-100..=20),
-            omega: tape.size(-100..=20),
+            p: tape.any_number(-100..=20),
+            q: tape.any_number(-100..=20),
+            angular_speed: tape.size(-100..=20),
         };
-        let [p, q, omega] = [track.p, track.q, track.omega].map(Double::from);
+        let [p, q, omega] = [track.p, track.q, track.angular_speed].map(DoubleDouble::from);
         let exact = omega * omega * (p * p + q * q).sqrt();
-        let lost = exact - Double::from(track.second_derivative());
+        let lost = exact - DoubleDouble::from(track.second_derivative());
         (exact.get() > 0.0).then(|| share(lost.get(), RATE_ERROR_F64 * exact.get()))
     });
-    found.assert_within(16.0);
+    found.assert_tight_bound(16.0);
 }

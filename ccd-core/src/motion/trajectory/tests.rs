@@ -10,7 +10,7 @@ use glam::DVec3;
 /// bound.
 fn largest_deviation_share(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch(from, to).unwrap();
-    let bound = stretch.deviation.at(reach);
+    let bound = stretch.deviation_bound.at(reach);
     let centre = stretch.motion.centre();
     let mut rng = rng((1e6 * from) as u64);
     let mut worst = 0.0;
@@ -54,7 +54,7 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
         assert_eq!(whole, Stretch::exact(motion));
         let from = rng.random_range(0.0..1.0);
         let later = motion.stretch(from, 1.0).unwrap();
-        assert!(later.deviation.at(1.0) < 1e-10);
+        assert!(later.deviation_bound.at(1.0) < 1e-10);
         // The compared poses are rounded, too, by about as much.
         assert!(largest_deviation_share(&motion, from, 1.0, 1.0) <= 2.0);
     }
@@ -108,7 +108,7 @@ fn deviations_after_times_whose_square_is_zero_are_bounded() {
     let (time, acceleration) = (1e-162, 1e304);
     assert_eq!(time * time, 0.0);
     let stray = AccelerationBounds {
-        linear: acceleration,
+        linear_acceleration: acceleration,
         angular_acceleration: acceleration,
     }
     .deviation_after(time);

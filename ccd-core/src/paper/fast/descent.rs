@@ -1,7 +1,7 @@
 //! Computes the distance of two bodies at one clock by a descent from the last front. This is Algorithm 3 of the paper
 //! `[FAST06]`.
 
-use super::front::{Front, Item, Node};
+use super::front::{Front, FrontPair, Node};
 use super::hull_pair::{FeatureOwners, HullTreePair};
 use super::reach::AxisDistances;
 use crate::answer::{Contact, Outcome};
@@ -96,23 +96,23 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
                 reason,
             ));
         }
-        match self.front.node(at).item {
-            Item::Nodes(_) => {
+        match self.front.node(at).front_pair {
+            FrontPair::Nodes(_) => {
                 self.measure_nodes(snapshot, at, found);
                 ControlFlow::Continue(())
             }
-            Item::Pieces(_) => self.measure_pieces(snapshot, at, found),
+            FrontPair::Pieces(_) => self.measure_pieces(snapshot, at, found),
         }
     }
 
     fn measure_nodes(&mut self, snapshot: &Snapshot<'p>, at: u32, found: &mut DescentState) {
         let (problem, s) = (self.problem, snapshot.clock);
         let node = self.front.node(at);
-        let Item::Nodes(cache) = &mut node.item else {
+        let FrontPair::Nodes(cache) = &mut node.front_pair else {
             return;
         };
         let snapshot = snapshot.with_pieces(self.hulls.hulls(node.pair));
-        let depth = snapshot.depth_between_middles();
+        let depth = snapshot.relative_overlap_along_centre_line();
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
         if depth.is_some_and(|depth| depth > SPLIT_OVERLAP) {
@@ -157,7 +157,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
     ) -> ControlFlow<Outcome> {
         let (problem, bound, s) = (self.problem, self.bound, snapshot.clock);
         let node = self.front.node(at);
-        let Item::Pieces(pair) = &mut node.item else {
+        let FrontPair::Pieces(pair) = &mut node.front_pair else {
             return ControlFlow::Continue(());
         };
         let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));

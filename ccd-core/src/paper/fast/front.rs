@@ -1,7 +1,7 @@
 //! The bounding volume traversal tree with its front `[FAST06 §5.1]`.
 
 use super::hull_pair::{FeatureOwners, HullTreePair, PairChildren};
-use crate::engine::capacity::empty;
+use crate::engine::capacity::clear_and_shrink;
 use crate::engine::pieces::pair::Pair;
 use crate::math::order::lesser;
 
@@ -22,7 +22,7 @@ pub(super) struct Front<C> {
 #[derive(Clone, Debug)]
 pub(super) struct Node<C> {
     pub(super) pair: [u32; 2],
-    pub(super) item: Item<C>,
+    pub(super) front_pair: FrontPair<C>,
     /// The index of the first of two children; `None` for a leaf.
     pub(super) children: Option<u32>,
     /// A lower bound of the pair's distance at its last visit.
@@ -37,7 +37,7 @@ pub(super) struct Node<C> {
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum Item<C> {
+pub(super) enum FrontPair<C> {
     /// A pair of which at least one node is an inner node, with the oracle's cache.
     Nodes(C),
     /// A pair of two leaves.
@@ -47,14 +47,14 @@ pub(super) enum Item<C> {
 impl<C: Clone + Default> Front<C> {
     /// Resets the tree to the pair of roots.
     pub(super) fn reset(&mut self, hulls: HullTreePair<'_>) {
-        empty(&mut self.nodes);
-        empty(&mut self.vacant_slots);
+        clear_and_shrink(&mut self.nodes);
+        clear_and_shrink(&mut self.vacant_slots);
         self.nodes.push(Node::new(hulls, [0, 0], C::default()));
         (self.leaf_count, self.peak_leaf_count) = (1, 1);
     }
 
     /// Returns the largest number of pairs that were in the front at once.
-    pub(super) fn peak(&self) -> u64 {
+    pub(super) fn peak_leaf_count(&self) -> u64 {
         self.peak_leaf_count as u64
     }
 
@@ -109,9 +109,9 @@ impl<C: Clone + Default> Front<C> {
         };
         // Nearest points of a covering pair are a good start for the pair. This does not hold for
         // pieces: when they touch, a warm start affects their axis, and so the answer.
-        let cache = match &node.item {
-            Item::Nodes(cache) => cache.clone(),
-            Item::Pieces(_) => C::default(),
+        let cache = match &node.front_pair {
+            FrontPair::Nodes(cache) => cache.clone(),
+            FrontPair::Pieces(_) => C::default(),
         };
         let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone()));
         let first = match self.vacant_slots.pop() {
@@ -163,9 +163,9 @@ impl<C: Default + Clone> Node<C> {
     fn new(hulls: HullTreePair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
-            item: match hulls.children_of_pair(pair, FeatureOwners::BothBridges) {
-                PairChildren::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
-                PairChildren::Pairs(_) => Item::Nodes(cache),
+            front_pair: match hulls.children_of_pair(pair, FeatureOwners::BothBridges) {
+                PairChildren::Pieces([a, b]) => FrontPair::Pieces(Pair::new(a, b)),
+                PairChildren::Pairs(_) => FrontPair::Nodes(cache),
             },
             children: None,
             lower: f64::NEG_INFINITY,

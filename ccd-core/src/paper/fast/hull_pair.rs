@@ -69,7 +69,9 @@ impl<'a> HullTreePair<'a> {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
             FeatureOwners::OneBridge(body) => body,
-            FeatureOwners::Pieces | FeatureOwners::BothBridges => self.larger([a, b]),
+            FeatureOwners::Pieces | FeatureOwners::BothBridges => {
+                self.body_with_larger_node([a, b])
+            }
         };
         match (self.a.hierarchy_node(a), self.b.hierarchy_node(b), body) {
             (Leaf(a), Leaf(b), _) => PairChildren::Pieces([a, b]),
@@ -80,7 +82,7 @@ impl<'a> HullTreePair<'a> {
         }
     }
 
-    fn larger(&self, [a, b]: [u32; 2]) -> WhichBody {
+    fn body_with_larger_node(&self, [a, b]: [u32; 2]) -> WhichBody {
         if self.b.half_diagonal(b) > self.a.half_diagonal(a) {
             WhichBody::B
         } else {
@@ -122,7 +124,7 @@ impl<'a> Hulls<'a> {
 
     fn is_on_bridge(self, node: u32, point: &ConvexCombination) -> bool {
         match self {
-            Hulls::Tree(tree) => tree.class_of(node, point) == FacetClass::Free,
+            Hulls::Tree(tree) => tree.facet_class_at(node, point) == FacetClass::Free,
             Hulls::SinglePiece(_) => false,
         }
     }

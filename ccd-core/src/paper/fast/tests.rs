@@ -18,13 +18,13 @@ use crate::schedule::Naive;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{
-    Passage, Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation,
+    MotionThroughPose, Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation,
 };
 use glam::DVec3;
 
 /// Creates a body of balls on a line, with a hull tree that splits them in halves. One tree in three has balls of
 /// several sizes.
-fn chain(rng: &mut Pcg64, count: usize) -> Body {
+fn random_ball_row(rng: &mut Pcg64, count: usize) -> Body {
     let step = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-4..=4))));
     let step = if step == DVec3::ZERO { DVec3::X } else { step };
     let mixed = rng.random_bool(0.3);
@@ -82,7 +82,7 @@ impl Scene {
             (rng.random_range(0.0..1.0), rng.random_range(0.0..2.0))
         };
         let motion = |rng: &mut Pcg64, place: DVec3| {
-            let passage = Passage {
+            let passage = MotionThroughPose {
                 clock,
                 rotation: rotation(rng),
                 place,
@@ -101,7 +101,7 @@ impl Scene {
         Scene {
             bodies: [(); 2].map(|()| {
                 let count = count(rng);
-                chain(rng, count)
+                random_ball_row(rng, count)
             }),
             motions: [motion(rng, DVec3::ZERO), motion(rng, near * way)],
             settings: Settings {
@@ -119,7 +119,7 @@ impl Scene {
 }
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    Fast::default().solve(problem, &mut ExhaustiveOracle)
+    Fast::default().answer_first_contact(problem, &mut ExhaustiveOracle)
 }
 
 /// Returns the least distance of any two pieces at a clock.
@@ -176,8 +176,8 @@ fn answers_are_right_and_those_of_the_other_schedules() {
     for number in 0..800 {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
-        let boxes = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
-        let twin = Naive::default().solve(&problem, &mut ExhaustiveOracle);
+        let boxes = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
+        let twin = Naive::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
         let time = checked_contact_time(&problem, &solve(&problem).outcome);
         // Every schedule that visits pieces at the start finds those within the tolerance there.
         let twin = checked_contact_time(&problem, &twin.outcome);
@@ -206,7 +206,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
 #[test]
 fn trees_spare_most_pairs_of_pieces() {
     let mut rng = rng(22);
-    let bodies = [400, 400].map(|count| chain(&mut rng, count));
+    let bodies = [400, 400].map(|count| random_ball_row(&mut rng, count));
     let far = Pose::at(2e3 * DVec3::Y).unwrap();
     let motion = Motion::new(far, -1e3 * DVec3::Y, DVec3::X).unwrap();
     let still = Motion::still(Pose::IDENTITY);
@@ -221,7 +221,7 @@ fn trees_spare_most_pairs_of_pieces() {
 #[test]
 fn a_brief_motion_splits_nothing_that_stays_apart() {
     let mut rng = rng(27);
-    let bodies = [400, 400].map(|count| chain(&mut rng, count));
+    let bodies = [400, 400].map(|count| random_ball_row(&mut rng, count));
     let still = Motion::still(Pose::IDENTITY);
     let calls = |height: f64, speed: f64| {
         let pose = Pose::at(height * DVec3::Z).unwrap();
@@ -300,7 +300,10 @@ fn false_claims_and_give_ups_never_make_it_late() {
             ConstantOracle(Err(GiveUpReason::Cycle)),
         ];
         for mut oracle in wrong {
-            match Fast::default().solve(&problem, &mut oracle).outcome {
+            match Fast::default()
+                .answer_first_contact(&problem, &mut oracle)
+                .outcome
+            {
                 Outcome::Unresolved(Unresolved {
                     safe_until: time, ..
                 })
@@ -322,8 +325,14 @@ fn answers_do_not_depend_on_earlier_queries() {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
         let fresh = solve(&problem);
-        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
-        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
+        assert_eq!(
+            kept.answer_first_contact(&problem, &mut ExhaustiveOracle),
+            fresh
+        );
+        assert_eq!(
+            kept.answer_first_contact(&problem, &mut ExhaustiveOracle),
+            fresh
+        );
     }
 }
 
@@ -347,7 +356,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
     )
     .unwrap();
     assert!(soup.hull_tree().is_none());
-    let boxes = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+    let boxes = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
     assert_eq!(solve(&problem), boxes);
     assert!(matches!(boxes.outcome, Outcome::Contact { .. }));
 }
@@ -355,7 +364,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
 #[test]
 fn contacts_at_the_start_are_reported_or_let_go() {
     let mut rng = rng(26);
-    let bodies = [20, 20].map(|count| chain(&mut rng, count));
+    let bodies = [20, 20].map(|count| random_ball_row(&mut rng, count));
     let ball = Body::sphere(0.05).unwrap();
     let end = bodies[0]
         .pieces()

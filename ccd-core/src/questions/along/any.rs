@@ -2,9 +2,9 @@
 
 use super::contacts::{ProvenGap, StretchResult};
 use super::drive::{Question, search_stretches};
-use super::lengths::{cut_at_once, length};
+use super::lengths::{cut_if_too_long, length};
 use super::motions::{Span, StretchMotions};
-use super::stretches::Stretches;
+use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
@@ -24,7 +24,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let mut any = AnyContactSearch {
             schedule: self,
-            proven: ProvenGap::new(query),
+            proven_gap: ProvenGap::new(query),
         };
         search_stretches(&mut any, query, oracle)
     }
@@ -32,38 +32,39 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
 struct AnyContactSearch<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
-    proven: ProvenGap,
+    proven_gap: ProvenGap,
 }
 
 impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
-    fn cut_at_once(
+    fn cut_if_too_long(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
-        cut_at_once(stretches, motions, oracle, &mut self.schedule.scratch)
+        cut_if_too_long(stretches, motions, oracle, &mut self.schedule.scratch)
     }
 
-    fn examine(
+    fn search_stretch(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
         let answer = self.schedule.any_contact_of(problem, oracle);
-        let seen = match self.proven.record(stretches, motions, &answer)? {
+        let seen = match self.proven_gap.record(stretches, motions, &answer)? {
             StretchResult::Done(flow) => return Ok(flow),
-            StretchResult::Near(s, contact) => (s, contact),
+            StretchResult::InContact(s, contact) => (s, contact),
         };
         if stretches.accepts_contact(motions)? {
             let found = self
-                .proven
+                .proven_gap
                 .contact_answer(stretches, motions, answer.outcome)?;
             // One body is inside the other: they have met before, or overlap at the start.
             if let Outcome::Unresolved(known) = found.outcome {
-                self.proven.undecided = lesser(self.proven.undecided, known.safe_until);
+                self.proven_gap.undecided_time =
+                    lesser(self.proven_gap.undecided_time, known.safe_until);
                 return Ok(ControlFlow::Continue(()));
             }
             return Ok(ControlFlow::Break(touching_as_contact(found)));
@@ -74,20 +75,25 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
             return Ok(ControlFlow::Continue(()));
         }
         let stalled = self
-            .proven
+            .proven_gap
             .unresolved(stretches, motions.span.from, Limit::Stalled);
         Ok(ControlFlow::Break(stalled))
     }
 
-    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
-        self.proven.unresolved(stretches, span.from, limit)
+    fn on_limit(
+        &mut self,
+        stretches: &WaitingStretches<'_, '_>,
+        span: Span,
+        limit: Limit,
+    ) -> Answer {
+        self.proven_gap.unresolved(stretches, span.from, limit)
     }
 
     fn on_end(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         _: &mut O,
     ) -> Result<Answer, InputError> {
-        Ok(self.proven.finish(stretches))
+        Ok(self.proven_gap.finish(stretches))
     }
 }

@@ -4,7 +4,7 @@ mod found;
 
 use super::drive::{Question, search_stretches};
 use super::motions::{Span, StretchMotions};
-use super::stretches::Stretches;
+use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
@@ -14,8 +14,8 @@ use crate::query::Query;
 use crate::questions::closest::required::RequiredClearance;
 use crate::questions::closest::{FartherThanCutoff, meet_after_start};
 use crate::questions::depth_first::DepthFirst;
-use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_SHARE};
-use found::{LeastDistanceSoFar, StretchResult};
+use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
+use found::{LeastDistanceSoFar, StretchDistance};
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
@@ -79,13 +79,15 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     /// Tries to prove a lower bound of the least distance over the whole query, if the next such attempt is due.
     fn prepare(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<(), InputError> {
         let found = &mut self.found;
         let work = stretches.stats.work();
         let (Some(rung), Ok(left)) = (
-            found.lower_bounds.next_attempt_if_due(work, found.upper()),
+            found
+                .lower_bound_attempts
+                .next_attempt_if_due(work, found.upper()),
             stretches.remaining_settings(),
         ) else {
             return Ok(());
@@ -103,22 +105,22 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             }
             _ => None,
         };
-        found.lower_bounds.record_attempt(proven);
+        found.lower_bound_attempts.record_attempt(proven);
         Ok(())
     }
 
-    fn cut_at_once(
+    fn cut_if_too_long(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
-        let Some(time) = stretches.common_end_if_too_long(motions) else {
+        let Some(time) = stretches.end_at_proven_stretch_if_too_long(motions) else {
             return Ok(false);
         };
         let distance_at_time = self.distance_at_time(stretches, oracle, time)?;
         let Some(distance_at_time) = distance_at_time
-            .filter(|distance_at_time| distance_at_time.increases_into(motions, time))
+            .filter(|distance_at_time| distance_at_time.increases_from_end(motions, time))
         else {
             return Ok(false);
         };
@@ -127,9 +129,9 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             && stretches.cut_out_around(motions.span, time, 2.0 * length))
     }
 
-    fn examine(
+    fn search_stretch(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -140,12 +142,14 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let beyond = found.upper() + motions.total_deviation + 2.0 * problem.tolerance;
         let answer = self.schedule.least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
-        let seen = match answer.found {
-            Err(FartherThanCutoff { lower }) => StretchResult::farther_than(lower),
+        let seen = match answer.result {
+            Err(FartherThanCutoff { lower }) => StretchDistance::for_distant_motions(lower),
             Ok(Outcome::Overlapping { .. }) if stretches.schedule_start_examination(motions)? => {
                 return Ok(ControlFlow::Continue(()));
             }
-            Ok(outcome @ Outcome::Overlapping { .. }) if stretches.begins_at_start(motions)? => {
+            Ok(outcome @ Outcome::Overlapping { .. })
+                if stretches.starts_at_initial_poses(motions)? =>
+            {
                 return Ok(ControlFlow::Break(found.answer(query, stretches, outcome)));
             }
             Ok(outcome) => match found.record(motions, &outcome) {
@@ -176,18 +180,23 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         self.on_end(stretches, oracle).map(ControlFlow::Break)
     }
 
-    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+    fn on_limit(
+        &mut self,
+        stretches: &WaitingStretches<'_, '_>,
+        span: Span,
+        limit: Limit,
+    ) -> Answer {
         self.found.unresolved(self.query, stretches, span, limit)
     }
 
     fn on_end(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let nearest = self.found.nearest(self.query, stretches);
         if meet_after_start(&nearest.outcome, nearest.tolerance) {
-            self.nearest_or_overlap(stretches, oracle, nearest)
+            self.answer_or_overlap(stretches, oracle, nearest)
         } else {
             Ok(nearest)
         }
@@ -196,13 +205,13 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
 
 impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     /// Returns `nearest`, or the answer that the bodies overlap if they overlap at the start.
-    fn nearest_or_overlap(
+    fn answer_or_overlap(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
         nearest: Answer,
     ) -> Result<Answer, InputError> {
-        let Ok((pose, terms)) = stretches.poses_at(0.0)? else {
+        let Ok((pose, terms)) = stretches.motions_at(0.0)? else {
             return Ok(nearest);
         };
         let problem = pose.problem(self.query, &terms)?;
@@ -221,10 +230,10 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     /// Cuts a stretch near the time at which its motions are nearest. Returns whether the stretch could be cut.
     fn cut_where_nearest(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
         motions: &StretchMotions,
-        seen: &StretchResult,
+        seen: &StretchDistance,
     ) -> Result<bool, InputError> {
         let time = motions.time(seen.time);
         let Query {
@@ -233,11 +242,11 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
             ..
         } = self.query;
         // Halves mostly suffice, and cost less than measuring the distance.
-        if motions.span.length() > MIN_UNMEASURED_SHARE * duration {
+        if motions.span.length() > MIN_UNMEASURED_LENGTH_SHARE * duration {
             return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
-        if let Some(end) = seen.approaching_end(motions)
+        if let Some(end) = seen.end_where_distance_decreases(motions)
             && let Some(beyond) = stretches.take_adjacent_stretch(end)
         {
             let is_cut = stretches.cut_out_around(motions.span, time, f64::INFINITY);
@@ -258,11 +267,11 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     /// bodies overlap, or if a limit is reached.
     fn distance_at_time(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
         time: f64,
     ) -> Result<Option<DistanceAtTime>, InputError> {
-        let Ok((pose, terms)) = stretches.poses_at(time)? else {
+        let Ok((pose, terms)) = stretches.motions_at(time)? else {
             return Ok(None);
         };
         let problem = pose.problem(self.query, &terms)?;
@@ -277,7 +286,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         let least = greater(terms.tolerance, rounding);
         Ok(Some(DistanceAtTime {
             deviation_limit: greater(least, contact.separation.upper - found.upper()),
-            rate: -pose.approach(0.0, &contact),
+            rate: -pose.approach_rate(0.0, &contact),
         }))
     }
 }
@@ -297,7 +306,7 @@ impl DistanceAtTime {
     }
 
     /// Returns whether the distance increases from the given end of the stretch towards its middle.
-    fn increases_into(&self, motions: &StretchMotions, end: f64) -> bool {
+    fn increases_from_end(&self, motions: &StretchMotions, end: f64) -> bool {
         if end > motions.span.from {
             self.rate <= 0.0
         } else {

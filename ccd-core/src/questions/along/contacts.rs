@@ -1,7 +1,7 @@
 //! The results so far of a search for contacts along trajectories.
 
 use super::motions::StretchMotions;
-use super::stretches::Stretches;
+use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Contact, Limit, Outcome};
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
@@ -14,7 +14,7 @@ pub(super) struct ProvenGap {
     margin: f64,
     tolerance: f64,
     /// The first time at which it is undecided whether one body is inside the other.
-    pub(super) undecided: f64,
+    pub(super) undecided_time: f64,
 }
 
 /// The result of the search for a contact in one stretch.
@@ -26,7 +26,7 @@ pub(super) enum StretchResult {
     Done(ControlFlow<Answer>),
     /// The motions are in contact at this time from the start of the stretch; the contact is `None` if one body is
     /// inside the other.
-    Near(f64, Option<Contact>),
+    InContact(f64, Option<Contact>),
 }
 
 impl ProvenGap {
@@ -35,7 +35,7 @@ impl ProvenGap {
             gap: f64::INFINITY,
             margin: query.settings.margin,
             tolerance: query.settings.tolerance,
-            undecided: f64::INFINITY,
+            undecided_time: f64::INFINITY,
         }
     }
 
@@ -47,7 +47,7 @@ impl ProvenGap {
     /// Records what a search of a stretch's motions proved, and returns whether the motions are in contact.
     pub(super) fn record(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         answer: &Answer,
     ) -> Result<StretchResult, InputError> {
@@ -63,19 +63,21 @@ impl ProvenGap {
                 let answer = self.unresolved(stretches, until, known.limit);
                 StretchResult::Done(ControlFlow::Break(answer))
             }
-            Outcome::Contact { time, contact } => StretchResult::Near(time, Some(contact)),
-            Outcome::Touching { contact } => StretchResult::Near(0.0, Some(contact)),
+            Outcome::Contact { time, contact } => StretchResult::InContact(time, Some(contact)),
+            Outcome::Touching { contact } => StretchResult::InContact(0.0, Some(contact)),
             Outcome::Overlapping { .. } if stretches.schedule_start_examination(motions)? => {
                 StretchResult::Done(ControlFlow::Continue(()))
             }
-            Outcome::Overlapping { overlap, .. } => StretchResult::Near(0.0, overlap.contact()),
+            Outcome::Overlapping { overlap, .. } => {
+                StretchResult::InContact(0.0, overlap.contact())
+            }
             Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 unreachable!("no outcome of a search for contacts")
             }
         })
     }
 
-    fn answer(&self, stretches: &Stretches<'_, '_>, outcome: Outcome) -> Answer {
+    fn answer(&self, stretches: &WaitingStretches<'_, '_>, outcome: Outcome) -> Answer {
         Answer {
             outcome,
             tolerance: self.tolerance,
@@ -84,9 +86,9 @@ impl ProvenGap {
     }
 
     /// Returns the answer when all stretches are done: free, or undecided if one body may be inside the other.
-    pub(super) fn finish(&self, stretches: &Stretches<'_, '_>) -> Answer {
-        if self.undecided.is_finite() {
-            return self.unresolved(stretches, self.undecided, Limit::Undecided);
+    pub(super) fn finish(&self, stretches: &WaitingStretches<'_, '_>) -> Answer {
+        if self.undecided_time.is_finite() {
+            return self.unresolved(stretches, self.undecided_time, Limit::Undecided);
         }
         let proven_gap = greater(self.gap, self.margin);
         self.answer(stretches, Outcome::Free { proven_gap })
@@ -96,12 +98,12 @@ impl ProvenGap {
     /// in the stretches that wait and those that are undecided.
     pub(super) fn unresolved(
         &self,
-        stretches: &Stretches<'_, '_>,
+        stretches: &WaitingStretches<'_, '_>,
         safe_until: f64,
         limit: Limit,
     ) -> Answer {
         let until = lesser(
-            lesser(safe_until, self.undecided),
+            lesser(safe_until, self.undecided_time),
             stretches.earliest_time(),
         );
         self.answer(stretches, Outcome::unresolved(until, limit))
@@ -110,7 +112,7 @@ impl ProvenGap {
     /// Converts a contact of a stretch's motions to the answer of the query.
     pub(super) fn contact_answer(
         &mut self,
-        stretches: &Stretches<'_, '_>,
+        stretches: &WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         outcome: Outcome,
     ) -> Result<Answer, InputError> {
@@ -118,7 +120,7 @@ impl ProvenGap {
         let outcome = match outcome {
             Outcome::Contact { time, contact } => at(motions.time(time), contact),
             Outcome::Touching { contact } => at(motions.span.from, contact),
-            Outcome::Overlapping { .. } if stretches.begins_at_start(motions)? => outcome,
+            Outcome::Overlapping { .. } if stretches.starts_at_initial_poses(motions)? => outcome,
             // Bodies that were apart until then overlap by no more than their deviations.
             Outcome::Overlapping { overlap, .. } => match overlap.contact() {
                 Some(contact) => at(motions.span.from, contact),

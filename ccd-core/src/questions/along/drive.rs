@@ -1,7 +1,7 @@
 //! The loop that all searches along trajectories share.
 
 use super::motions::{Span, StretchMotions};
-use super::stretches::Stretches;
+use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
@@ -19,36 +19,41 @@ pub(super) trait Question<O: DistanceOracle> {
     /// Does work that concerns the whole query; called before each stretch is searched.
     fn prepare(
         &mut self,
-        _stretches: &mut Stretches<'_, '_>,
+        _stretches: &mut WaitingStretches<'_, '_>,
         _oracle: &mut O,
     ) -> Result<(), InputError> {
         Ok(())
     }
 
     /// Cuts a stretch without a search, if it is probably too long. Returns whether it was cut.
-    fn cut_at_once(
+    fn cut_if_too_long(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError>;
 
     /// Searches a stretch, and then records what is proven, or cuts the stretch, or returns the answer to the question.
-    fn examine(
+    fn search_stretch(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError>;
 
     /// Returns the unresolved answer for a limit that is reached before the stretch `span` is searched.
-    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer;
+    fn on_limit(
+        &mut self,
+        stretches: &WaitingStretches<'_, '_>,
+        span: Span,
+        limit: Limit,
+    ) -> Answer;
 
     /// Returns the answer to the question when all stretches are done.
     fn on_end(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError>;
 }
@@ -60,7 +65,7 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
     query: &Query<'_>,
     oracle: &mut O,
 ) -> Result<Answer, InputError> {
-    let stretches = &mut Stretches::new(query);
+    let stretches = &mut WaitingStretches::new(query);
     loop {
         question.prepare(stretches, oracle)?;
         let Some(span) = stretches.next() else {
@@ -70,12 +75,12 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
             Ok(motions) => motions,
             Err(limit) => return Ok(question.on_limit(stretches, span, limit)),
         };
-        if question.cut_at_once(stretches, &motions, oracle)? {
+        if question.cut_if_too_long(stretches, &motions, oracle)? {
             continue;
         }
         let problem = motions.problem(query, &terms)?;
         if let ControlFlow::Break(answer) =
-            question.examine(stretches, &motions, &problem, oracle)?
+            question.search_stretch(stretches, &motions, &problem, oracle)?
         {
             return Ok(answer);
         }

@@ -2,9 +2,9 @@
 
 use super::contacts::{ProvenGap, StretchResult};
 use super::drive::{Question, search_stretches};
-use super::lengths::{cut_at_once, length};
+use super::lengths::{cut_if_too_long, length};
 use super::motions::{Span, StretchMotions};
-use super::stretches::Stretches;
+use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::EngineSchedule;
@@ -22,44 +22,44 @@ pub(crate) fn first_contact<O: DistanceOracle, S: EngineSchedule<O>>(
 ) -> Result<Answer, InputError> {
     let mut first = FirstContactSearch {
         schedule,
-        proven: ProvenGap::new(query),
+        proven_gap: ProvenGap::new(query),
     };
     search_stretches(&mut first, query, oracle)
 }
 
 struct FirstContactSearch<'s, S> {
     schedule: &'s mut S,
-    proven: ProvenGap,
+    proven_gap: ProvenGap,
 }
 
 impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for FirstContactSearch<'_, S> {
     fn takes_accelerations(&self) -> bool {
-        self.schedule.takes_accelerations()
+        self.schedule.handles_accelerations()
     }
 
-    fn cut_at_once(
+    fn cut_if_too_long(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
-        cut_at_once(stretches, motions, oracle, self.schedule.scratch())
+        cut_if_too_long(stretches, motions, oracle, self.schedule.scratch())
     }
 
-    fn examine(
+    fn search_stretch(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
-        let proven = &mut self.proven;
+        let proven = &mut self.proven_gap;
         // The stretches before a contact may not be examined again.
         proven.record_gap(motions, problem.proven_gap());
-        let answer = self.schedule.solve(problem, oracle);
+        let answer = self.schedule.answer_first_contact(problem, oracle);
         let (s, contact) = match proven.record(stretches, motions, &answer)? {
             StretchResult::Done(flow) => return Ok(flow),
-            StretchResult::Near(s, contact) => (s, contact),
+            StretchResult::InContact(s, contact) => (s, contact),
         };
         if stretches.accepts_contact(motions)? {
             let found = proven.contact_answer(stretches, motions, answer.outcome)?;
@@ -83,15 +83,20 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for FirstContactSearch
         Ok(ControlFlow::Continue(()))
     }
 
-    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
-        self.proven.unresolved(stretches, span.from, limit)
+    fn on_limit(
+        &mut self,
+        stretches: &WaitingStretches<'_, '_>,
+        span: Span,
+        limit: Limit,
+    ) -> Answer {
+        self.proven_gap.unresolved(stretches, span.from, limit)
     }
 
     fn on_end(
         &mut self,
-        stretches: &mut Stretches<'_, '_>,
+        stretches: &mut WaitingStretches<'_, '_>,
         _: &mut O,
     ) -> Result<Answer, InputError> {
-        Ok(self.proven.finish(stretches))
+        Ok(self.proven_gap.finish(stretches))
     }
 }

@@ -47,7 +47,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             }
         };
         let [a, b] = [&query.a, &query.b].map(|moving| ReversedTrajectory {
-            of: moving.movement,
+            original: moving.movement,
             duration,
         });
         let mut back = Query {
@@ -94,7 +94,7 @@ impl<O: DistanceOracle> BestFirst<O> {
 
 /// A trajectory that runs backward in time, from its end to its start.
 struct ReversedTrajectory<'t> {
-    of: Movement<'t>,
+    original: Movement<'t>,
     duration: f64,
 }
 
@@ -107,7 +107,7 @@ impl ReversedTrajectory<'_> {
 impl Trajectory for ReversedTrajectory<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let (first, last) = (self.reversed_time(to), self.reversed_time(from));
-        let stretch = self.of.stretch(first, last)?;
+        let stretch = self.original.stretch(first, last)?;
         let end = stretch.with_start_at(last - first)?;
         // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
         let off = 2.0 * UNIT_ROUNDOFF_F64 * self.duration;
@@ -122,14 +122,14 @@ impl Trajectory for ReversedTrajectory<'_> {
         let [velocity, spin] = [-motion.velocity(), -motion.spin()];
         Ok(Stretch {
             motion: Motion::about(motion.start(), velocity, spin, motion.centre())?,
-            deviation: end.deviation + moved + rounding,
+            deviation_bound: end.deviation_bound + moved + rounding,
             ..end
         })
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let corner = self
-            .of
+            .original
             .corner(self.reversed_time(to), self.reversed_time(from))?;
         Some(self.duration - corner)
     }

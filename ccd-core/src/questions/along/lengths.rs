@@ -2,7 +2,7 @@
 //! and so short that the deviations are less than the bodies' distance.
 
 use super::motions::StretchMotions;
-use super::stretches::Stretches;
+use super::stretches::WaitingStretches;
 use crate::answer::Contact;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::scratch::Scratch;
@@ -10,17 +10,17 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::settings::QuerySettings;
-use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_SHARE};
+use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
 
 /// Cuts a stretch before its search, if it is probably too long. The bodies are measured at the time where it adjoins a
 /// proven stretch. Returns whether it was cut.
-pub(super) fn cut_at_once<O: DistanceOracle>(
-    stretches: &mut Stretches<'_, '_>,
+pub(super) fn cut_if_too_long<O: DistanceOracle>(
+    stretches: &mut WaitingStretches<'_, '_>,
     motions: &StretchMotions,
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<bool, InputError> {
-    let Some(time) = stretches.common_end_if_too_long(motions) else {
+    let Some(time) = stretches.end_at_proven_stretch_if_too_long(motions) else {
         return Ok(false);
     };
     let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
@@ -41,7 +41,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
 
 /// Chooses the length of the next stretch to search, after the motions of a stretch were found in contact.
 pub(super) fn length<O: DistanceOracle>(
-    stretches: &mut Stretches<'_, '_>,
+    stretches: &mut WaitingStretches<'_, '_>,
     motions: &StretchMotions,
     (time, seen): (f64, Option<Contact>),
     oracle: &mut O,
@@ -49,8 +49,8 @@ pub(super) fn length<O: DistanceOracle>(
 ) -> Result<f64, InputError> {
     let query = stretches.query();
     let seen = if time > 0.0 {
-        seen.map(|contact| (contact, motions.approach(time, &contact)))
-    } else if motions.span.length() > MIN_UNMEASURED_SHARE * query.duration {
+        seen.map(|contact| (contact, motions.approach_rate(time, &contact)))
+    } else if motions.span.length() > MIN_UNMEASURED_LENGTH_SHARE * query.duration {
         // Halves mostly suffice, and cost less.
         return Ok(f64::INFINITY);
     } else {

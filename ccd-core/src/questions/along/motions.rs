@@ -58,7 +58,9 @@ impl StretchMotions {
         let stretches = [a?, b?];
         let stray = |k: usize| {
             let Stretch {
-                motion, deviation, ..
+                motion,
+                deviation_bound: deviation,
+                ..
             } = &stretches[k];
             deviation.at(bodies[k].body.tree().max_distance_from(motion.centre()))
         };
@@ -125,7 +127,7 @@ impl StretchMotions {
     }
 
     /// Returns the rate at which the bodies approach each other at a contact of the motions.
-    pub(super) fn approach(&self, time: f64, contact: &Contact) -> f64 {
+    pub(super) fn approach_rate(&self, time: f64, contact: &Contact) -> f64 {
         let Separation {
             witness_a,
             witness_b,

@@ -16,22 +16,22 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// A stack of the stretches of time that wait to be searched, with the work done so far.
-pub(super) struct Stretches<'j, 'a> {
+pub(super) struct WaitingStretches<'j, 'a> {
     query: &'j Query<'a>,
     waiting_spans: Vec<Span>,
     pub(super) stats: Stats,
-    budgets: Budgets,
+    spent_work: WorkByPart,
     was_start_examined: bool,
     /// The stretch that was proven last, with its deviation.
-    proven: Option<(Span, f64)>,
+    last_proven_stretch: Option<(Span, f64)>,
     /// The time at which the query started; `None` if there is no deadline. No clock is read then.
     started_at: Option<Instant>,
 }
 
-impl<'j, 'a> Stretches<'j, 'a> {
+impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// Creates the stack with the whole duration of the query as the only stretch.
     pub(super) fn new(query: &'j Query<'a>) -> Self {
-        Stretches {
+        WaitingStretches {
             query,
             waiting_spans: vec![Span {
                 from: 0.0,
@@ -39,9 +39,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
                 part_index: 0,
             }],
             stats: Stats::default(),
-            budgets: Budgets::default(),
+            spent_work: WorkByPart::default(),
             was_start_examined: false,
-            proven: None,
+            last_proven_stretch: None,
             started_at: query.settings.deadline.map(|_| Instant::now()),
         }
     }
@@ -55,7 +55,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the waiting stretches, in reverse order of their searches.
-    pub(super) fn waiting(&self) -> &[Span] {
+    pub(super) fn waiting_spans(&self) -> &[Span] {
         &self.waiting_spans
     }
 
@@ -72,7 +72,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
         }
-        let spent = self.budgets.spent_on_part(self.stats.work());
+        let spent = self
+            .spent_work
+            .work_spent_on_current_part(self.stats.work());
         let budget = terms.budget.checked_sub(spent);
         let deadline = match (terms.deadline, self.started_at) {
             (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
@@ -98,7 +100,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Adds work on the whole query to the total, without counting it towards the budget of any part.
     pub(super) fn add_uncharged_work(&mut self, stats: &Stats) {
         self.stats.add(stats);
-        self.budgets.work_at_part_start += stats.work();
+        self.spent_work.work_at_part_start += stats.work();
     }
 
     /// Returns the approximate motions in a stretch and the remaining settings, or the limit that is reached. The
@@ -109,7 +111,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         accelerations: bool,
     ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
         loop {
-            self.charge_to(span);
+            self.switch_to_part_of(span);
             let terms = match self.remaining_settings() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
@@ -145,7 +147,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns whether the motions of a stretch start at the poses of the bodies at time 0, up to rounding.
-    pub(super) fn begins_at_start(&self, motions: &StretchMotions) -> Result<bool, InputError> {
+    pub(super) fn starts_at_initial_poses(
+        &self,
+        motions: &StretchMotions,
+    ) -> Result<bool, InputError> {
         Ok(motions.span.from == 0.0
             && (motions.total_deviation == 0.0 || self.is_limited_by_rounding(motions)?))
     }
@@ -157,7 +162,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
         &mut self,
         motions: &StretchMotions,
     ) -> Result<bool, InputError> {
-        if motions.span.from > 0.0 || self.was_start_examined || self.begins_at_start(motions)? {
+        if motions.span.from > 0.0
+            || self.was_start_examined
+            || self.starts_at_initial_poses(motions)?
+        {
             return Ok(false);
         }
         self.was_start_examined = true;
@@ -168,13 +176,16 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Records a stretch as the last one in which the bodies are proven apart, with its deviation.
     pub(super) fn record_proven_stretch(&mut self, motions: &StretchMotions) {
-        self.proven = Some((motions.span, motions.total_deviation));
+        self.last_proven_stretch = Some((motions.span, motions.total_deviation));
     }
 
     /// Returns the time at which a stretch adjoins the last proven stretch, if its deviations are much larger than
     /// those of that stretch. The stretch is then probably too long.
-    pub(super) fn common_end_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
-        let (proven, stray) = self.proven.take()?;
+    pub(super) fn end_at_proven_stretch_if_too_long(
+        &mut self,
+        motions: &StretchMotions,
+    ) -> Option<f64> {
+        let (proven, stray) = self.last_proven_stretch.take()?;
         let Span { from, end: to, .. } = motions.span;
         let beside = [(from, proven.end), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
@@ -182,12 +193,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Makes all later work count towards the budget of the part that contains a stretch.
-    pub(super) fn charge_to(&mut self, span: Span) {
-        self.budgets.charge_to(span.part_index, self.stats.work());
+    pub(super) fn switch_to_part_of(&mut self, span: Span) {
+        self.spent_work
+            .switch_to_part(span.part_index, self.stats.work());
     }
 
     /// Returns the poses of both bodies at a time and the remaining settings, or the limit that is reached.
-    pub(super) fn poses_at(
+    pub(super) fn motions_at(
         &self,
         time: f64,
     ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
@@ -198,7 +210,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let span = Span {
             from: time,
             end: time,
-            part_index: self.budgets.current_part,
+            part_index: self.spent_work.current_part,
         };
         Ok(Ok((StretchMotions::new(self.query, span)?, terms)))
     }
@@ -211,7 +223,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         oracle: &mut O,
         scratch: &mut Scratch,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Ok((motions, terms)) = self.poses_at(time)? else {
+        let Ok((motions, terms)) = self.motions_at(time)? else {
             return Ok(None);
         };
         let problem = motions.problem(self.query, &terms)?.for_distances();
@@ -222,8 +234,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
             )
         });
         self.stats.add(&answer.stats);
-        Ok(match answer.found {
-            Some(Outcome::Touching { contact }) => Some((contact, motions.approach(0.0, &contact))),
+        Ok(match answer.result {
+            Some(Outcome::Touching { contact }) => {
+                Some((contact, motions.approach_rate(0.0, &contact)))
+            }
             _ => None,
         })
     }
@@ -243,7 +257,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Cuts a stretch in two, at a corner of a trajectory or else after about `length`; the earlier part is searched
     /// next. Returns whether the stretch could be cut.
     pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
-        let Some([early, late]) = self.cut_parts(span, length) else {
+        let Some([early, late]) = self.split_span(span, length) else {
             return false;
         };
         self.waiting_spans.extend([late, early]);
@@ -254,7 +268,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// part that contains the time. Returns whether the stretch could be cut.
     pub(super) fn cut_out_around(&mut self, span: Span, time: f64, length: f64) -> bool {
         let whole = span.length();
-        let Some([early, late]) = self.cut_parts(span, 0.5 * whole) else {
+        let Some([early, late]) = self.split_span(span, 0.5 * whole) else {
             return false;
         };
         let half = 0.5 * greater(length, MIN_CUT_SHARE * whole);
@@ -283,7 +297,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    pub(super) fn cut_parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
+    pub(super) fn split_span(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span {
             from,
             end: to,
@@ -302,7 +316,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             return None;
         }
         let [before, after] = match corner {
-            Some(_) => [(); 2].map(|()| self.budgets.new_part(part)),
+            Some(_) => [(); 2].map(|()| self.spent_work.add_part(part)),
             None => [part; 2],
         };
         Some([
@@ -321,7 +335,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
 }
 
 /// The work spent on each part of a query. Each part between two corners has its own budget.
-struct Budgets {
+struct WorkByPart {
     work_by_part: Vec<u64>,
     /// The index of the part to whose budget work counts at present.
     current_part: usize,
@@ -329,9 +343,9 @@ struct Budgets {
     work_at_part_start: u64,
 }
 
-impl Default for Budgets {
+impl Default for WorkByPart {
     fn default() -> Self {
-        Budgets {
+        WorkByPart {
             work_by_part: vec![0],
             current_part: 0,
             work_at_part_start: 0,
@@ -339,21 +353,21 @@ impl Default for Budgets {
     }
 }
 
-impl Budgets {
+impl WorkByPart {
     /// Returns the work spent on the present part; `work` is the total of all parts.
-    fn spent_on_part(&self, work: u64) -> u64 {
+    fn work_spent_on_current_part(&self, work: u64) -> u64 {
         self.work_by_part[self.current_part] + (work - self.work_at_part_start)
     }
 
     /// Makes all later work count towards the budget of the part of index `part`; `work` is the total of all parts.
-    fn charge_to(&mut self, part: usize, work: u64) {
-        self.work_by_part[self.current_part] = self.spent_on_part(work);
+    fn switch_to_part(&mut self, part: usize, work: u64) {
+        self.work_by_part[self.current_part] = self.work_spent_on_current_part(work);
         (self.current_part, self.work_at_part_start) = (part, work);
     }
 
     /// Adds a part with a budget of its own and returns its index, or returns `part` if there are too many parts
     /// already.
-    fn new_part(&mut self, part: usize) -> usize {
+    fn add_part(&mut self, part: usize) -> usize {
         if self.work_by_part.len() >= MAX_BUDGET_PARTS {
             return part;
         }

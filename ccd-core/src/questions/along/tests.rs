@@ -17,7 +17,7 @@ use crate::schedule::{BestFirst, DepthFirst, Naive, Schedule};
 use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{Kind, Pcg64, RngExt, SoupKind, body, magnitude, rng, scene, soup};
+use crate::tests::scene::{Pcg64, RngExt, SceneKind, SoupKind, body, magnitude, rng, scene, soup};
 use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ struct SwingingBodies {
     soups: [Vec<Triangle>; 2],
     bodies: [Body; 2],
     trajectories: [SwingingTrajectory; 2],
-    config: Settings,
+    settings: Settings,
 }
 
 impl SwingingBodies {
@@ -41,7 +41,7 @@ impl SwingingBodies {
             bodies: [body(&soups[0]), body(&soups[1])],
             soups,
             trajectories: swings,
-            config: Settings {
+            settings: Settings {
                 tolerance: magnitude(rng, -6.0, -2.0),
                 margin: [0.0, 0.1][rng.random_range(0..2)],
                 ..Settings::DEFAULT
@@ -51,7 +51,7 @@ impl SwingingBodies {
 
     fn query(&self) -> Query<'_> {
         let [a, b] = [0, 1].map(|k| (&self.bodies[k], &self.trajectories[k]));
-        Query::new(a, b, 1.0, &self.config).unwrap()
+        Query::new(a, b, 1.0, &self.settings).unwrap()
     }
 
     fn distance(&self, t: f64) -> f64 {
@@ -82,7 +82,7 @@ fn first_contacts_hold_at_sampled_times() {
         let swings = SwingingBodies::draw(&mut rng);
         let Settings {
             margin, tolerance, ..
-        } = swings.config;
+        } = swings.settings;
         let (until, least) = match swings.first() {
             Outcome::Contact { time, contact } => {
                 hits += 1;
@@ -125,10 +125,10 @@ fn every_schedule_finds_first_contacts_along_trajectories() {
     let (mut hits, mut misses) = (0, 0);
     for number in 0..60 {
         let mut swings = SwingingBodies::draw(&mut rng);
-        swings.config.tolerance = magnitude(&mut rng, -3.0, -2.0);
+        swings.settings.tolerance = magnitude(&mut rng, -3.0, -2.0);
         let Settings {
             margin, tolerance, ..
-        } = swings.config;
+        } = swings.settings;
         let naive = Naive::default().first_contact(&swings.query(), &mut ExhaustiveOracle);
         match (naive.unwrap().outcome, swings.first()) {
             (Outcome::Contact { time, .. }, other) => {
@@ -168,7 +168,7 @@ fn any_contact_has_the_verdict_of_the_first() {
     let (mut hits, mut misses, mut grazes) = (0, 0, 0);
     for number in 0..600 {
         let swings = SwingingBodies::draw(&mut rng);
-        let within = swings.config.margin + swings.config.tolerance;
+        let within = swings.settings.margin + swings.settings.tolerance;
         let any = DepthFirst::default().any_contact(&swings.query(), &mut ExhaustiveOracle);
         match (any.unwrap().outcome, swings.first()) {
             (Outcome::Free { .. }, Outcome::Free { .. }) => misses += 1,
@@ -183,7 +183,7 @@ fn any_contact_has_the_verdict_of_the_first() {
             (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
             (Outcome::Free { .. }, Outcome::Contact { time, .. }) => {
                 grazes += 1;
-                assert!(swings.distance(time) > swings.config.margin);
+                assert!(swings.distance(time) > swings.settings.margin);
             }
             (any, first) => panic!("{number}: {any:?}, {first:?}"),
         }
@@ -206,7 +206,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
         match answer.outcome {
             Outcome::LeastDistance { time, .. } => {
                 assert!(
-                    upper - lower <= swings.config.tolerance,
+                    upper - lower <= swings.settings.tolerance,
                     "{number}: {answer:?}"
                 );
                 assert!(
@@ -252,7 +252,7 @@ impl SmoothTrajectory for UserTrajectory {
         Motion::about(self.0.pose(time), velocity, spin, centre)
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
+    fn acceleration_bounds(&self, _: f64, _: f64) -> AccelerationBounds {
         AccelerationBounds::default()
     }
 }
@@ -262,12 +262,16 @@ fn plain_motions_have_their_own_answers() {
     let mut rng = rng(4);
     let (mut hits, mut misses) = (0, 0);
     for number in 0..1_000 {
-        let scene = scene(&mut rng, [Kind::Any, Kind::NearRim][number % 2], 8);
+        let scene = scene(
+            &mut rng,
+            [SceneKind::RandomMotion, SceneKind::NearRim][number % 2],
+            8,
+        );
         let problem = scene.problem();
         let unknown = scene.motions.map(MotionAsTrajectory);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &unknown[k]));
-        let query = Query::new(a, b, 1.0, &scene.config).unwrap();
-        let answer = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+        let query = Query::new(a, b, 1.0, &scene.settings).unwrap();
+        let answer = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
         let along = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
         assert_eq!(along.unwrap().outcome, answer.outcome, "{number}");
         match answer.outcome {
@@ -283,12 +287,16 @@ fn a_motion_as_a_trajectory_of_ones_own_has_the_same_answer_within_the_tolerance
     let mut rng = rng(5);
     let (mut hits, mut misses, mut grazes) = (0, 0, 0);
     for number in 0..1_000 {
-        let scene = scene(&mut rng, [Kind::Any, Kind::NearRim][number % 2], 8);
+        let scene = scene(
+            &mut rng,
+            [SceneKind::RandomMotion, SceneKind::NearRim][number % 2],
+            8,
+        );
         let problem = scene.problem();
         let own = scene.motions.map(UserTrajectory);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &own[k]));
-        let query = Query::new(a, b, 1.0, &scene.config).unwrap();
-        let answer = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+        let query = Query::new(a, b, 1.0, &scene.settings).unwrap();
+        let answer = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
         let along = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
         match (answer.outcome, along.unwrap().outcome) {
             (Outcome::Contact { time, .. }, Outcome::Contact { time: other, .. }) => {
@@ -321,7 +329,7 @@ fn no_contact_is_before_the_first_or_after_the_last() {
         let swings = SwingingBodies::draw(&mut rng);
         let Settings {
             margin, tolerance, ..
-        } = swings.config;
+        } = swings.settings;
         let answer = BestFirst::default().contact_interval(&swings.query(), &mut ExhaustiveOracle);
         match (answer.unwrap().outcome, swings.first()) {
             (Outcome::Free { .. }, Outcome::Free { .. }) => {}
@@ -373,9 +381,9 @@ fn no_time_is_a_pose() {
     for _ in 0..100 {
         let swings = SwingingBodies::draw(&mut rng);
         let [a, b] = [0, 1].map(|k| (&swings.bodies[k], &swings.trajectories[k]));
-        let query = Query::new(a, b, 0.0, &swings.config).unwrap();
+        let query = Query::new(a, b, 0.0, &swings.settings).unwrap();
         let along = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
-        let within = swings.config.margin + swings.config.tolerance;
+        let within = swings.settings.margin + swings.settings.tolerance;
         match along.unwrap().outcome {
             Outcome::Free { proven_gap } => assert!(swings.distance(0.0) >= proven_gap - ROUNDING),
             Outcome::Touching { .. } | Outcome::Overlapping { .. } => {

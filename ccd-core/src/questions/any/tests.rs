@@ -14,9 +14,14 @@ use crate::schedule::BestFirst;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::cube;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
-use crate::tests::scene::{Kind, RngExt, direction, distance, pieces, rng, scene};
+use crate::tests::scene::{RngExt, SceneKind, direction, distance, pieces, rng, scene};
 
-const SCENE_KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
+const SCENE_KINDS: [SceneKind; 4] = [
+    SceneKind::RandomMotion,
+    SceneKind::Sliding,
+    SceneKind::NearRim,
+    SceneKind::Receding,
+];
 
 fn any_contact_outcome(problem: &Problem<'_>) -> Outcome {
     let mut schedule = DepthFirst::default();
@@ -27,7 +32,7 @@ fn any_contact_outcome(problem: &Problem<'_>) -> Outcome {
 
 fn first(problem: &Problem<'_>) -> Outcome {
     BestFirst::default()
-        .solve(problem, &mut ExhaustiveOracle)
+        .answer_first_contact(problem, &mut ExhaustiveOracle)
         .outcome
 }
 
@@ -37,7 +42,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
     let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
     for number in 0..2_000 {
         let scene =
-            scene(&mut rng, SCENE_KINDS[number % 4], 12).with_random_accelerations(&mut rng);
+            scene(&mut rng, SCENE_KINDS[number % 4], 12).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let within = problem.contact_distance();
         match (any_contact_outcome(&problem), first(&problem)) {
@@ -91,7 +96,7 @@ fn bodies_that_are_let_go_have_the_verdict_of_the_first_contact() {
     let (mut free, mut contacts) = (0, 0);
     for number in 0..600 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 6);
-        scene.config.start = StartPolicy::Leave;
+        scene.settings.start = StartPolicy::Leave;
         let problem = scene.problem();
         match (any_contact_outcome(&problem), first(&problem)) {
             (Outcome::Free { .. }, Outcome::Free { .. }) => free += 1,
@@ -116,7 +121,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
             _ => continue,
         };
         for budget in 0..40 {
-            scene.config.budget = budget;
+            scene.settings.budget = budget;
             match any_contact_outcome(&scene.problem()) {
                 Outcome::Unresolved(Unresolved {
                     safe_until,
@@ -140,7 +145,7 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
     let (mut unresolved, mut others) = (0, 0);
     for number in 0..300 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
-        scene.config.budget = 20_000;
+        scene.settings.budget = 20_000;
         let problem = scene.problem();
         let touch = (0..=64)
             .map(|k| f64::from(k) / 64.0)
@@ -209,7 +214,7 @@ fn a_body_inside_a_solid_is_never_certified_apart() {
                     ..Settings::DEFAULT
                 };
                 let bodies = [(&inner, leaving), (&outer, Motion::STILL)];
-                let problem = Problem::new(bodies, 1.0, &config.terms()).unwrap();
+                let problem = Problem::new(bodies, 1.0, &config.to_query_settings()).unwrap();
                 let mut schedule = DepthFirst::default();
                 let answer = schedule.any_contact_of(&problem, &mut LimitedOracle { calls_left });
                 match answer.outcome {

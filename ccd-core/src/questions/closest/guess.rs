@@ -5,10 +5,10 @@ use super::{NearestPair, unresolved_outcome};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::nearest::{NearestSearch, SearchEnd};
+use crate::engine::nearest::{EarlyEndReason, NearestSearch};
 use crate::math::order::greater;
 use crate::problem::Problem;
-use crate::shortcuts::bounding_volumes::{least_distance, nearest_clock};
+use crate::shortcuts::bounding_volumes::{clock_of_nearest_balls, least_distance};
 use crate::tuning::{FOLLOW_ACCURACY, MAX_INITIAL_MEASUREMENTS};
 use std::ops::ControlFlow;
 
@@ -23,7 +23,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
     meter: &mut Meter,
 ) -> ControlFlow<Outcome, Option<NearestPair>> {
     let mut best: Option<NearestPair> = None;
-    let mut clock = nearest_clock(problem);
+    let mut clock = clock_of_nearest_balls(problem);
     for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
         let found = nearest_pieces_at(problem, clock, upper, oracle, meter);
@@ -54,7 +54,7 @@ pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<SearchEnd, Option<NearestPair>> {
+) -> ControlFlow<EarlyEndReason, Option<NearestPair>> {
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
     let mut nearest = NearestSearch::new(problem, clock, &mut lists).with_cutoff(beyond);
     let stopped = nearest.search(oracle, meter);
@@ -68,7 +68,7 @@ pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
     };
     match stopped {
         // The bodies have met before.
-        Some(SearchEnd::Overlap(pieces, contact)) if clock > 0.0 => {
+        Some(EarlyEndReason::Overlap(pieces, contact)) if clock > 0.0 => {
             ControlFlow::Continue(Some(best((pieces, contact))))
         }
         Some(stop) => ControlFlow::Break(stop),
@@ -78,10 +78,14 @@ pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
 
 /// Returns the outcome for a measurement that was stopped, because the bodies overlap at the start or a limit is
 /// reached.
-fn outcome_of_stop(problem: &Problem<'_>, best: Option<NearestPair>, stop: SearchEnd) -> Outcome {
+fn outcome_of_stop(
+    problem: &Problem<'_>,
+    best: Option<NearestPair>,
+    stop: EarlyEndReason,
+) -> Outcome {
     match stop {
-        SearchEnd::Overlap(_, contact) => Outcome::from_overlap(Overlap::Pieces(contact)),
-        SearchEnd::Limit(limit) => {
+        EarlyEndReason::Overlap(_, contact) => Outcome::from_overlap(Overlap::Pieces(contact)),
+        EarlyEndReason::Limit(limit) => {
             let seen =
                 |best: NearestPair| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
             let lower = greater(0.0, least_distance(problem));

@@ -12,12 +12,12 @@ use crate::problem::Problem;
 #[derive(Debug)]
 pub(crate) struct LowerBoundAttempts {
     /// The amount of work of the search after which it next tries to prove a lower bound.
-    next: u64,
+    next_attempt_work: u64,
     /// The amount of work of the search after which it tries to prove a lower bound for the last time. The rest of the
     /// budget is reserved for this attempt.
-    last: u64,
+    last_attempt_work: u64,
     /// The share of the least measured distance that the next attempt tries to prove.
-    part: f64,
+    next_share: f64,
     /// The greatest lower bound proven so far of the distance at all times.
     pub(crate) lower: f64,
 }
@@ -55,18 +55,18 @@ impl LowerBoundAttempts {
     pub(crate) fn new(lower: f64, budget: u64) -> Self {
         let last = budget - budget / 4;
         LowerBoundAttempts {
-            next: FIRST_ATTEMPT_WORK.min(last),
-            last,
-            part: 0.5,
+            next_attempt_work: FIRST_ATTEMPT_WORK.min(last),
+            last_attempt_work: last,
+            next_share: 0.5,
             // Written so that NaN is no bound.
             lower: if lower > 0.0 { lower } else { 0.0 },
         }
     }
 
     /// Makes the first attempt earlier if a deadline or another thread may end the search.
-    pub(crate) fn with_early_start(mut self, is_timed: bool) -> Self {
+    pub(crate) fn with_earlier_first_attempt(mut self, is_timed: bool) -> Self {
         if is_timed {
-            self.next = self.next.min(FIRST_TIMED_ATTEMPT_WORK);
+            self.next_attempt_work = self.next_attempt_work.min(FIRST_TIMED_ATTEMPT_WORK);
         }
         self
     }
@@ -75,11 +75,11 @@ impl LowerBoundAttempts {
     /// work as was done before.
     #[inline]
     pub(crate) fn next_attempt_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
-        if work < self.next {
+        if work < self.next_attempt_work {
             return None;
         }
-        self.next = if work < self.last {
-            work.saturating_mul(8).min(self.last)
+        self.next_attempt_work = if work < self.last_attempt_work {
+            work.saturating_mul(8).min(self.last_attempt_work)
         } else {
             u64::MAX
         };
@@ -89,7 +89,7 @@ impl LowerBoundAttempts {
     /// Returns the next attempt for a least measured distance of `upper`; `None` if no distance is measured, no budget
     /// is left, or success would not increase the lower bound.
     pub(crate) fn next_attempt(&self, upper: f64, budget: u64) -> Option<MarginQuery> {
-        let level = self.part * upper;
+        let level = self.next_share * upper;
         // The tolerance leaves room for proofs.
         let (margin, tolerance) = (0.75 * level, 0.25 * level);
         (margin > self.lower && level < f64::INFINITY && budget > 0).then_some(MarginQuery {
@@ -105,9 +105,9 @@ impl LowerBoundAttempts {
         match proven {
             Some(proven) => {
                 self.lower = greater(self.lower, proven);
-                self.part = 0.5 + 0.5 * self.part;
+                self.next_share = 0.5 + 0.5 * self.next_share;
             }
-            None => self.part *= 0.25,
+            None => self.next_share *= 0.25,
         }
     }
 }

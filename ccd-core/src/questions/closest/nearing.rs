@@ -13,34 +13,34 @@ use crate::engine::search::{AdvanceResult, Question, Search};
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::questions::depth_first::Stack;
-use crate::shortcuts::closer_look::TighterBounds;
+use crate::shortcuts::closer_look::BoundTightener;
 use std::ops::ControlFlow;
 
 /// A search for the least distance, which proves that each pair stays at least as far apart as the least distance found
 /// so far.
 pub(crate) struct LeastDistanceSearch {
-    pub(crate) best: Option<NearestPair>,
+    pub(crate) nearest: Option<NearestPair>,
     /// The distance from which on pairs are ignored.
-    pub(crate) beyond: f64,
+    pub(crate) cutoff_distance: f64,
     pub(crate) proven: ProvenFacts,
     /// The reason why some pair could not be proven apart to the end; `None` if there is no such pair.
     pub(crate) first_failure: Option<Limit>,
     /// The lower bound of the distance that is proven for all pairs, with the state of further attempts.
-    pub(crate) ladder: LowerBoundAttempts,
+    pub(crate) lower_bound_attempts: LowerBoundAttempts,
 }
 
 impl LeastDistanceSearch {
     pub(crate) fn upper(&self) -> f64 {
         let upper = |best: NearestPair| best.contact.separation.upper;
-        self.best.map_or(self.beyond, upper)
+        self.nearest.map_or(self.cutoff_distance, upper)
     }
 
-    pub(crate) fn found(
+    pub(crate) fn least_distance_outcome(
         &self,
         problem: &Problem<'_>,
         lower: f64,
     ) -> Result<Outcome, FartherThanCutoff> {
-        let best = self.best.ok_or(FartherThanCutoff { lower })?;
+        let best = self.nearest.ok_or(FartherThanCutoff { lower })?;
         let contact = best.contact.cap_lower_bound(lower);
         Ok(Outcome::LeastDistance {
             lower,
@@ -50,14 +50,14 @@ impl LeastDistanceSearch {
     }
 
     pub(crate) fn unresolved_outcome(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
-        let lower = lesser(self.ladder.lower, self.upper());
+        let lower = lesser(self.lower_bound_attempts.lower, self.upper());
         let seen = |best: NearestPair| {
             let contact = best.contact.cap_lower_bound(lower);
             (problem.time(best.clock), contact)
         };
         Outcome::Unresolved(Unresolved::for_least_distance(
             lower,
-            self.best.map(seen),
+            self.nearest.map(seen),
             limit,
         ))
     }
@@ -66,7 +66,7 @@ impl LeastDistanceSearch {
     /// finds.
     ///
     /// Breaks with the answer for bodies that overlap.
-    pub(crate) fn climb<O: DistanceOracle>(
+    pub(crate) fn try_lower_bound<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
         rung: MarginQuery,
@@ -77,34 +77,38 @@ impl LeastDistanceSearch {
         let budget = problem.budget.min(work.saturating_add(rung.budget));
         let lower = MarginQuery { budget, ..rung }.problem(problem);
         let mut below = LeastDistanceSearch {
-            best: None,
-            beyond: lower.contact_distance(),
+            nearest: None,
+            cutoff_distance: lower.contact_distance(),
             proven: ProvenFacts::default(),
             first_failure: None,
-            ladder: LowerBoundAttempts::new(0.0, 0),
+            lower_bound_attempts: LowerBoundAttempts::new(0.0, 0),
         };
         let mut stack = Stack::default();
         let mut search = Search::new(&mut stack, oracle, meter);
         let common = NodeContext::new(&lower);
-        let mut look = TighterBounds::new(&lower);
+        let mut look = BoundTightener::new(&lower);
         let mut found = None;
         if search.push_roots(&lower).is_ok() {
-            while below.best.is_none() && found.is_none() {
-                found = search.visit(&common, &mut look, &mut below).break_value();
+            while below.nearest.is_none() && found.is_none() {
+                found = search
+                    .visit_next_pair(&common, &mut look, &mut below)
+                    .break_value();
             }
         }
         match found {
             Some(Ok(overlapping @ Outcome::Overlapping { .. })) => {
                 return ControlFlow::Break(overlapping);
             }
-            Some(Err(FartherThanCutoff { lower })) => self.ladder.record_attempt(Some(lower)),
-            _ => self.ladder.record_attempt(None),
+            Some(Err(FartherThanCutoff { lower })) => {
+                self.lower_bound_attempts.record_attempt(Some(lower));
+            }
+            _ => self.lower_bound_attempts.record_attempt(None),
         }
         if let Some(best) = below
-            .best
+            .nearest
             .filter(|best| best.contact.separation.upper < self.upper())
         {
-            self.best = Some(best);
+            self.nearest = Some(best);
         }
         ControlFlow::Continue(())
     }
@@ -124,10 +128,13 @@ impl LeastDistanceSearch {
         };
         for _ in 0..MAX_FINAL_ATTEMPTS {
             let left = problem.budget.saturating_sub(meter.stats.work());
-            let Some(rung) = self.ladder.next_attempt(self.upper(), left / 2) else {
+            let Some(rung) = self
+                .lower_bound_attempts
+                .next_attempt(self.upper(), left / 2)
+            else {
                 break;
             };
-            if let ControlFlow::Break(found) = self.climb(problem, rung, oracle, meter) {
+            if let ControlFlow::Break(found) = self.try_lower_bound(problem, rung, oracle, meter) {
                 return Ok(found);
             }
         }
@@ -136,7 +143,7 @@ impl LeastDistanceSearch {
 }
 
 impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
-    type Found = Result<Outcome, FartherThanCutoff>;
+    type Conclusion = Result<Outcome, FartherThanCutoff>;
 
     fn on_advance(
         &mut self,
@@ -144,7 +151,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
         oracle: &mut O,
         meter: &mut Meter,
         advance: AdvanceResult,
-    ) -> ControlFlow<Self::Found, f64> {
+    ) -> ControlFlow<Self::Conclusion, f64> {
         let AdvanceResult {
             pieces,
             clock,
@@ -158,7 +165,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
                     pieces,
                     contact,
                 };
-                self.best = Some(follow_to_minimum(problem, oracle, meter, seen));
+                self.nearest = Some(follow_to_minimum(problem, oracle, meter, seen));
                 // The pair is examined again, since it keeps a smaller distance.
                 ControlFlow::Continue(clock)
             }
@@ -177,17 +184,17 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
         }
     }
 
-    fn on_limit(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
+    fn on_limit(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Conclusion {
         Ok(self.unresolved_outcome(problem, limit))
     }
 
-    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found {
+    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Conclusion {
         if let Some(limit) = self.first_failure {
             return Ok(self.unresolved_outcome(problem, limit));
         }
         match self.proven.finish(problem) {
             overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
-            Outcome::Free { proven_gap } => self.found(problem, proven_gap),
+            Outcome::Free { proven_gap } => self.least_distance_outcome(problem, proven_gap),
             Outcome::Unresolved(known) => Ok(self.unresolved_outcome(problem, known.limit)),
             _ => unreachable!("pairs that waited are in no contact"),
         }

@@ -2,7 +2,7 @@
 
 use super::ladder::{LowerBoundAttempts, MAX_FINAL_ATTEMPTS, MarginQuery};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
-use crate::body::excess::Excess;
+use crate::body::excess::ExcessSum;
 use crate::limits::LEAST_TOLERANCE;
 use crate::math::order::{greater, lesser};
 use std::time::{Duration, Instant};
@@ -16,7 +16,7 @@ pub(crate) struct RequiredClearance {
     pub(crate) deadline: Option<Duration>,
     /// The excess of the bodies over their shapes. The shapes certainly violate the distance only if the bodies are
     /// nearer than it by the excess.
-    pub(crate) excess: Excess,
+    pub(crate) excess: ExcessSum,
 }
 
 impl RequiredClearance {
@@ -42,7 +42,7 @@ impl RequiredClearance {
         let near = decision.run_query(self.distance, decision.query_tolerance, most)?;
         // A finer tolerance may not be certified in f64.
         decision.query_tolerance = greater(decision.query_tolerance, near.tolerance);
-        let outcome = match self.decision_for(near.outcome) {
+        let outcome = match self.clearance_outcome(near.outcome) {
             Outcome::LeastDistance { time, contact, .. } if self.violation_distance() > 0.0 => {
                 decision.decide_violation(time, contact)?
             }
@@ -69,7 +69,7 @@ impl RequiredClearance {
     }
 
     /// Converts the outcome of a query whose margin is the required distance to the outcome of the decision.
-    fn decision_for(&self, found: Outcome) -> Outcome {
+    fn clearance_outcome(&self, found: Outcome) -> Outcome {
         match found {
             Outcome::Free { proven_gap } => Outcome::Free {
                 proven_gap: greater(proven_gap, self.distance),
@@ -134,7 +134,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         let found = self
             .run_query(margin, finer, self.remaining_work())?
             .outcome;
-        Ok(match (found, self.clearance.decision_for(found)) {
+        Ok(match (found, self.clearance.clearance_outcome(found)) {
             (Outcome::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
             (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
                 known.lower,

@@ -13,9 +13,14 @@ use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
-use crate::tests::scene::{Kind, RngExt, direction, distance, magnitude, rng, scene};
+use crate::tests::scene::{RngExt, SceneKind, direction, distance, magnitude, rng, scene};
 
-const SCENE_KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
+const SCENE_KINDS: [SceneKind; 4] = [
+    SceneKind::RandomMotion,
+    SceneKind::Sliding,
+    SceneKind::NearRim,
+    SceneKind::Receding,
+];
 
 fn approach(problem: &Problem<'_>) -> Answer {
     DepthFirst::default().closest_approach_of(problem, &mut ExhaustiveOracle)
@@ -33,8 +38,8 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
     for number in 0..1_000 {
         let mut scene =
-            scene(&mut rng, SCENE_KINDS[number % 4], 12).with_random_accelerations(&mut rng);
-        scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
+            scene(&mut rng, SCENE_KINDS[number % 4], 12).with_occasional_accelerations(&mut rng);
+        scene.settings.tolerance *= magnitude(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
         let Answer {
             outcome, tolerance, ..
@@ -96,9 +101,9 @@ fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
             continue;
         };
         let mut at = |margin: f64| {
-            scene.config.margin = margin;
+            scene.settings.margin = margin;
             BestFirst::default()
-                .solve(&scene.problem(), &mut ExhaustiveOracle)
+                .answer_first_contact(&scene.problem(), &mut ExhaustiveOracle)
                 .outcome
         };
         if lower > 2.0 * tolerance {
@@ -146,7 +151,7 @@ fn budgets_end_a_search_with_what_was_seen() {
         };
         let found = sampled_least_distance(&scene.problem(), 64);
         for budget in 0..visits.min(60) {
-            scene.config.budget = budget;
+            scene.settings.budget = budget;
             let problem = scene.problem();
             let outcome = approach(&problem).outcome;
             let Outcome::Unresolved(Unresolved {
@@ -182,7 +187,7 @@ fn false_claims_and_give_ups_never_raise_the_lower_bound() {
     let (mut unresolved, mut others) = (0, 0);
     for number in 0..300 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
-        scene.config.budget = 20_000;
+        scene.settings.budget = 20_000;
         let problem = scene.problem();
         let found = sampled_least_distance(&problem, 64);
         let lie = Claim {

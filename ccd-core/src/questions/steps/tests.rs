@@ -8,7 +8,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, distance, rng, scene};
+use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, distance, rng, scene};
 use glam::DVec3;
 
 /// Answers a query in steps of random lengths, and counts the steps.
@@ -47,19 +47,23 @@ fn steps_do_not_change_the_answer() {
     let mut memory = BestFirst::default();
     let (mut hits, mut misses, mut starts, mut limits, mut steps) = (0, 0, 0, 0, 0);
     for number in 0..3_000 {
-        let kind =
-            [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding][rng.random_range(0..4)];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::Sliding,
+            SceneKind::NearRim,
+            SceneKind::Receding,
+        ][rng.random_range(0..4)];
         let mut scene: Scene = scene(&mut rng, kind, 12);
         if rng.random_range(0..3) == 0 {
             // The bodies are in contact at the start, unless they overlap.
-            scene.config.tolerance = 2.0 * distance(&scene.problem(), 0.0) + 1e-9;
+            scene.settings.tolerance = 2.0 * distance(&scene.problem(), 0.0) + 1e-9;
         }
-        scene.config.start = [StartPolicy::Report, StartPolicy::Leave][rng.random_range(0..2)];
+        scene.settings.start = [StartPolicy::Report, StartPolicy::Leave][rng.random_range(0..2)];
         if rng.random_range(0..4) == 0 {
-            scene.config.budget = rng.random_range(0..60);
+            scene.settings.budget = rng.random_range(0..60);
         }
         let problem = scene.problem();
-        let whole = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+        let whole = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
         let (answer, taken) = answer_in_steps(&problem, &mut memory, &mut rng);
         assert_eq!(answer, whole, "{number}");
         steps += taken;
@@ -83,7 +87,7 @@ fn a_search_goes_no_further_than_it_is_asked() {
     let mut rng = rng(2);
     let (mut less, mut all) = (0, 0);
     for _ in 0..300 {
-        let scene = scene(&mut rng, Kind::Sliding, 12);
+        let scene = scene(&mut rng, SceneKind::Sliding, 12);
         let problem = scene.problem();
         let mut search = SteppedSearch::new(problem.clone(), BestFirst::default());
         search.advance(&mut ExhaustiveOracle, 0.05);
@@ -102,7 +106,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     let mut reached = 0;
     for duration in [5e-324, 6e-323, 1e-320, 1e-290, 1e-9, 0.3, 7.0, 1e200] {
         for _ in 0..100 {
-            let scene = scene(&mut rng, Kind::Sliding, 12);
+            let scene = scene(&mut rng, SceneKind::Sliding, 12);
             let slowed = |k: usize| {
                 let motion = scene.motions[k];
                 let velocity = motion.velocity() / duration;
@@ -110,7 +114,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
                 let slow = Motion::about(motion.start(), velocity, DVec3::ZERO, motion.centre());
                 (&scene.bodies[k], slow.unwrap())
             };
-            let problem = Problem::about(slowed(0), slowed(1), duration, &scene.config).unwrap();
+            let problem = Problem::about(slowed(0), slowed(1), duration, &scene.settings).unwrap();
             let mut search = SteppedSearch::new(problem, BestFirst::default());
             for exponent in [-320, -17, -9, -3, -1, -1, -1] {
                 let until = duration * rng.random_range(0.5..1.5) * 10f64.powi(exponent);

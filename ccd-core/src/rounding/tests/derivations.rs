@@ -45,7 +45,7 @@ fn constants_cover_the_operations_that_they_count() {
         ("DETERMINANT_F64", DETERMINANT_ERROR_F64, 8.0),
         ("HEIGHT_F64", HEIGHT_ERROR_F64, 3.0),
         ("TURNED_SUPPORT", TURNED_SUPPORT_ERROR, 60.0),
-        ("ADVANCE_F64", ADVANCE_ERROR_F64, 18.0),
+        ("ADVANCE_F64", SCREW_VELOCITY_ERROR_F64, 18.0),
     ] {
         assert_covers_sum(name, taken / UNIT_ROUNDOFF_F64, derived);
     }
@@ -97,21 +97,21 @@ fn extreme_lengths_scale_to_ordinary_squares() {
 #[test]
 fn shares_are_shares() {
     for share in [
-        SKIPPED_NEARER_SHARE,
-        ARM_DISTANCE_SHARE,
+        SKIPPED_PAIR_ALLOWANCE,
+        ARM_INCREASE_PER_DISTANCE,
         ROTATION_GAP_SHARE,
         SUFFICIENT_FIRST_FREE_TIME,
         MIN_NEWTON_GROWTH,
         MIN_RESTING_SLACK,
-        NODE_GAP,
+        NODE_CLOCK_GAP,
         CLOSED_GAP,
         MIN_BOX_FILL,
         MAX_SCREW_DRIFT,
         MIN_SCREW_ADVANCE,
         MIN_PROFILE_RADIUS,
         f64::from(MAX_TURNING_PLANE_TIME),
-        f64::from(MIN_SWEEP),
-        f64::from(ADDED_THICKNESS),
+        f64::from(MIN_REVISIT_SWEEP),
+        f64::from(THICKNESS_PER_RADIUS),
     ] {
         assert!(0.0 < share && share < 1.0, "{share}");
     }

@@ -8,7 +8,7 @@ use crate::math::order::greater;
 use crate::motion::relative::RelativePath;
 use crate::problem::Problem;
 use crate::settings::{Instructions, Settings};
-use crate::tests::double::{Double, Double3, place};
+use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{RngExt, direction, magnitude};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
@@ -52,7 +52,13 @@ impl Scene {
     fn problem(&self) -> Option<Problem<'_>> {
         let moving = |k: usize| (&self.bodies[k], self.motions[k]);
         let (bodies, pulls) = ([moving(0), moving(1)], self.accelerations);
-        Problem::with_accelerations(bodies, pulls, self.duration, &Settings::DEFAULT.terms()).ok()
+        Problem::with_accelerations(
+            bodies,
+            pulls,
+            self.duration,
+            &Settings::DEFAULT.to_query_settings(),
+        )
+        .ok()
     }
 
     /// Adds random accelerations, which move the bodies between a hundredth and a hundred times as far as their
@@ -69,22 +75,23 @@ impl Scene {
     }
 
     /// Returns the exact position of a body's point after the share `s` of the duration.
-    fn place(&self, body: usize, s: f64, point: DVec3) -> Double3 {
-        let time = Double::from(self.duration) * Double::from(s);
-        let fall = Double3::from(self.accelerations[body]).scale(time * time * Double::from(0.5));
+    fn place(&self, body: usize, s: f64, point: DVec3) -> DoubleDouble3 {
+        let time = DoubleDouble::from(self.duration) * DoubleDouble::from(s);
+        let fall = DoubleDouble3::from(self.accelerations[body])
+            .scale(time * time * DoubleDouble::from(0.5));
         place(&self.motions[body], self.duration, s, point) + fall
     }
 }
 
 /// Draws a scene, and returns the errors of its positions, gaps and distances as shares of their bound.
-fn shares_of_scene(tape: &mut RandomCase) -> Option<ErrorShares> {
+fn random_scene_error_shares(tape: &mut RandomCase) -> Option<ErrorShares> {
     let scene = Scene::new(tape);
     scene_error_shares(tape, &scene)
 }
 
 /// Draws a scene without rotation, and returns the errors of its positions, gaps and distances as shares of their
 /// bound.
-fn shares_without_rotation(tape: &mut RandomCase) -> Option<ErrorShares> {
+fn error_shares_without_rotation(tape: &mut RandomCase) -> Option<ErrorShares> {
     let scene = Scene::new(tape).without_rotation();
     scene_error_shares(tape, &scene)
 }
@@ -104,43 +111,43 @@ fn scene_error_shares(tape: &mut RandomCase, scene: &Scene) -> Option<ErrorShare
 #[test]
 fn worst_places() {
     let found = WorstCaseSearch::of("distance_rounding, places", 8_000)
-        .search(|tape| Some(shares_of_scene(tape)?.place));
-    found.assert_within(100.0);
+        .search(|tape| Some(random_scene_error_shares(tape)?.place));
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_gaps() {
     let found = WorstCaseSearch::of("distance_rounding, gaps", 8_000)
-        .search(|tape| Some(shares_of_scene(tape)?.gap));
-    found.assert_within(100.0);
+        .search(|tape| Some(random_scene_error_shares(tape)?.gap));
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_distances() {
     let found = WorstCaseSearch::of("distance_rounding, distances", 8_000)
-        .search(|tape| Some(shares_of_scene(tape)?.distance));
-    found.assert_within(100.0);
+        .search(|tape| Some(random_scene_error_shares(tape)?.distance));
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_places_without_turns() {
     let found = WorstCaseSearch::of("distance_rounding, places, without turns", 8_000)
-        .search(|tape| Some(shares_without_rotation(tape)?.place));
-    found.assert_within(100.0);
+        .search(|tape| Some(error_shares_without_rotation(tape)?.place));
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_gaps_without_turns() {
     let found = WorstCaseSearch::of("distance_rounding, gaps, without turns", 8_000)
-        .search(|tape| Some(shares_without_rotation(tape)?.gap));
-    found.assert_within(100.0);
+        .search(|tape| Some(error_shares_without_rotation(tape)?.gap));
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_distances_without_turns() {
     let found = WorstCaseSearch::of("distance_rounding, distances, without turns", 8_000)
-        .search(|tape| Some(shares_without_rotation(tape)?.distance));
-    found.assert_within(100.0);
+        .search(|tape| Some(error_shares_without_rotation(tape)?.distance));
+    found.assert_tight_bound(100.0);
 }
 
 /// Searches for the worst rounding of positions on motions whose velocities are derived from given poses at both ends.
@@ -159,18 +166,20 @@ fn worst_places_between_poses() {
             duration,
         };
         let problem = scene.problem()?;
-        let origin = Double3::from(ends[1].positions[0]);
+        let origin = DoubleDouble3::from(ends[1].positions[0]);
         let s = tape.random_range(0.0..1.0);
         let k = tape.index_below(2);
         let frame = [&problem.a, &problem.b][k].path.frame(s);
         let off = |p: &DVec3| {
-            let exact = ends[k].place(Double::from(s), *p) - origin;
-            (Double3::from(frame.point(*p)) - exact).length().get()
+            let exact = ends[k].place(DoubleDouble::from(s), *p) - origin;
+            (DoubleDouble3::from(frame.point(*p)) - exact)
+                .length()
+                .get()
         };
         let off = scene.bodies[k].pieces().points().iter().map(off);
         Some(share(off.fold(0.0, greater), problem.rounding))
     });
-    found.assert_within(100.0);
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
@@ -178,18 +187,20 @@ fn worst_places_of_accelerating_bodies() {
     let found = WorstCaseSearch::of("distance_rounding, accelerating", 8_000).search(|tape| {
         let scene = Scene::new(tape).with_accelerations(tape);
         let problem = scene.problem()?;
-        let origin = Double3::from(scene.motions[1].start().translation());
+        let origin = DoubleDouble3::from(scene.motions[1].start().translation());
         let s = tape.random_range(0.0..1.0);
         let k = tape.index_below(2);
         let frame = [&problem.a, &problem.b][k].path.frame(s);
         let off = |p: &DVec3| {
             let exact = scene.place(k, s, *p) - origin;
-            (Double3::from(frame.point(*p)) - exact).length().get()
+            (DoubleDouble3::from(frame.point(*p)) - exact)
+                .length()
+                .get()
         };
         let off = scene.bodies[k].pieces().points().iter().map(off);
         Some(share(off.fold(0.0, greater), problem.rounding))
     });
-    found.assert_within(100.0);
+    found.assert_tight_bound(100.0);
 }
 
 /// Searches for the worst rounding of the relative pose of two bodies that bounds of nodes use.
@@ -214,10 +225,11 @@ fn worst_views() {
             let arm = crate::math::simd::PackedVector::new(level, arm);
             (seen.rotation * arm + seen.offset).to_dvec3()
         });
-        let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));
+        let found = DoubleDouble3::from(found)
+            - (DoubleDouble3::from(x) - DoubleDouble3::from(from.path.centre));
         let exact = scene.place(1 - own, s, y) - scene.place(own, s, x);
         let off = (found.length() - exact.length()).get().abs();
         Some(share(off, problem.rounding))
     });
-    found.assert_within(100.0);
+    found.assert_tight_bound(100.0);
 }

@@ -7,7 +7,7 @@ use crate::rounding::{
     DETERMINANT_ERROR_F64, FRAME_ERROR_F64, HEIGHT_ERROR_F64, LEAST_ROUNDING, SQUARED_LENGTH_RANGE,
     TURN_COUNT_WIDENING, UNIT_ROUNDOFF_F64, distance_rounding, height_rounding,
 };
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::rational::{Exact3, error_of};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::{DMat3, DVec3};
@@ -44,7 +44,7 @@ fn height_f64() {
         let allowed = HEIGHT_ERROR_F64 * size(n) * x.abs().max_element();
         Some(share(error_of(n.dot(x), &exact), allowed))
     });
-    found.assert_within(3.0);
+    found.assert_tight_bound(3.0);
 }
 
 /// Tests the error bound of a corner's position along a ray, by which the sign of the position is decided.
@@ -57,7 +57,7 @@ fn sign_f64_of_a_product() {
         let allowed = DETERMINANT_ERROR_F64 * size(way) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(way), &exact), allowed))
     });
-    found.assert_within(12.0);
+    found.assert_tight_bound(12.0);
 }
 
 /// Tests the error bound of the determinant whose sign decides on which side of an edge a ray passes.
@@ -71,7 +71,7 @@ fn sign_f64_of_a_ray_and_an_edge() {
         let allowed = DETERMINANT_ERROR_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(p.cross(q)), &exact), allowed))
     });
-    found.assert_within(9.0);
+    found.assert_tight_bound(9.0);
 }
 
 /// Tests the error bound of the determinant whose sign decides on which side of a triangle a ray starts.
@@ -86,7 +86,7 @@ fn sign_f64_of_three_corners() {
         let allowed = DETERMINANT_ERROR_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
         Some(share(error_of(a.dot(b.cross(c)), &exact), allowed))
     });
-    found.assert_within(9.0);
+    found.assert_tight_bound(9.0);
 }
 
 /// Tests the error bound of a point's height above a plane, as the point tree and hulls compute it.
@@ -106,7 +106,7 @@ fn height_rounding_of_points() {
             height_rounding([u, v], reach),
         ))
     });
-    found.assert_within(30.0);
+    found.assert_tight_bound(30.0);
 }
 
 /// Tests that the computed height of a box falls below the exact height of a point in it by at most the error bound.
@@ -138,7 +138,7 @@ fn height_rounding_of_boxes() {
             height_rounding([u, v], reach),
         ))
     });
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }
 
 /// Tests that computed principal axes deviate from unit length and right angles by at most the error bound.
@@ -149,12 +149,12 @@ fn frame_f64() {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         Some(share(orthonormality_error(&frame), FRAME_ERROR_F64))
     });
-    found.assert_within(200.0);
+    found.assert_tight_bound(200.0);
 }
 
 fn orthonormality_error(frame: &DMat3) -> f64 {
-    let columns = [0, 1, 2].map(|k| Double3::from(frame.col(k)));
-    let one = |same: bool| Double::from(f64::from(u8::from(same)));
+    let columns = [0, 1, 2].map(|k| DoubleDouble3::from(frame.col(k)));
+    let one = |same: bool| DoubleDouble::from(f64::from(u8::from(same)));
     let pairs = (0..9).map(|k| (k / 3, k % 3));
     let off = pairs.map(|(i, j)| (columns[i].dot(columns[j]) - one(i == j)).get().abs());
     off.fold(0.0, greater)
@@ -177,14 +177,14 @@ fn units_and_lengths() {
             let n = unit(v)?;
             // The vector is scaled by a power of two: the digits of double-double do not reach below 1e-290.
             let up = 2f64.powi(*exponents.start() / -2);
-            let scaled = Double3::from(v * up);
+            let scaled = DoubleDouble3::from(v * up);
             let exact = scaled.length().get();
-            let off = Double::from(length(v) * up) - scaled.length();
-            let of_unit = Double3::from(n).length() - Double::from(1.0);
+            let off = DoubleDouble::from(length(v) * up) - scaled.length();
+            let of_unit = DoubleDouble3::from(n).length() - DoubleDouble::from(1.0);
             let error = greater(off.get().abs() / exact, of_unit.get().abs());
             Some(share(error, 4.0 * UNIT_ROUNDOFF_F64))
         });
-        found.assert_within(looseness);
+        found.assert_tight_bound(looseness);
     }
 }
 
@@ -210,7 +210,7 @@ fn least_rounding() {
         Some(share(worst, bound * 2f64.powi(500) * 2f64.powi(500)))
     });
     // The allowance is far above the error, as its derivation says.
-    found.assert_within(f64::INFINITY);
+    found.assert_tight_bound(f64::INFINITY);
 }
 
 /// Tests the error bound of numbers of turns, which are quotients of angles.
@@ -218,18 +218,20 @@ fn least_rounding() {
 fn turns_f64() {
     // This is 2π to 107 bits: sine and cosine of the rounded angle correct it.
     let tau = {
-        let rough = Double::from(std::f64::consts::TAU);
+        let rough = DoubleDouble::from(std::f64::consts::TAU);
         rough - rough.sin_cos().0
     };
     let found = WorstCaseSearch::of("TURN_COUNT_WIDENING", 20_000).search(|tape| {
-        let [from, width, ahead] = [0; 3].map(|_| tape.any(-20..=20));
+        let [from, width, ahead] = [0; 3].map(|_| tape.any_number(-20..=20));
         let turns = (from - width - ahead) / std::f64::consts::TAU;
-        let exact = (Double::from(from) - Double::from(width) - Double::from(ahead)) / tau;
-        let off = (Double::from(turns) - exact).get().abs();
+        let exact =
+            (DoubleDouble::from(from) - DoubleDouble::from(width) - DoubleDouble::from(ahead))
+                / tau;
+        let off = (DoubleDouble::from(turns) - exact).get().abs();
         // Angles that cancel are off by the last digits of their terms.
         let most = [from, width, ahead].map(f64::abs).into_iter();
         let allowed = TURN_COUNT_WIDENING * (1.0 + most.fold(turns.abs(), greater));
         Some(share(off, allowed))
     });
-    found.assert_within(1e8);
+    found.assert_tight_bound(1e8);
 }

@@ -8,22 +8,22 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::tests::scene::{
-    Passage, RngExt, SoupKind, body, direction, distance, magnitude, point_in_ball, rng, rotation,
-    soup,
+    MotionThroughPose, RngExt, SoupKind, body, direction, distance, magnitude, point_in_ball, rng,
+    rotation, soup,
 };
 use glam::DVec3;
 
 #[test]
 fn bodies_told_apart_by_balls_keep_their_gap_at_all_sampled_times() {
-    check_proven_apart_keep_gap(balls_keep_apart);
+    assert_bodies_proven_apart_keep_gap(balls_keep_apart);
 }
 
 #[test]
 fn bodies_told_apart_by_boxes_keep_their_gap_at_all_sampled_times() {
-    check_proven_apart_keep_gap(boxes_keep_apart);
+    assert_bodies_proven_apart_keep_gap(boxes_keep_apart);
 }
 
-fn check_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
+fn assert_bodies_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
     let mut rng = rng(1);
     let (mut told, mut near) = (0, 0);
     for _ in 0..2_000 {
@@ -31,7 +31,7 @@ fn check_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
         let bodies = [0, 1].map(|_| body(&soup(&mut rng, SoupKind::WellShaped, count, size)));
         let turn = magnitude(&mut rng, -3.0, 1.5);
         let motions = [0, 1].map(|_| {
-            let passage = Passage {
+            let passage = MotionThroughPose {
                 clock: rng.random_range(0.0..1.0),
                 rotation: rotation(&mut rng),
                 place: point_in_ball(&mut rng, 6.0 * size),
@@ -52,7 +52,8 @@ fn check_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
         });
         let bodies = [a, b];
         let problem =
-            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
+            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.to_query_settings())
+                .unwrap();
         if !tells(&problem) {
             near += 1;
             continue;

@@ -8,7 +8,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::rounding::BOX_EXTENT_ERROR_F32;
 use crate::settings::Settings;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{direction, random_box_corners};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
@@ -32,13 +32,13 @@ fn worst_reach_of_a_box() {
         let along = points[tape.index_below(8)] - points[tape.index_below(8)];
         let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
         let height = |&p: &DVec3| {
-            let way = Double3::from(p) - Double3::from(node.centre);
-            Double3::from(n).dot(way)
+            let way = DoubleDouble3::from(p) - DoubleDouble3::from(node.centre);
+            DoubleDouble3::from(n).dot(way)
         };
-        let highest = points.iter().map(height).reduce(Double::max)?;
+        let highest = points.iter().map(height).reduce(DoubleDouble::max)?;
         let allowed = BOX_EXTENT_ERROR_F32 * node.radius;
-        let reach = Double::from(node.extent_along(n)) - Double::from(allowed);
+        let reach = DoubleDouble::from(node.extent_along(n)) - DoubleDouble::from(allowed);
         Some(share((highest - reach).get(), allowed))
     });
-    found.assert_within(20.0);
+    found.assert_tight_bound(20.0);
 }

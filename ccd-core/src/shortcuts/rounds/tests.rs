@@ -19,7 +19,7 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
+    BestFirst::default().answer_first_contact(problem, &mut ExhaustiveOracle)
 }
 
 /// Creates the motion of a ball of radius 1 on a circle of radius 5, which starts at a given angle.
@@ -36,7 +36,7 @@ fn gap([a, b]: [&Motion; 2], time: f64) -> f64 {
 }
 
 /// Checks that the reported contact of two balls is their first contact, and returns its time.
-fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
+fn checked_contact_time(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
     let ball = Body::sphere(1.0).unwrap();
     let [a, b] = motions.map(|motion| (&ball, *motion));
     let problem = Problem::about(a, b, duration, config).unwrap();
@@ -78,7 +78,7 @@ fn a_slow_drift_ends_in_a_late_turn() {
     let still = Motion::still(Pose::at(7.0005 * DVec3::X).unwrap());
     for (drift, turn) in [(1e-6, Some(500.0)), (2e-6, Some(250.0)), (0.0, None)] {
         let wheel = orbiting_ball_motion(DVec3::ZERO, drift * DVec3::X, TAU, 0.1);
-        let found = checked([&wheel, &still], 600.0, &config);
+        let found = checked_contact_time([&wheel, &still], 600.0, &config);
         assert_eq!(found.map(f64::round), turn);
     }
 }
@@ -97,7 +97,7 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
         let a = orbiting_ball_motion(DVec3::ZERO, DVec3::ZERO, TAU, 0.0);
         let angle = angle + std::f64::consts::PI;
         let b = orbiting_ball_motion(8.0 * DVec3::X, DVec3::ZERO, -ratio * TAU, angle);
-        let found = checked([&a, &b], 100.0, &config);
+        let found = checked_contact_time([&a, &b], 100.0, &config);
         assert_eq!(found.map(f64::floor), turn, "{ratio} {angle}");
     }
 }
@@ -145,7 +145,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
         if distance(&problem, 0.0) < 2.0 * config.tolerance + config.margin {
             continue;
         }
-        repeated += usize::from(Rounds::for_problem(&problem).is_some());
+        repeated += usize::from(PeriodicSearch::for_problem(&problem).is_some());
         let outcome = solve(&problem).outcome;
         let any = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
         let within = config.margin + config.tolerance + 1e-9;
@@ -194,7 +194,7 @@ fn the_naive_schedule_agrees() {
         let ([a, b], motions, config) = scene(&mut rng, number);
         let problem = Problem::about((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
         let twin = Naive::default()
-            .solve(&problem, &mut ExhaustiveOracle)
+            .answer_first_contact(&problem, &mut ExhaustiveOracle)
             .outcome;
         let near = |time: f64| distance(&problem, time) - config.margin;
         match (solve(&problem).outcome, twin) {
@@ -300,7 +300,7 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
             DepthFirst::default().closest_approach_of(&problem, &mut ExhaustiveOracle)
         });
         let whole = problem(1_000.0);
-        sampled += usize::from(Sample::for_problem(&whole.for_distances()).is_some());
+        sampled += usize::from(RepresentativePeriod::for_problem(&whole.for_distances()).is_some());
         let (lower, upper) = (many.outcome.lower(), many.outcome.upper());
         if let Outcome::LeastDistance { time, .. } = many.outcome {
             assert!(upper - lower <= config.tolerance + 1e-12, "{number}");

@@ -18,7 +18,7 @@ pub(crate) struct Outline {
     outer_corners: [DVec2; 3],
     /// The projected corners with a lower bound of the distance from the axis as `r`; the bound is a linear function
     /// over the triangle.
-    inner: [DVec2; 3],
+    inner_corners: [DVec2; 3],
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
     zeta_nonlinearity: f64,
     /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
@@ -28,7 +28,7 @@ pub(crate) struct Outline {
 }
 
 /// The linear approximation of `ζ` near a node, with bounds of its deviation from `ζ`.
-pub(crate) struct LinearApproximation {
+pub(crate) struct ZetaApproximation {
     /// A point on the axis, and the direction of the axis.
     pub(crate) axis: [DVec3; 2],
     /// The value of `ζ` at the node's centre.
@@ -42,7 +42,7 @@ pub(crate) struct LinearApproximation {
 
 impl Outline {
     /// Projects a triangle along the screw; `None` if the node is not a single triangle.
-    pub(crate) fn new(node: &PlacedNode, linear: &LinearApproximation) -> Option<Self> {
+    pub(crate) fn new(node: &PlacedNode, linear: &ZetaApproximation) -> Option<Self> {
         let corners = node.corners()?;
         let [origin, along] = linear.axis;
         let across = |x: DVec3| {
@@ -61,7 +61,7 @@ impl Outline {
         let zeta = |w: DVec3| linear.zeta + w.dot(linear.zeta_gradient);
         Some(Outline {
             outer_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
-            inner: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
+            inner_corners: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
             zeta_nonlinearity: linear.zeta_nonlinearity,
             rounding_lengths: linear.rounding_lengths,
             tilt: linear.tilt,
@@ -71,9 +71,9 @@ impl Outline {
     /// Returns an interval that contains all values of `n.x r + n.y ζ` over the triangle.
     pub(crate) fn interval(&self, n: DVec2) -> [f64; 2] {
         let (least, most) = if n.x < 0.0 {
-            (&self.outer_corners, &self.inner)
+            (&self.outer_corners, &self.inner_corners)
         } else {
-            (&self.inner, &self.outer_corners)
+            (&self.inner_corners, &self.outer_corners)
         };
         let slack = n.y.abs() * self.zeta_nonlinearity
             + profile_rounding(n.abs().to_array(), self.rounding_lengths, self.tilt);

@@ -7,7 +7,7 @@
 //! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
 
 use super::super::placed::PlacedNode;
-use super::outline::{LinearApproximation, Outline};
+use super::outline::{Outline, ZetaApproximation};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::track::sin_cos;
@@ -25,13 +25,13 @@ const SURFACE_COUNT: usize = 16;
 #[derive(Debug)]
 pub(crate) struct ScrewAxis {
     origin: DVec3,
-    unit: DVec3,
+    direction: DVec3,
     /// The advance along the axis per radian of rotation.
     advance: f64,
     /// The coefficients (a, b) of each family of surfaces `a r + b ζ = const`.
     surfaces: [DVec2; SURFACE_COUNT],
     /// The unit vectors of azimuth 0 and of azimuth π/2, perpendicular to the axis.
-    azimuths: [DVec3; 2],
+    azimuth_axes: [DVec3; 2],
 }
 
 /// Bounds of a node in the coordinates of a screw: for each family of surfaces `f = const`, the interval of `f` over
@@ -62,10 +62,10 @@ impl ScrewAxis {
         let (x, y) = unit.any_orthonormal_pair();
         ScrewAxis {
             origin,
-            unit,
+            direction: unit,
             advance,
             surfaces,
-            azimuths: [x, y],
+            azimuth_axes: [x, y],
         }
     }
 }
@@ -102,23 +102,23 @@ impl Profile {
     /// node surrounds the axis, or nearly does.
     fn with_azimuth_near(node: &PlacedNode, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
-        let height = way.dot(axis.unit);
-        let across = way - height * axis.unit;
+        let height = way.dot(axis.direction);
+        let across = way - height * axis.direction;
         // The rest of the height, left by rounding, would tilt the gradients of tall nodes.
-        let across = across - across.dot(axis.unit) * axis.unit;
+        let across = across - across.dot(axis.direction) * axis.direction;
         let distance = length(across);
         let outward = across / distance;
-        let onward = axis.unit.cross(outward);
+        let onward = axis.direction.cross(outward);
         let inner = distance - node.extent_along(-outward);
         // Written so that NaN is not far.
         if !(inner > MIN_PROFILE_RADIUS * distance) {
             return None;
         }
-        let [x, y] = axis.azimuths;
+        let [x, y] = axis.azimuth_axes;
         let azimuth = across.dot(y).atan2(across.dot(x));
         let azimuth = azimuth - near.map_or(0.0, |near| TAU * ((azimuth - near) / TAU).round());
         let zeta = height - axis.advance * azimuth;
-        let ahead = axis.unit - axis.advance / distance * onward;
+        let ahead = axis.direction - axis.advance / distance * onward;
         let (arm, steep) = (length(way), axis.advance / (0.5 * inner));
         let aside = greater(node.extent_along(onward), node.extent_along(-onward));
         let mut profile = Profile {
@@ -144,8 +144,8 @@ impl Profile {
             profile.low[k] = at - reach(-1.0);
             profile.high[k] = at + reach(1.0);
         }
-        let linear = LinearApproximation {
-            axis: [axis.origin, axis.unit],
+        let linear = ZetaApproximation {
+            axis: [axis.origin, axis.direction],
             zeta,
             zeta_gradient: ahead,
             zeta_nonlinearity: twist,

@@ -15,7 +15,7 @@ use crate::tests::scene::{
 use glam::{DQuat, DVec3};
 
 /// Draws a few random triangles that are all near one point.
-fn random_triangle_patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
+fn random_triangle_cluster(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     let count = rng.random_range(1..6);
     let mut corner = || at + point_in_ball(rng, size);
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
@@ -46,10 +46,10 @@ fn random_screw_passage(rng: &mut Pcg64) -> ScrewPassage {
     let there = DQuat::from_axis_angle(axis, near * turn) * at + near * turn * advance * axis;
     let beside = there + point_in_ball(rng, 2.0 * size);
     let (place, own) = (point_in_ball(rng, 3.0), rotation(rng));
-    let moving = random_triangle_patch(rng, at, size);
+    let moving = random_triangle_cluster(rng, at, size);
     // The body's own frame is turned about its origin, which is on the axis.
     let moving = moving.map_corners(|x| own.inverse() * x);
-    let still = random_triangle_patch(rng, beside + place, size);
+    let still = random_triangle_cluster(rng, beside + place, size);
     let drift = [0.0, 1e-5][rng.random_range(0..2)] * out;
     let velocity = turn * advance * axis + drift;
     ScrewPassage {
@@ -127,7 +127,8 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         let pull = direction(&mut rng) * [0.0, 3.0][number / 2 % 2];
         let pulls = [pull, pull * (1.0 + [0.0, 1e-3][number / 4 % 2])];
         let bodies = [first, second];
-        let problem = Problem::with_accelerations(bodies, pulls, 1.0, &config.terms()).unwrap();
+        let problem =
+            Problem::with_accelerations(bodies, pulls, 1.0, &config.to_query_settings()).unwrap();
         // The axis may move too fast for small bodies.
         let mut profiles = Profiles::default();
         let Some(screw) = Screw::for_problem(&problem, &mut profiles) else {
@@ -245,7 +246,8 @@ fn what_is_no_screw_has_no_profiles() {
     ));
     let falls = |pulls: [DVec3; 2]| {
         let bodies = [(&cube, motion(DVec3::Z, DVec3::Z)), (&cube, still)];
-        let problem = Problem::with_accelerations(bodies, pulls, 1.0, &config.terms()).unwrap();
+        let problem =
+            Problem::with_accelerations(bodies, pulls, 1.0, &config.to_query_settings()).unwrap();
         Screw::for_problem(&problem, &mut Profiles::default()).is_some()
     };
     assert!(falls([9.8 * DVec3::X; 2]));

@@ -15,9 +15,9 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::MovingBody;
 use crate::settings::Settings;
-use crate::tests::double::{Double, Double3, place};
+use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::scene::{
-    Kind, Pcg64, RngExt, Scene, direction, magnitude, point_in_ball, rng, scene,
+    Pcg64, RngExt, Scene, SceneKind, direction, magnitude, point_in_ball, rng, scene,
 };
 
 const SAMPLES: u32 = 48;
@@ -30,7 +30,7 @@ struct CaseCounts {
     /// The number of free times that are nearly as long as possible: at their end most of the slack is used up.
     exhausted_slacks: usize,
     /// The number of samples in which both bodies turn.
-    both_turning: usize,
+    samples_with_both_turning: usize,
     fast_bodies: usize,
     many_point_pieces: usize,
 }
@@ -40,8 +40,8 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
     let mut rng = rng(1);
     let mut seen = CaseCounts::default();
     for number in 0..12_000 {
-        let kind = [Kind::Any, Kind::NearRim][number % 2];
-        let scene = scene_of_large_pieces(&mut rng, kind).with_random_accelerations(&mut rng);
+        let kind = [SceneKind::RandomMotion, SceneKind::NearRim][number % 2];
+        let scene = scene_of_large_pieces(&mut rng, kind).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
         for holder in [0, 1] {
@@ -53,7 +53,7 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
         "{seen:?}"
     );
     assert!(
-        seen.both_turning > 3_000 && seen.fast_bodies > 1_000,
+        seen.samples_with_both_turning > 3_000 && seen.fast_bodies > 1_000,
         "{seen:?}"
     );
     assert!(seen.many_point_pieces > 3_000, "{seen:?}");
@@ -61,7 +61,7 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
 }
 
 /// Draws a scene with pieces of 1 to 300 points, some of them rounded, with rotations of up to a thousand radians.
-fn scene_of_large_pieces(rng: &mut Pcg64, kind: Kind) -> Scene {
+fn scene_of_large_pieces(rng: &mut Pcg64, kind: SceneKind) -> Scene {
     let mut scene = scene(rng, kind, 2);
     for (body, motion) in scene.bodies.iter_mut().zip(&mut scene.motions) {
         let [a, b, c] = body.pieces().triangle(0);
@@ -137,7 +137,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
         }
         Some(_) => {}
     }
-    seen.both_turning += usize::from(other.side.path.is_turning());
+    seen.samples_with_both_turning += usize::from(other.side.path.is_turning());
     seen.fast_bodies += usize::from(turns > 50.0);
     seen.many_point_pieces += usize::from(other.piece.points.len() > 3);
 }
@@ -147,7 +147,10 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     let mut rng = rng(2);
     let (mut height, mut rate) = (0.0f64, 0.0f64);
     for number in 0..3_000 {
-        let scene = scene_of_large_pieces(&mut rng, [Kind::Any, Kind::NearRim][number % 2]);
+        let scene = scene_of_large_pieces(
+            &mut rng,
+            [SceneKind::RandomMotion, SceneKind::NearRim][number % 2],
+        );
         let problem = scene.problem();
         // Sums of these numbers are exact.
         let grain = f64::from(1 << 20);
@@ -173,10 +176,11 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
             let exact = |tau: f64| exact(motions, normal, point, clock, tau);
             let (first, second) = (rises(0.0), rises(tau));
             let (start, end) = (exact(0.0), exact(tau));
-            let off = Double::from(second.0) - Double::from(first.0) - (end.0 - start.0);
-            let (allowed_height, fastest) = sweep.allowances();
+            let off =
+                DoubleDouble::from(second.0) - DoubleDouble::from(first.0) - (end.0 - start.0);
+            let (allowed_height, fastest) = sweep.rounding_allowances();
             height = greater(height, off.get().abs() / allowed_height);
-            let off = (Double::from(second.1) - end.1).get();
+            let off = (DoubleDouble::from(second.1) - end.1).get();
             rate = greater(rate, off.abs() / fastest);
         }
     }
@@ -193,16 +197,17 @@ fn exact(
     point: DVec3,
     clock: f64,
     tau: f64,
-) -> (Double, Double) {
+) -> (DoubleDouble, DoubleDouble) {
     let s = clock + tau;
     let [own, other] = motions;
-    let spin = Double3::from(own.spin());
-    let normal = Double3::from(normal).turned(spin.unit(), spin.length() * Double::from(tau));
+    let spin = DoubleDouble3::from(own.spin());
+    let normal =
+        DoubleDouble3::from(normal).turned(spin.unit(), spin.length() * DoubleDouble::from(tau));
     let at = place(other, 1.0, s, point);
     let way = at - place(own, 1.0, s, own.centre());
     let arm = at - place(other, 1.0, s, other.centre());
-    let velocity = Double3::from(other.velocity()) - Double3::from(own.velocity());
-    let passing = velocity + Double3::from(other.spin()).cross(arm);
+    let velocity = DoubleDouble3::from(other.velocity()) - DoubleDouble3::from(own.velocity());
+    let passing = velocity + DoubleDouble3::from(other.spin()).cross(arm);
     let rate = spin.cross(normal).dot(way) + normal.dot(passing);
     (normal.dot(way), rate)
 }
@@ -237,7 +242,9 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
         let plane = SeparatingPlane { normal, slack: 0.3 };
-        let still = snapshot.fixed_axis_time(plane.normal, plane.slack).unwrap();
+        let still = snapshot
+            .fixed_plane_free_time(plane.normal, plane.slack)
+            .unwrap();
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
         assert_eq!(
@@ -258,7 +265,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
 fn no_slack_is_no_time() {
     let mut rng = rng(3);
     for _ in 0..500 {
-        let scene = scene_of_large_pieces(&mut rng, Kind::NearRim);
+        let scene = scene_of_large_pieces(&mut rng, SceneKind::NearRim);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         let [a, b] = snapshot.moving_pieces();

@@ -71,5 +71,5 @@ fn worst_volume() {
         let error = error_of(volume.sum + volume.addition_errors, &truth);
         Some(share(error, volume_rounding(volume.size, volume.terms)))
     });
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }

@@ -10,7 +10,7 @@ fn coarse_grid_points() -> impl Strategy<Value = Vec<DVec3>> {
 }
 
 fn hull_of(points: &[DVec3]) -> Option<ExactHull> {
-    ExactHull::facets_of(points).map(ExactHull::with_facets)
+    ExactHull::facets_of(points).map(ExactHull::from_facets)
 }
 
 fn check(points: &[DVec3], hull: &ExactHull) -> Result<(), TestCaseError> {
@@ -55,7 +55,7 @@ proptest! {
         match hull.growth(&points, last) {
             None => prop_assert!(before.iter().all(|f| side_of(&points, *f, last) != Ordering::Greater)),
             Some(growth) => {
-                let lost = before.iter().zip(&growth.seen).filter(|(_, s)| **s).count();
+                let lost = before.iter().zip(&growth.is_facet_visible).filter(|(_, s)| **s).count();
                 prop_assert!(lost > 0 && growth.fan.len() >= 3);
                 hull.grow(growth);
                 check(&points, &hull)?;

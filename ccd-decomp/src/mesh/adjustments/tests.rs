@@ -4,23 +4,23 @@ use super::*;
 fn adjustments_add_up() {
     let small = Adjustments::NONE.scaled(0.5).unwrap().mirrored(Axis::Y);
     let both = small
-        .combined_with(&Adjustments::NONE.scaled(4.0).unwrap().hollow())
+        .combined_with(&Adjustments::NONE.scaled(4.0).unwrap().treated_as_hollow())
         .unwrap();
     assert_eq!(both.to_string(), "@scale=2@mirror=y@surface");
     assert_eq!(
-        both.map().unwrap().apply(DVec3::ONE),
+        both.affine_map().unwrap().apply(DVec3::ONE),
         DVec3::new(2.0, -2.0, 2.0)
     );
     let twice = small.combined_with(&small).unwrap();
     assert_eq!(twice.to_string(), "@scale=0.25");
     let stated = Adjustments::NONE.with_stated_unit(Unit::Inch);
-    let wanted = Adjustments::NONE.converted_to(Unit::Metre);
+    let wanted = Adjustments::NONE.with_target_unit(Unit::Metre);
     let units = stated.combined_with(&wanted).unwrap();
     assert_eq!(
         (units.stated_unit, units.target_unit),
         (Some(Unit::Inch), Some(Unit::Metre))
     );
-    assert_eq!(Adjustments::NONE.map(), None);
+    assert_eq!(Adjustments::NONE.affine_map(), None);
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn the_sign_of_a_mirror_is_exact() {
     assert!(!mirrors([DVec3::NAN, y, x]) && !mirrors([DVec3::INFINITY, y, x]));
 }
 
-fn ratio(x: f64) -> RBig {
+fn exact_fraction(x: f64) -> RBig {
     RBig::try_from(x).unwrap()
 }
 
@@ -69,11 +69,11 @@ proptest! {
         let image = map.apply(point.into());
         for axis in 0..3 {
             let (row, shift) = (rows[axis], translation[axis]);
-            let terms = row.iter().zip(point).map(|(&m, x)| ratio(m) * ratio(x));
-            let exact = terms.fold(ratio(shift), |sum, term| sum + term);
+            let terms = row.iter().zip(point).map(|(&m, x)| exact_fraction(m) * exact_fraction(x));
+            let exact = terms.fold(exact_fraction(shift), |sum, term| sum + term);
             let size: f64 = row.iter().zip(point).map(|(m, x)| (m * x).abs()).sum::<f64>() + shift.abs();
-            let off = ratio(image[axis]) - exact;
-            let allowed = ratio(4.0 * (f64::EPSILON / 2.0) * size * (1.0 + 1e-12));
+            let off = exact_fraction(image[axis]) - exact;
+            let allowed = exact_fraction(4.0 * (f64::EPSILON / 2.0) * size * (1.0 + 1e-12));
             prop_assert!(off <= allowed && -off <= allowed);
         }
     }

@@ -2,7 +2,9 @@
 //! references.
 
 use crate::mesh::error::MeshFault;
-use crate::tolerance::{EXPANSION_BASE, EXPANSION_PER_BYTE, MAX_EXPANSION, VERTEX_COST};
+use crate::tolerance::{
+    BASE_EXPANSION_LIMIT, EXPANSION_LIMIT_PER_BYTE, MAX_EXPANSION_LIMIT, VERTEX_EXPANSION_COST,
+};
 
 /// The budget of vertices and face corners that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +15,9 @@ pub(crate) struct ExpansionBudget {
 
 /// Returns the cost of an expansion to the given numbers of vertices and face corners.
 pub(crate) fn expansion_cost(vertices: u64, corners: u64) -> u64 {
-    vertices.saturating_mul(VERTEX_COST).saturating_add(corners)
+    vertices
+        .saturating_mul(VERTEX_EXPANSION_COST)
+        .saturating_add(corners)
 }
 
 impl ExpansionBudget {
@@ -22,8 +26,9 @@ impl ExpansionBudget {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.
         let once = bytes.saturating_mul(4);
-        let repeated = EXPANSION_BASE.saturating_add(bytes.saturating_mul(EXPANSION_PER_BYTE));
-        let limit = once.saturating_add(repeated.min(MAX_EXPANSION));
+        let repeated =
+            BASE_EXPANSION_LIMIT.saturating_add(bytes.saturating_mul(EXPANSION_LIMIT_PER_BYTE));
+        let limit = once.saturating_add(repeated.min(MAX_EXPANSION_LIMIT));
         ExpansionBudget {
             remaining: limit,
             limit,

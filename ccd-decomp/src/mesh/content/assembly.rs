@@ -33,7 +33,7 @@ impl Assembly {
         mut parts: Vec<Part>,
         allowance: ExpansionBudget,
     ) -> Self {
-        parts.retain(|part| !shapes[part.shape].ends.is_empty());
+        parts.retain(|part| !shapes[part.shape].corner_ends.is_empty());
         Assembly {
             shapes,
             parts,

@@ -31,7 +31,7 @@ impl Groups {
     ) -> Result<Vec<Polygons>, MeshFault> {
         list.check_corners()?;
         let mut faces = vec![Vec::new(); self.names.len()];
-        for face in 0..list.ends.len() {
+        for face in 0..list.corner_ends.len() {
             let group = self.group_of_face.get(face).copied().unwrap_or(0);
             faces[group as usize].push(face);
         }

@@ -13,7 +13,7 @@ mod schema;
 mod transform;
 mod whole;
 
-use super::{LinkedFiles, Reference};
+use super::{FileReference, LinkedFiles};
 use crate::mesh::content::allowance::ExpansionBudget;
 use crate::mesh::content::assembly::Assembly;
 use crate::mesh::content::{Content, Layout};
@@ -40,7 +40,7 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     let accessors = AccessorReader {
         root: &root,
         buffers: &buffers,
-        allowance,
+        expansion_budget: allowance,
     };
     let Scene {
         shapes,
@@ -55,7 +55,7 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
 }
 
 /// Returns the references of a glTF to buffers that are separate files, each file once.
-pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
+pub(super) fn file_references(bytes: &[u8]) -> Result<Vec<FileReference>, MeshFault> {
     if bytes.is_empty() {
         return Ok(Vec::new());
     }
@@ -63,9 +63,11 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     let root = Root::read(Container::read(unmarked)?.json)?;
     let mut needed = BTreeMap::new();
     for (k, buffer) in root.buffers.iter().enumerate() {
-        let reference = buffers::reference(buffer);
-        if let Some(Reference { name, bytes }) =
-            reference.map_err(|fault| fault.at(element_name("buffer", k, None)))?
+        let reference = buffers::file_reference(buffer);
+        if let Some(FileReference {
+            name,
+            needed_bytes: bytes,
+        }) = reference.map_err(|fault| fault.at_element(element_name("buffer", k, None)))?
         {
             let most = needed.entry(name).or_insert(bytes);
             *most = bytes.max(*most);
@@ -73,7 +75,10 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     }
     let references = needed.into_iter();
     Ok(references
-        .map(|(name, bytes)| Reference { name, bytes })
+        .map(|(name, bytes)| FileReference {
+            name,
+            needed_bytes: bytes,
+        })
         .collect())
 }
 

@@ -15,7 +15,7 @@ use std::collections::HashMap;
 /// Reads the vertices, faces and groups of an OBJ.
 pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
-    let mut file = Reader::default();
+    let mut file = ObjReader::default();
     let mut lines = (1..).zip(text.lines());
     // Whether this line may continue one that was passed over.
     let mut continues = false;
@@ -38,7 +38,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
             "" => {}
             word if may_continue && word.parse::<f64>().is_ok() => {}
             other => skip_statement(other, number, &mut file.polygons.remarks)
-                .map_err(|fault| fault.at(format!("line {number}")))?,
+                .map_err(|fault| fault.at_element(format!("line {number}")))?,
         }
     }
     file.into_content()
@@ -64,16 +64,16 @@ fn join_continued_lines<'a>(
 
 /// The state of a reader: the content of the file up to the current line.
 #[derive(Default)]
-struct Reader {
+struct ObjReader {
     polygons: Polygons,
     objects: NamedGroups,
     groups: NamedGroups,
     /// The first face corner whose vertex number is 0 or counts back beyond the first vertex: its face, and that
     /// number.
-    invalid_corner: Option<(usize, i64)>,
+    first_invalid_corner: Option<(usize, i64)>,
 }
 
-impl Reader {
+impl ObjReader {
     /// Adds a vertex from a `v` statement. A fourth number divides the coordinates; three or more further numbers are
     /// a colour.
     fn add_vertex(&mut self, statement: &str, line: usize) -> Result<(), MeshFault> {
@@ -117,12 +117,12 @@ impl Reader {
                 vertex - 1
             };
             if place < 0 {
-                self.invalid_corner
-                    .get_or_insert((polygons.ends.len(), vertex));
+                self.first_invalid_corner
+                    .get_or_insert((polygons.corner_ends.len(), vertex));
             }
             polygons.corners.push(place);
         }
-        polygons.ends.push(polygons.corners.len());
+        polygons.corner_ends.push(polygons.corners.len());
         polygons.face_lines.push(line);
         self.objects.add_face();
         self.groups.add_face();
@@ -135,10 +135,10 @@ impl Reader {
         let vertices = polygons.vertices.len();
         let beyond = polygons.corners.iter().position(|&v| v >= vertices as i64);
         let beyond = beyond.map(|at| {
-            let face = polygons.ends.partition_point(|&end| end <= at);
+            let face = polygons.corner_ends.partition_point(|&end| end <= at);
             (face, polygons.corners[at] + 1)
         });
-        let missing = self.invalid_corner.into_iter().chain(beyond);
+        let missing = self.first_invalid_corner.into_iter().chain(beyond);
         match missing.min_by_key(|&(face, _)| face) {
             _ if vertices == 0 => return Err(MeshFault::NoVertices),
             None => {}

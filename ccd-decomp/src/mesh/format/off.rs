@@ -9,7 +9,7 @@ use std::str::FromStr;
 pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = Lines {
-        rest: text.lines(),
+        remaining_lines: text.lines(),
         line_number: 0,
     };
     let Some(first) = lines.next() else {
@@ -32,7 +32,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
             let corner = line.number("the number of a vertex for each corner of a face")?;
             polygons.corners.push(corner);
         }
-        polygons.ends.push(polygons.corners.len());
+        polygons.corner_ends.push(polygons.corners.len());
         polygons.face_lines.push(line.number);
     }
     match lines.next() {
@@ -74,7 +74,7 @@ fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u6
 
 /// An iterator over the lines of a text, except blank lines and comments.
 struct Lines<'a> {
-    rest: std::str::Lines<'a>,
+    remaining_lines: std::str::Lines<'a>,
     line_number: usize,
 }
 
@@ -95,7 +95,7 @@ impl<'a> Iterator for Lines<'a> {
     type Item = Line<'a>;
 
     fn next(&mut self) -> Option<Line<'a>> {
-        for line in self.rest.by_ref() {
+        for line in self.remaining_lines.by_ref() {
             self.line_number += 1;
             let text = line.split('#').next().unwrap_or_default();
             if !text.trim().is_empty() {

@@ -21,7 +21,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let bytes = &normalized_line_ends(bytes);
     check_unique_names(bytes)?;
     let mut reader = Reader::new(&bytes[..]);
-    let header = Parser::<Element>::new()
+    let header = Parser::<PlyElement>::new()
         .read_header(&mut reader)
         .map_err(|error| fault(&error, Encoding::Ascii))?;
     check_header(&header, bytes.len())?;
@@ -29,16 +29,16 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let (payload, first_line) = (*reader.get_ref(), reader.line());
     let mut polygons = Polygons::default();
     for element in header.elements.values() {
-        let read: Vec<Element> = Parser::new()
+        let read: Vec<PlyElement> = Parser::new()
             .read_payload_for_element(&mut reader, element, &header)
             .map_err(fault)?;
         match element.name.as_str() {
             "vertex" => polygons.vertices = read.into_iter().map(|vertex| vertex.point).collect(),
-            FACE_ELEMENT => {
+            FACE_ELEMENT_NAME => {
                 read.into_iter()
                     .for_each(|face| polygons.push_face(face.corners));
             }
-            STRIPS_ELEMENT => {
+            STRIPS_ELEMENT_NAME => {
                 let strips = read.iter().flat_map(|strip| triangles(&strip.corners));
                 strips.for_each(|triangle| polygons.push_face(triangle));
             }
@@ -50,15 +50,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
     check_no_trailing_bytes(reader.get_ref())?;
     if header.encoding == Encoding::Ascii {
-        check_line_lengths(payload, first_line, &header)?;
+        check_number_count_of_lines(payload, first_line, &header)?;
     }
     Ok(polygons)
 }
 
 /// The name of the element that holds polygons.
-const FACE_ELEMENT: &str = "face";
+const FACE_ELEMENT_NAME: &str = "face";
 /// The name of the element that holds triangle strips, as scanners write them.
-const STRIPS_ELEMENT: &str = "tristrips";
+const STRIPS_ELEMENT_NAME: &str = "tristrips";
 
 /// Returns the triangles of a strip in a common orientation: every second triangle is reversed. An index of −1 begins
 /// another strip.
@@ -131,7 +131,11 @@ fn check_no_trailing_bytes(rest: &[u8]) -> Result<(), MeshFault> {
 }
 
 /// Checks that no text line has more numbers than properties, because the library skips further numbers.
-fn check_line_lengths(payload: &[u8], first: usize, header: &Header) -> Result<(), MeshFault> {
+fn check_number_count_of_lines(
+    payload: &[u8],
+    first: usize,
+    header: &Header,
+) -> Result<(), MeshFault> {
     let mut lines = (first..).zip(payload.split(|&byte| byte == b'\n'));
     for element in header.elements.values() {
         for (number, line) in lines.by_ref().take(element.count) {
@@ -169,11 +173,11 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
         return Err(MeshFault::NoVertices);
     };
     for coordinate in ["x", "y", "z"] {
-        check_property(vertex, &[coordinate], "a number", |kind| {
+        check_has_property(vertex, &[coordinate], "a number", |kind| {
             matches!(kind, PropertyType::Scalar(_))
         })?;
     }
-    let mut faces = [FACE_ELEMENT, STRIPS_ELEMENT]
+    let mut faces = [FACE_ELEMENT_NAME, STRIPS_ELEMENT_NAME]
         .into_iter()
         .filter_map(|name| header.elements.get(name))
         .peekable();
@@ -181,17 +185,22 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
         return Err(MeshFault::NoFaces);
     }
     faces.try_for_each(|element| {
-        check_property(element, &CORNERS, "a list of integers", |kind| match kind {
-            PropertyType::List(_, number) => {
-                !matches!(number, ScalarType::Float | ScalarType::Double)
-            }
-            PropertyType::Scalar(_) => false,
-        })
+        check_has_property(
+            element,
+            &CORNER_PROPERTY_NAMES,
+            "a list of integers",
+            |kind| match kind {
+                PropertyType::List(_, number) => {
+                    !matches!(number, ScalarType::Float | ScalarType::Double)
+                }
+                PropertyType::Scalar(_) => false,
+            },
+        )
     })
 }
 
 /// Checks that an element has a property with one of the given names and a given type.
-fn check_property(
+fn check_has_property(
     element: &ElementDef,
     names: &[&str],
     kind: &str,
@@ -247,17 +256,17 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
 
 /// An element of a PLY: a vertex, a face, a triangle strip, or an element that is skipped. One type stands for all,
 /// because the library compiles its readers anew for each type.
-struct Element {
+struct PlyElement {
     point: DVec3,
     corners: Vec<i64>,
 }
 
 /// The two usual names of the property that lists the vertex indices of a face or strip.
-const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+const CORNER_PROPERTY_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-impl PropertyAccess for Element {
+impl PropertyAccess for PlyElement {
     fn new() -> Self {
-        Element {
+        PlyElement {
             point: DVec3::NAN,
             corners: Vec::new(),
         }
@@ -268,7 +277,7 @@ impl PropertyAccess for Element {
             "x" => &mut self.point.x,
             "y" => &mut self.point.y,
             "z" => &mut self.point.z,
-            _ if CORNERS.contains(&name) => return self.set_corners(property),
+            _ if CORNER_PROPERTY_NAMES.contains(&name) => return self.set_corners(property),
             _ => return PropertyAccessResult::Ignored,
         };
         *coordinate = match property {
@@ -286,7 +295,7 @@ impl PropertyAccess for Element {
     }
 }
 
-impl Element {
+impl PlyElement {
     fn set_corners(&mut self, property: Property) -> PropertyAccessResult {
         self.corners = match property {
             Property::ListChar(list) => list.into_iter().map(i64::from).collect(),

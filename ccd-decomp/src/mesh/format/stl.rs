@@ -102,7 +102,7 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
         if done == 0 && (is_closed || first == "solid") {
             continue;
         }
-        let facet = facets.polygons.ends.len();
+        let facet = facets.polygons.corner_ends.len();
         let problem =
             |problem| MeshFault::syntax(Some(number), format!("facet {facet}: {problem}"));
         let is_expected = FACET_KEYWORDS[done]
@@ -159,7 +159,7 @@ impl Facets {
         }
         polygons.corners.push(number as i64);
         if polygons.corners.len().is_multiple_of(3) {
-            polygons.ends.push(polygons.corners.len());
+            polygons.corner_ends.push(polygons.corners.len());
         }
     }
 }

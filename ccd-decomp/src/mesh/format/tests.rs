@@ -12,7 +12,7 @@ const TETRAHEDRON_OBJ: &str =
 
 /// An OBJ with optional content: carriage returns, normals, relative indices, objects, materials, a continued line,
 /// colours, a weight, and a byte that is not valid UTF-8.
-const RICH_OBJ: &[u8] = b"# caf\xe9\r\nmtllib none.mtl\r\no first\r\nv 0 0 0 1\r\nv 1 0 0 0.5 0.5 0.5\r\n\
+const OBJ_WITH_OPTIONAL_CONTENT: &[u8] = b"# caf\xe9\r\nmtllib none.mtl\r\no first\r\nv 0 0 0 1\r\nv 1 0 0 0.5 0.5 0.5\r\n\
     v 0 1 0 # up\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl red\r\nf 1/1/1 -1/-1/-1 2/1/1\r\ng second\r\nl 1 2\r\n\
     v 0 0 2 2\r\nf 1//1 2//1 \\\r\n  4//1\r\nusemtl blue\r\nf 2/1 3/1 4/1\r\ns off\r\nf +3 1 -1\r\n";
 
@@ -31,7 +31,7 @@ const TETRAHEDRON_PLY: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelem
 const TETRAHEDRON_OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n# the tip\n0 0 1\n\
     3 0 2 1\n3 0 1 3  0.5 0.5 0.5\n3 1 2 3\n3 2 0 3\n";
 
-const POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+const TETRAHEDRON_POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
 /// Returns a binary STL of a tetrahedron whose header begins with `solid`, like a text STL.
@@ -40,7 +40,7 @@ fn binary_stl() -> Vec<u8> {
     bytes[..10].copy_from_slice(b"solid bin\n");
     bytes.extend(4_u32.to_le_bytes());
     for face in FACES {
-        let corners = face.map(|v| POINTS[v as usize]);
+        let corners = face.map(|v| TETRAHEDRON_POINTS[v as usize]);
         let numbers = [[0.0; 3]].into_iter().chain(corners).flatten();
         bytes.extend(numbers.flat_map(f32::to_le_bytes));
         bytes.extend([0; 2]);
@@ -66,7 +66,7 @@ fn binary_ply(endian: &str) -> Vec<u8> {
             }
         }));
     }
-    for x in POINTS.iter().flatten().map(|&x| f64::from(x)) {
+    for x in TETRAHEDRON_POINTS.iter().flatten().map(|&x| f64::from(x)) {
         bytes.extend(if little {
             x.to_le_bytes()
         } else {
@@ -80,7 +80,7 @@ fn binary_ply(endian: &str) -> Vec<u8> {
 #[cfg(feature = "gltf")]
 fn tetrahedron_gltf() -> crate::test_files::Gltf {
     let mut gltf = crate::test_files::Gltf::new();
-    let position = gltf.add_vec3_accessor(&POINTS);
+    let position = gltf.add_vec3_accessor(&TETRAHEDRON_POINTS);
     let indices = gltf.indices(
         FACES
             .as_flattened()
@@ -98,7 +98,7 @@ fn tetrahedron_gltf() -> crate::test_files::Gltf {
 fn valid_files() -> Vec<(Format, Vec<u8>)> {
     vec![
         (Format::Obj, TETRAHEDRON_OBJ.into()),
-        (Format::Obj, RICH_OBJ.into()),
+        (Format::Obj, OBJ_WITH_OPTIONAL_CONTENT.into()),
         (Format::Stl, TETRAHEDRON_STL.into()),
         (Format::Stl, binary_stl()),
         (Format::Ply, TETRAHEDRON_PLY.into()),
@@ -106,7 +106,7 @@ fn valid_files() -> Vec<(Format, Vec<u8>)> {
         (Format::Ply, binary_ply("big")),
         (Format::Off, TETRAHEDRON_OFF.into()),
         #[cfg(feature = "gltf")]
-        (Format::Gltf, tetrahedron_gltf().text()),
+        (Format::Gltf, tetrahedron_gltf().text_with_embedded_buffer()),
         #[cfg(feature = "gltf")]
         (Format::Gltf, tetrahedron_gltf().glb()),
     ]
@@ -126,7 +126,11 @@ fn corners(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
 fn all_formats_read_the_same_tetrahedron() {
     let expected: Vec<[DVec3; 3]> = FACES
         .iter()
-        .map(|face| face.map(|v| ccd_core::glam::Vec3::from_array(POINTS[v as usize]).as_dvec3()))
+        .map(|face| {
+            face.map(|v| {
+                ccd_core::glam::Vec3::from_array(TETRAHEDRON_POINTS[v as usize]).as_dvec3()
+            })
+        })
         .collect();
     for (format, bytes) in valid_files() {
         let mesh = read(format, &bytes).unwrap();

@@ -4,7 +4,7 @@ use crate::{Format, MeshFault, TriangleMesh, Unit};
 use ccd_core::glam::DVec3;
 
 /// An OBJ of two objects that share vertices and whose statements alternate, after a face that is in no object.
-const OBJ: &str = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 3 4\no lid #2 # a comment\n\
+const TWO_OBJECTS_OBJ: &str = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 3 4\no lid #2 # a comment\n\
     f 2 3 5\ng inner\no base#1\nf 3 4 5\ng\no lid #2\nf 4 2 5\no empty\n";
 
 fn read(text: &str) -> MeshFile {
@@ -17,7 +17,7 @@ fn names(file: &MeshFile) -> Vec<Option<&str>> {
 
 #[test]
 fn the_parts_of_an_obj_are_its_objects() {
-    let file = read(OBJ);
+    let file = read(TWO_OBJECTS_OBJ);
     assert_eq!(names(&file), [None, Some("lid"), Some("base#1")]);
     let lid = file.part("lid").unwrap();
     // Its vertices are numbered from 0, in the order of the file.
@@ -26,9 +26,9 @@ fn the_parts_of_an_obj_are_its_objects() {
     assert_eq!(lid.face_ids(), [0, 1]);
     assert_eq!(file.part("base#1").unwrap().vertices()[0], DVec3::X);
     // The whole keeps the numbers of the file.
-    let whole = read(OBJ).into_mesh().unwrap();
+    let whole = read(TWO_OBJECTS_OBJ).into_mesh().unwrap();
     assert_eq!(whole.faces()[3], [3, 1, 4]);
-    let parts = read(OBJ).into_parts().unwrap();
+    let parts = read(TWO_OBJECTS_OBJ).into_parts().unwrap();
     let faces: Vec<usize> = parts.iter().map(|part| part.mesh.faces().len()).collect();
     assert_eq!(faces, [1, 2, 1]);
     assert_eq!(parts[1].name.as_deref(), Some("lid"));
@@ -37,7 +37,7 @@ fn the_parts_of_an_obj_are_its_objects() {
 
 #[test]
 fn without_objects_the_parts_are_the_groups() {
-    let file = read(&OBJ.replace("\no ", "\n# o "));
+    let file = read(&TWO_OBJECTS_OBJ.replace("\no ", "\n# o "));
     assert_eq!(names(&file), [None, Some("inner")]);
     assert_eq!(file.part("0").unwrap().faces().len(), 3);
     let plain = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -97,7 +97,7 @@ fn a_fault_of_a_part_names_the_part() {
 
 #[test]
 fn a_file_without_a_unit_is_taken_as_it_is() {
-    let file = read(OBJ);
+    let file = read(TWO_OBJECTS_OBJ);
     assert_eq!(file.unit(), None);
     let file = file.converted_to_unit(Unit::Inch);
     assert_eq!(file.unit(), Some(Unit::Inch));
@@ -119,12 +119,12 @@ fn many_groups_are_read_at_once() {
 #[test]
 fn faults_name_the_file() {
     let folder = Folder::new("parts");
-    let path = folder.write("two.obj", OBJ);
+    let path = folder.write("two.obj", TWO_OBJECTS_OBJ);
     let file = MeshFile::read(&path).unwrap();
     let error = file.part("top").unwrap_err();
     assert_eq!(error.file.as_deref(), Some(path.as_path()));
     assert_eq!(source_paths(&path).unwrap(), [path.as_path()]);
-    let unknown = folder.write("two.gbl", OBJ);
+    let unknown = folder.write("two.gbl", TWO_OBJECTS_OBJ);
     let message = TriangleMesh::read(unknown).unwrap_err().to_string();
     assert!(message.contains("use .gltf, .glb, .obj"), "{message}");
 }
@@ -207,7 +207,10 @@ mod beside {
     fn a_reader_has_nothing_beside_it() {
         let text = Gltf::triangle().text_with_buffer_uri("data.bin");
         let error = TriangleMesh::from_reader(Format::Gltf, &text[..]).unwrap_err();
-        assert!(matches!(error.fault, MeshFault::At { .. }), "{error}");
+        assert!(
+            matches!(error.fault, MeshFault::AtElement { .. }),
+            "{error}"
+        );
         let message = error.to_string();
         assert!(
             message.contains("only a file has others beside it"),

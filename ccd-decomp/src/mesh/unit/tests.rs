@@ -1,4 +1,4 @@
-use super::{Conversion, Unit, UnknownUnit};
+use super::{Unit, UnitConversion, UnknownUnit};
 use ccd_core::glam::DVec3;
 use dashu_ratio::RBig;
 use proptest::prelude::*;
@@ -16,7 +16,7 @@ fn units_are_named_by_their_signs() {
 
 #[test]
 fn lengths_are_those_of_the_units() {
-    let one = |from, to| Conversion::new(from, to).apply(DVec3::ONE).x;
+    let one = |from, to| UnitConversion::new(from, to).apply(DVec3::ONE).x;
     assert_eq!(one(Unit::Metre, Unit::Millimetre), 1000.0);
     assert_eq!(one(Unit::Millimetre, Unit::Metre), 0.001);
     assert_eq!(one(Unit::Metre, Unit::Micrometre), 1e6);
@@ -26,7 +26,7 @@ fn lengths_are_those_of_the_units() {
     assert_eq!(one(Unit::Inch, Unit::Foot), 1.0 / 12.0);
     assert_eq!(one(Unit::Foot, Unit::Metre), 0.3048);
     for unit in Unit::ALL {
-        assert_eq!(Conversion::new(unit, unit), Conversion::NONE);
+        assert_eq!(UnitConversion::new(unit, unit), UnitConversion::NONE);
     }
 }
 
@@ -38,7 +38,7 @@ fn exact(x: f64, from: Unit, to: Unit) -> RBig {
 }
 
 fn error(x: f64, from: Unit, to: Unit) -> RBig {
-    let converted = Conversion::new(from, to).apply(DVec3::splat(x)).y;
+    let converted = UnitConversion::new(from, to).apply(DVec3::splat(x)).y;
     let difference = RBig::try_from(converted).unwrap() - exact(x, from, to);
     if difference < RBig::ZERO {
         -difference
@@ -58,7 +58,7 @@ proptest! {
     #[test]
     fn a_coordinate_is_rounded_once_between_metric_units(x in -1e12..1e12_f64, from in 0..4_usize, to in 0..4_usize) {
         let (from, to) = (METRIC_UNITS[from], METRIC_UNITS[to]);
-        let converted = Conversion::new(from, to).apply(DVec3::splat(x)).x;
+        let converted = UnitConversion::new(from, to).apply(DVec3::splat(x)).x;
         let half = RBig::try_from((converted.abs().next_up() - converted.abs()) / 2.0).unwrap();
         prop_assert!(error(x, from, to) <= half);
     }
@@ -66,7 +66,7 @@ proptest! {
     #[test]
     fn a_coordinate_is_rounded_twice_at_most(x in -1e12..1e12_f64, from in 0..6_usize, to in 0..6_usize) {
         let (from, to) = (Unit::ALL[from], Unit::ALL[to]);
-        let converted = Conversion::new(from, to).apply(DVec3::splat(x)).x;
+        let converted = UnitConversion::new(from, to).apply(DVec3::splat(x)).x;
         let allowed = RBig::try_from(converted.abs() * f64::EPSILON * 1.01).unwrap();
         prop_assert!(error(x, from, to) <= allowed);
     }

@@ -23,7 +23,7 @@ pub(super) struct Plane {
 }
 
 /// The position of a box relative to the facet planes of a hull.
-pub(super) struct BoxOverlap {
+pub(super) struct BoxPosition {
     /// Whether the box's centre is in the hull.
     pub(super) is_centre_inside: bool,
     /// The numbers of the planes that do not have the whole box behind them.
@@ -41,8 +41,13 @@ impl FacetPlanes {
 
     /// Returns the position of a box relative to the planes with the numbers `among`; `None` if the box does not meet
     /// the hull.
-    pub(super) fn overlap(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<BoxOverlap> {
-        let mut meeting = BoxOverlap {
+    pub(super) fn box_position(
+        &self,
+        centre: DVec3,
+        half: DVec3,
+        among: &[u32],
+    ) -> Option<BoxPosition> {
+        let mut meeting = BoxPosition {
             is_centre_inside: !self.planes.is_empty(),
             planes: Vec::new(),
         };

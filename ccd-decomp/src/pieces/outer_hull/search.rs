@@ -4,7 +4,7 @@ use super::facet_planes::FacetPlanes;
 use super::target::{Location, Target};
 use super::under;
 use crate::tolerance::{
-    EXCESS_ABSOLUTE_TOLERANCE, EXCESS_WORK_BUDGET, MAX_EXCESS_BOXES, PLANES_PER_STEP,
+    EXCESS_TOLERANCE_PER_HALF_DIAGONAL, EXCESS_WORK_BUDGET, MAX_EXCESS_BOXES, PLANE_TESTS_PER_STEP,
     SUFFICIENT_EXCESS_RATIO,
 };
 use crate::work::Work;
@@ -20,18 +20,18 @@ use std::collections::BTreeMap;
 /// [`under`] gives a better bound. Boxes around the hull are split, largest bound first, until that bound is near a
 /// distance that was found, the work is spent, or too many boxes wait.
 pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
-    let floor = EXCESS_ABSOLUTE_TOLERANCE * target.half_diagonal();
+    let floor = EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal();
     let mut search = Search {
-        target,
+        enclosed: target,
         hull: FacetPlanes::new(hull, target),
         steps_spent: 0,
         largest_distance: 0.0,
-        waiting: BTreeMap::new(),
-        examined_count: 0,
+        waiting_boxes: BTreeMap::new(),
+        examined_box_count: 0,
     };
     search.examine_bounding_box();
     while search.split_worst_boxes(floor) {}
-    let open = search.waiting.last_key_value();
+    let open = search.waiting_boxes.last_key_value();
     let open = open.map_or(0.0, |(_, cell)| cell.bound);
     greater(open, search.largest_distance)
 }
@@ -40,7 +40,7 @@ pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
 const BOXES_PER_BATCH: usize = 16;
 
 struct Search<'a> {
-    target: &'a Target<'a>,
+    enclosed: &'a Target<'a>,
     hull: FacetPlanes,
     /// The number of steps of the work budget that the search has spent.
     steps_spent: u64,
@@ -48,8 +48,8 @@ struct Search<'a> {
     largest_distance: f64,
     /// The boxes that may still be split, sorted by bound, then by the order in which they were examined. Bounds are
     /// positive: their bits are in the order of their values.
-    waiting: BTreeMap<(u64, u64), BoundedBox>,
-    examined_count: u64,
+    waiting_boxes: BTreeMap<(u64, u64), BoundedBox>,
+    examined_box_count: u64,
 }
 
 /// A box with an upper bound on the distance from the solid to the hull within the box.
@@ -68,7 +68,7 @@ struct BoxExamination {
     distance: f64,
     /// The box with its bound; `None` if no point of the hull in the box is farther from the solid than
     /// `largest_distance`.
-    cell: Option<BoundedBox>,
+    bounded_box: Option<BoundedBox>,
     steps_spent: u64,
 }
 
@@ -76,7 +76,7 @@ impl Search<'_> {
     fn examine_bounding_box(&mut self) {
         let whole = BoundedBox {
             bound: f64::INFINITY,
-            bounds: self.target.bounds(),
+            bounds: self.enclosed.bounds(),
             planes: (0..self.hull.planes.len() as u32).collect(),
         };
         let examined = self.examine(&whole, whole.bounds);
@@ -92,7 +92,7 @@ impl Search<'_> {
         );
         let worst: Vec<BoundedBox> = (0..BOXES_PER_BATCH)
             .map_while(|_| {
-                let worst = self.waiting.last_entry()?;
+                let worst = self.waiting_boxes.last_entry()?;
                 (worst.get().bound > target).then(|| worst.remove())
             })
             .collect();
@@ -109,28 +109,28 @@ impl Search<'_> {
             .for_each(|examined| self.record(examined));
         !worst.is_empty()
             && self.steps_spent < EXCESS_WORK_BUDGET
-            && self.waiting.len() < MAX_EXCESS_BOXES
+            && self.waiting_boxes.len() < MAX_EXCESS_BOXES
     }
 
     fn record(&mut self, examined: BoxExamination) {
         self.steps_spent += examined.steps_spent;
         self.largest_distance = greater(self.largest_distance, examined.distance);
-        self.examined_count += 1;
-        let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined_count);
-        self.waiting
-            .extend(examined.cell.map(|cell| (key(&cell), cell)));
+        self.examined_box_count += 1;
+        let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined_box_count);
+        self.waiting_boxes
+            .extend(examined.bounded_box.map(|cell| (key(&cell), cell)));
     }
 
     /// Bounds the distance from the solid to the hull in the box `bounds`, a part of the examined box `within`.
     fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
         let planes = &within.planes;
-        let (target, hull, work) = (self.target, &self.hull, &Work::unbounded());
+        let (target, hull, work) = (self.enclosed, &self.hull, &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.slack();
-        work.spend(1 + planes.len() / PLANES_PER_STEP);
+        work.spend(1 + planes.len() / PLANE_TESTS_PER_STEP);
         let mut examined = BoxExamination::default();
-        if let Some(meeting) = hull.overlap(centre, half, planes) {
+        if let Some(meeting) = hull.box_position(centre, half, planes) {
             let near = match target.locate(centre, work) {
                 Location::Inside { depth } => reach - depth,
                 Location::Outside { distance } => {
@@ -142,13 +142,13 @@ impl Search<'_> {
             };
             let planes = meeting.planes;
             let above = planes.iter().map(|&k| hull.planes[k as usize]);
-            let under = || under::excess_above_surface(target, above, [centre, half], work);
+            let under = || under::excess_bound_above_surface(target, above, [centre, half], work);
             let is_known = |bound: f64| bound <= self.largest_distance;
             let mut bound = lesser(near, within.bound);
             if !is_known(bound) {
                 bound = under().map_or(bound, |under| lesser(under, bound));
             }
-            examined.cell = (!is_known(bound)).then_some(BoundedBox {
+            examined.bounded_box = (!is_known(bound)).then_some(BoundedBox {
                 bound,
                 bounds,
                 planes,

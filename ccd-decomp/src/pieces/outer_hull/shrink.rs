@@ -2,7 +2,7 @@
 
 use super::facet_planes::Plane;
 use super::target::Target;
-use crate::tolerance::{EXCESS_WORK_BUDGET, PLANES_PER_STEP};
+use crate::tolerance::{EXCESS_WORK_BUDGET, PLANE_TESTS_PER_STEP};
 use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -17,7 +17,7 @@ use ccd_core::order::greater;
 /// of the hull is at most `h / (m + h)` of its distance from the centre away from the solid.
 pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull, centre: DVec3) -> Option<f64> {
     let tests = target.triangles().len() as u64 * hull.points.len() as u64;
-    if tests > EXCESS_WORK_BUDGET * PLANES_PER_STEP as u64 {
+    if tests > EXCESS_WORK_BUDGET * PLANE_TESTS_PER_STEP as u64 {
         return None;
     }
     let mut largest_share = 0.0;

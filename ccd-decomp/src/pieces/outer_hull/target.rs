@@ -1,7 +1,7 @@
 //! The solid or surface that the hull encloses, with queries for the location and distance of a point.
 
 use crate::bounds::Bounds;
-use crate::exact::predicates::{line_side_along, side};
+use crate::exact::predicates::{side, side_of_line_along};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
@@ -20,7 +20,7 @@ pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
     search: BoxTree,
     is_closed: bool,
-    inside_out: bool,
+    is_inside_out: bool,
     bounds: [DVec3; 2],
     /// A bound on the rounding error of distances to the mesh.
     slack: f64,
@@ -48,7 +48,7 @@ impl<'a> Target<'a> {
                 0..mesh.faces().len() as u32,
             ),
             is_closed: topology.is_solid(),
-            inside_out: topology.orientation() == Orientation::Inward,
+            is_inside_out: topology.orientation() == Orientation::Inward,
             bounds,
             slack: excess_rounding(half_diagonal(bounds), farthest),
         }
@@ -60,7 +60,7 @@ impl<'a> Target<'a> {
 
     /// Returns 1 if the mesh's normals point out of the solid, −1 if they point into it.
     pub(super) fn orientation(&self) -> f64 {
-        if self.inside_out { -1.0 } else { 1.0 }
+        if self.is_inside_out { -1.0 } else { 1.0 }
     }
 
     /// Returns the triangles whose bounding boxes meet a given box; `None` if there are more than `most`.
@@ -73,7 +73,7 @@ impl<'a> Target<'a> {
         let mut found = Vec::new();
         let all = self
             .search
-            .all_triangles_meeting_box(&Bounds { lo, hi }, work, |face| {
+            .all_triangles_meeting_box_satisfy(&Bounds { lo, hi }, work, |face| {
                 found.push(self.mesh.triangle(face));
                 found.len() <= most
             });
@@ -119,7 +119,7 @@ impl<'a> Target<'a> {
             Triangle::new(a, b, c).project_local_point_and_get_location(query, false)
         };
         let distance = |corners: [DVec3; 3]| {
-            needle_distance(corners, point).unwrap_or_else(|| {
+            needle_distance_lower_bound(corners, point).unwrap_or_else(|| {
                 let (found, _) = project(corners);
                 DVec3::from_array(found.point.to_array()).distance(point)
             })
@@ -149,8 +149,8 @@ impl<'a> Target<'a> {
         let top = DVec3::new(point.x, point.y, greater(point.z, self.bounds[1].z));
         let above = Region::segment([point, top]);
         let mut winding = 0;
-        self.search.all_meeting(&above, work, |face| {
-            winding += ray_crossing(self.mesh.triangle(face), point);
+        self.search.all_meeting_faces_satisfy(&above, work, |face| {
+            winding += ray_crossing_sign(self.mesh.triangle(face), point);
             true
         });
         winding != 0
@@ -163,7 +163,7 @@ fn half_diagonal([lo, hi]: [DVec3; 2]) -> f64 {
 
 /// Returns a lower bound of the distance from a point to a needle: the distance to its longest side, less its height.
 /// Returns `None` for other triangles.
-fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
+fn needle_distance_lower_bound([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     let square = |[from, to, _]: &[DVec3; 3]| from.distance_squared(*to);
     let turned = [[a, b, c], [b, c, a], [c, a, b]].into_iter();
     let [from, to, apex] = turned.max_by(|s, t| square(s).total_cmp(&square(t)))?;
@@ -182,12 +182,12 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
 ///
 /// Degenerate cases are decided by symbolic perturbation of the point along x, and less along y, consistently for all
 /// triangles at an edge.
-fn ray_crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
+fn ray_crossing_sign(triangle: [DVec3; 3], point: DVec3) -> i32 {
     let [a, b, c] = triangle;
     let around: i32 = [(a, b), (b, c), (c, a)]
         .into_iter()
         .map(|(v, w)| {
-            let turn = || line_side_along(2, [v, w], point);
+            let turn = || side_of_line_along(2, [v, w], point);
             match (v.y <= point.y, w.y <= point.y) {
                 (true, false) => i32::from(turn().is_gt()),
                 (false, true) => -i32::from(turn().is_lt()),

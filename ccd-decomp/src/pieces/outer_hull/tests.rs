@@ -98,7 +98,7 @@ fn noise() -> impl FnMut() -> f64 {
 }
 
 /// Returns a random convex combination of some points.
-fn random_combination(points: &[DVec3], mut next: impl FnMut() -> f64) -> DVec3 {
+fn random_convex_combination(points: &[DVec3], mut next: impl FnMut() -> f64) -> DVec3 {
     let weights: Vec<f64> = points.iter().map(|_| -(1.0 - next()).ln()).collect();
     let sum: f64 = weights.iter().sum();
     points.iter().zip(weights).map(|(&p, w)| w / sum * p).sum()
@@ -170,8 +170,8 @@ fn enclose(mesh: &TriangleMesh) -> OuterHull {
 #[case::sheet(sheet())]
 #[case::rounded_sphere(with_rounded_coordinates(&sphere()))]
 #[case::dented(dented_sphere())]
-#[case::far_off(moved(&torus(24, 12, 0.3), 1e5))]
-#[case::farther_off(moved(&torus(24, 12, 0.3), 1e8))]
+#[case::far_off(shifted_along_diagonal(&torus(24, 12, 0.3), 1e5))]
+#[case::farther_off(shifted_along_diagonal(&torus(24, 12, 0.3), 1e8))]
 fn excess_bounds_hold_for_samples(#[case] mesh: TriangleMesh) {
     let found = enclose(&mesh);
     for point in triangles(&mesh).into_iter().flatten() {
@@ -181,7 +181,7 @@ fn excess_bounds_hold_for_samples(#[case] mesh: TriangleMesh) {
     let closed = Topology::of(&mesh).is_closed();
     let mut farthest = 0.0_f64;
     for _ in 0..600 {
-        let point = random_combination(&found.polytope.points, &mut next);
+        let point = random_convex_combination(&found.polytope.points, &mut next);
         if !(closed && has_nonzero_winding_number(&mesh, point)) {
             farthest = greater(farthest, distance(&triangles(&mesh), point));
         }
@@ -249,7 +249,7 @@ fn a_convex_solid_in_single_precision_exceeds_itself_little() {
     assert!(found.excess_bound < 2e-6, "{}", found.excess_bound);
 }
 
-fn moved(mesh: &TriangleMesh, offset: f64) -> TriangleMesh {
+fn shifted_along_diagonal(mesh: &TriangleMesh, offset: f64) -> TriangleMesh {
     let points = mesh.vertices().iter().map(|p| p + DVec3::splat(offset));
     self::mesh(&points.collect::<Vec<_>>(), mesh.faces())
 }

@@ -14,7 +14,7 @@ use ccd_core::vector::unit;
 /// Heights are measured along the mean normal of the surface in a box three times as large. The points of the large box
 /// below that surface are a convex set without surface, which is in the solid if one point is. The bound is how far a
 /// point of the small box sinks to get there, if it stays in the large box.
-pub(super) fn excess_above_surface(
+pub(super) fn excess_bound_above_surface(
     target: &Target<'_>,
     planes: impl Iterator<Item = Plane>,
     [centre, half]: [DVec3; 2],

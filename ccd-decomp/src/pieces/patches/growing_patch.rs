@@ -106,8 +106,11 @@ impl GrowingPatch {
             let facets = hull.facets().iter();
             let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
             let corners = hull.corners().iter().map(|&v| points[v as usize]);
-            let near = Region::inside(corners.collect(), facets.collect(), changed);
-            if !manifold.boxes().all_faces_meeting(&near, work, is_apart) {
+            let near = Region::inside_box_and_hull(corners.collect(), facets.collect(), changed);
+            if !manifold
+                .boxes()
+                .all_meeting_faces_satisfy(&near, work, is_apart)
+            {
                 return JoinResult::Refused;
             }
             self.hull = hull;
@@ -151,7 +154,7 @@ impl GrowingPatch {
         let mut changed: Option<Bounds> = None;
         for &v in new {
             if let Some(growth) = hull.growth(points, v) {
-                let more = hull.changed_bounds(points, &growth);
+                let more = hull.bounds_of_change(points, &growth);
                 changed = Some(changed.map_or(more, |bounds| bounds.union(more)));
                 hull.grow(growth);
             }

@@ -2,8 +2,8 @@
 
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
-use crate::pieces::polytope::{CoveredFacet, polytope};
-use crate::solid::flats::{ConvexPolygons, Flat};
+use crate::pieces::polytope::{FacetWithFaces, polytope};
+use crate::solid::flats::{ConvexPolygon, ConvexPolygons};
 use crate::solid::manifold::Manifold;
 use ccd_core::glam::DVec3;
 use ccd_core::{FacetOrigin, Polytope};
@@ -26,7 +26,7 @@ impl Patch {
         flats: &ConvexPolygons,
         region: &GrowingPatch,
     ) -> Self {
-        let members: Vec<&Flat> = region.polygons.iter().map(|&f| flats.get(f)).collect();
+        let members: Vec<&ConvexPolygon> = region.polygons.iter().map(|&f| flats.get(f)).collect();
         let mut faces: Vec<u32> = members
             .iter()
             .flat_map(|f| f.faces.iter().copied())
@@ -35,7 +35,7 @@ impl Patch {
         let facets = region.facets(manifold.mesh().vertices());
         let facets = facets
             .iter()
-            .map(|corners| covered_facet(manifold, &members, corners));
+            .map(|corners| facet_with_faces(manifold, &members, corners));
         let polytope = polytope(manifold, &facets.collect::<Vec<_>>());
         Patch { faces, polytope }
     }
@@ -48,24 +48,28 @@ impl Patch {
 }
 
 /// Returns a facet of a patch's hull, with the numbers of the patch's mesh faces that lie in the facet.
-fn covered_facet(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> CoveredFacet {
+fn facet_with_faces(
+    manifold: &Manifold<'_>,
+    members: &[&ConvexPolygon],
+    facet: &[u32],
+) -> FacetWithFaces {
     let at = |v: u32| manifold.point(v);
     let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
     let triangle = [corners[0], corners[1], corners[2]];
     let Some(plane) = Projection::new(triangle) else {
-        return CoveredFacet {
+        return FacetWithFaces {
             corners: facet.to_vec(),
             faces: Vec::new(),
-            is_covered: false,
+            is_wholly_covered: false,
         };
     };
     // Coplanar with the facet, with the same normal.
-    let within = |flat: &&&Flat| {
+    let within = |flat: &&&ConvexPolygon| {
         let own = manifold.triangle(flat.faces[0]);
         own.iter().all(|&p| side(triangle, p) == Ordering::Equal)
             && plane.turn(own[0], own[1], own[2]) == Ordering::Greater
     };
-    let members: Vec<&Flat> = members.iter().filter(within).copied().collect();
+    let members: Vec<&ConvexPolygon> = members.iter().filter(within).copied().collect();
     // Faces cover the facet if they end only at its outline.
     let ours = |face: u32| members.iter().any(|f| f.faces.binary_search(&face).is_ok());
     let mut rims = members.iter().flat_map(|f| f.rim.iter().copied());
@@ -75,8 +79,8 @@ fn covered_facet(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> C
             .iter()
             .all(|&p| plane.turn(a, b, p) != Ordering::Less)
     };
-    CoveredFacet {
-        is_covered: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
+    FacetWithFaces {
+        is_wholly_covered: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
         faces: members.iter().flat_map(|f| &f.faces).copied().collect(),
         corners: facet.to_vec(),
     }

@@ -12,9 +12,9 @@ fn chosen_reason(mesh: &TriangleMesh) -> PieceReason {
         &Work::with_steps(AUTO_WORK_BUDGET),
     );
     let fits = match why {
-        PieceReason::Convex => matches!(parts, PiecesByKind::Hull(_)),
-        PieceReason::PatchesFaster(_) => matches!(parts, PiecesByKind::Patches(_)),
-        _ => matches!(parts, PiecesByKind::Triangles),
+        PieceReason::Convex => matches!(parts, PiecesOfOneKind::Hull(_)),
+        PieceReason::PatchesFaster(_) => matches!(parts, PiecesOfOneKind::Patches(_)),
+        _ => matches!(parts, PiecesOfOneKind::Triangles),
     };
     assert!(fits, "{why}");
     why
@@ -59,25 +59,25 @@ fn the_largest_plane_is_found_whole() {
         .collect();
     let mesh = cubes(&cells);
     let manifold = solid_surface(&mesh).unwrap();
-    let plane = RegionMerger::merge_all_regions(&manifold).largest_planar_region();
-    assert_eq!(plane.triangles, 12);
-    assert_eq!(plane.polygons, 1);
+    let plane = RegionMerger::merge_all_regions(&manifold).largest_planar_region_size();
+    assert_eq!(plane.triangle_count, 12);
+    assert_eq!(plane.polygon_count, 1);
 }
 
 /// Returns the size of the largest planar part, by a walk over adjacent coplanar polygons.
-fn largest_region_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
+fn largest_region_size_by_walk(manifold: &Manifold<'_>) -> PlanarRegionSize {
     let flats = RegionMerger::merge_all_regions(manifold).into_polygons();
     let mut seen = vec![false; flats.len()];
-    let mut largest = PlanarRegion::default();
+    let mut largest = PlanarRegionSize::default();
     for seed in 0..flats.len() as u32 {
-        let (mut plane, mut stack) = (PlanarRegion::default(), vec![seed]);
+        let (mut plane, mut stack) = (PlanarRegionSize::default(), vec![seed]);
         while let Some(flat) = stack.pop() {
             if std::mem::replace(&mut seen[flat as usize], true) {
                 continue;
             }
             let flat = flats.get(flat);
-            plane.triangles += flat.faces.len();
-            plane.polygons += 1;
+            plane.triangle_count += flat.faces.len();
+            plane.polygon_count += 1;
             let level = flat
                 .rim
                 .iter()
@@ -104,8 +104,8 @@ fn the_largest_plane_is_that_of_a_walk() {
     ];
     for mesh in &solids {
         let manifold = solid_surface(mesh).unwrap();
-        let plane = RegionMerger::merge_all_regions(&manifold).largest_planar_region();
-        assert_eq!(plane, largest_region_by_walk(&manifold));
+        let plane = RegionMerger::merge_all_regions(&manifold).largest_planar_region_size();
+        assert_eq!(plane, largest_region_size_by_walk(&manifold));
     }
 }
 
@@ -134,7 +134,7 @@ fn slow_decompositions_stay_triangles() {
     for steps in [1, 1000] {
         let (parts, why) = choose(&mesh, &Topology::of(&mesh), &Work::with_steps(steps));
         assert_eq!(why, PieceReason::WorkBudgetExceeded);
-        assert!(matches!(parts, PiecesByKind::Triangles));
+        assert!(matches!(parts, PiecesOfOneKind::Triangles));
     }
 }
 

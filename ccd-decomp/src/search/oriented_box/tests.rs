@@ -34,5 +34,5 @@ fn worst_beside() {
         let reach = greater(of.reach, point.abs().max_element());
         Some(share(error.abs(), box_rounding(axis, reach)))
     });
-    found.assert_within(120.0);
+    found.assert_tight_bound(120.0);
 }

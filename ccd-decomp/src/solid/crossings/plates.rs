@@ -4,7 +4,7 @@ use crate::bounds::{Bounds, BoundsTree};
 use crate::exact::predicates::{Projection, side};
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
-use crate::solid::flats::{ConvexPolygons, Flat};
+use crate::solid::flats::{ConvexPolygon, ConvexPolygons};
 use crate::solid::manifold::Manifold;
 use crate::tolerance::MIN_FAN_TRIANGLES;
 use crate::work::Work;
@@ -18,15 +18,15 @@ use std::cmp::Ordering;
 pub(super) struct Plates<'a, 'm> {
     manifold: &'a Manifold<'m>,
     plates: Vec<Plate>,
-    /// For each face, the number of its plate; [`NONE`] for a face outside all plates.
+    /// For each face, the number of its plate; [`NO_PLATE`] for a face outside all plates.
     plate_of_face: Vec<u32>,
     /// The axis-aligned boxes of the plates.
     bounds: BoundsTree,
     /// The faces outside all plates.
-    rest: FaceGroup,
+    faces_outside_plates: FaceGroup,
 }
 
-const NONE: u32 = u32::MAX;
+const NO_PLATE: u32 = u32::MAX;
 
 /// A convex polygon of a mesh: its triangles, plane, and boundary.
 struct Plate {
@@ -42,7 +42,7 @@ struct Plate {
 
 #[derive(Clone, Copy, Debug)]
 struct RimVertex {
-    at: u32,
+    vertex: u32,
     previous_vertex: u32,
     next_vertex: u32,
 }
@@ -69,7 +69,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         }
         let flats = ConvexPolygons::new(manifold);
         let mut plates = Vec::new();
-        let mut plate_of = vec![NONE; manifold.faces().len()];
+        let mut plate_of = vec![NO_PLATE; manifold.faces().len()];
         for number in 0..flats.len() as u32 {
             let flat = flats.get(number);
             let is_large = has_fan(manifold, &flat.faces);
@@ -85,20 +85,22 @@ impl<'a, 'm> Plates<'a, 'm> {
         if plates.is_empty() {
             return None;
         }
-        let rest = (0..).zip(&plate_of).filter(|(_, plate)| **plate == NONE);
+        let rest = (0..)
+            .zip(&plate_of)
+            .filter(|(_, plate)| **plate == NO_PLATE);
         let rest = FaceGroup::new(manifold, rest.map(|(face, _)| face).collect());
         Some(Plates {
             manifold,
             bounds: BoundsTree::new(plates.iter().map(|plate| plate.bounds).collect()),
             plates,
             plate_of_face: plate_of,
-            rest,
+            faces_outside_plates: rest,
         })
     }
 
     /// Calls `holds` for the faces that may intersect the given face, until `holds` returns false or the work is spent.
     /// Each pair is reported for at least one of its faces: faces of lower number may be omitted.
-    pub(super) fn all_meeting(
+    pub(super) fn all_meeting_faces_satisfy(
         &self,
         face: u32,
         region: &Region,
@@ -107,10 +109,14 @@ impl<'a, 'm> Plates<'a, 'm> {
     ) -> bool {
         let own = self.plate_of_face[face as usize];
         // Pairs with a face of a plate are reported for the other face.
-        if own == NONE {
-            let faces = &self.rest.faces;
+        if own == NO_PLATE {
+            let faces = &self.faces_outside_plates.faces;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
-            if !self.rest.boxes.all_faces_meeting(region, work, later) {
+            if !self
+                .faces_outside_plates
+                .boxes
+                .all_meeting_faces_satisfy(region, work, later)
+            {
                 return false;
             }
         }
@@ -129,11 +135,13 @@ impl<'a, 'm> Plates<'a, 'm> {
                 let group = plate
                     .group
                     .get_or_init(|| FaceGroup::new(self.manifold, plate.faces.clone()));
-                group.boxes.all_faces_meeting(region, work, |other| {
-                    let other = group.faces[other as usize];
-                    // Pairs of faces of two plates are found twice.
-                    own != NONE && other < face || holds(other)
-                })
+                group
+                    .boxes
+                    .all_meeting_faces_satisfy(region, work, |other| {
+                        let other = group.faces[other as usize];
+                        // Pairs of faces of two plates are found twice.
+                        own != NO_PLATE && other < face || holds(other)
+                    })
             })
     }
 
@@ -174,8 +182,9 @@ impl<'a, 'm> Plates<'a, 'm> {
         // The bounds of no points meet no bounds.
         !Bounds::enclosing(level().map(|k| points[k])).meets(&plate.bounds)
             || level_corners.any(|rim_vertex| {
-                rim_vertex
-                    .is_some_and(|p| beyond(p.previous_vertex, p.at) || beyond(p.at, p.next_vertex))
+                rim_vertex.is_some_and(|p| {
+                    beyond(p.previous_vertex, p.vertex) || beyond(p.vertex, p.next_vertex)
+                })
             })
     }
 }
@@ -193,7 +202,7 @@ fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
 }
 
 impl Plate {
-    fn new(manifold: &Manifold<'_>, flat: &Flat) -> Option<Self> {
+    fn new(manifold: &Manifold<'_>, flat: &ConvexPolygon) -> Option<Self> {
         let plane = manifold.triangle(*flat.faces.first()?);
         let starts = || flat.rim.iter().map(|&h| manifold.ends(h)[0]);
         let triples = starts()
@@ -201,12 +210,12 @@ impl Plate {
             .zip(starts().cycle().skip(2));
         let mut rim: Vec<RimVertex> = triples
             .map(|((before, at), after)| RimVertex {
-                at,
+                vertex: at,
                 previous_vertex: before,
                 next_vertex: after,
             })
             .collect();
-        rim.sort_unstable_by_key(|rim_vertex| rim_vertex.at);
+        rim.sort_unstable_by_key(|rim_vertex| rim_vertex.vertex);
         Some(Plate {
             projection: Projection::new(plane)?,
             bounds: Bounds::enclosing(starts().map(|v| manifold.point(v))),
@@ -221,7 +230,7 @@ impl Plate {
     fn rim_vertex(&self, vertex: u32) -> Option<RimVertex> {
         let found = self
             .rim
-            .binary_search_by_key(&vertex, |rim_vertex| rim_vertex.at);
+            .binary_search_by_key(&vertex, |rim_vertex| rim_vertex.vertex);
         found.ok().map(|k| self.rim[k])
     }
 }

@@ -7,7 +7,7 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-fn flats(mesh: &TriangleMesh) -> ConvexPolygons {
+fn convex_polygons(mesh: &TriangleMesh) -> ConvexPolygons {
     ConvexPolygons::new(&solid_surface(mesh).unwrap())
 }
 
@@ -17,7 +17,7 @@ fn flats(mesh: &TriangleMesh) -> ConvexPolygons {
 #[case::cube([4, 4, 4])]
 fn sides_of_a_block_are_one_polygon_each(#[case] size: [i32; 3]) {
     let mesh = cubes(&block_cells(size));
-    let flats = flats(&mesh);
+    let flats = convex_polygons(&mesh);
     assert_eq!(flats.len(), 6);
     let faces: usize = (0..6).map(|k| flats.get(k).faces.len()).sum();
     assert_eq!(faces, mesh.faces().len());
@@ -26,7 +26,7 @@ fn sides_of_a_block_are_one_polygon_each(#[case] size: [i32; 3]) {
 
 #[test]
 fn triangles_in_no_common_plane_stay_alone() {
-    assert_eq!(flats(&tetrahedron()).len(), 4);
+    assert_eq!(convex_polygons(&tetrahedron()).len(), 4);
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
             "all are taken"
         );
         let shuffled = crate::test_meshes::mesh(mesh.vertices().to_vec(), &faces);
-        let flats = flats(&shuffled);
+        let flats = convex_polygons(&shuffled);
         // Four about the hole above and below, four sides outside and four within.
         assert_eq!(flats.len(), 4 + 4 + 4 + 4, "{stride}");
     }

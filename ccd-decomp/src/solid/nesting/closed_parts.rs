@@ -1,7 +1,7 @@
 //! Splits a closed mesh into shells, its smallest closed parts.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::exact::predicates::{Projection, first_too_fine_point, side};
+use crate::exact::predicates::{Projection, first_point_below_exact_range, side};
 use crate::half_edges::{EdgeUse, Edges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
@@ -23,7 +23,7 @@ pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32
     if !is_manifold {
         for (ends, uses) in edges.iter().filter(|(_, uses)| uses.len() > 2) {
             let open = open_half_edges(uses, &mut parts);
-            for (one, other) in faces_of_wedges(mesh, ends, &open) {
+            for (one, other) in face_pairs_of_wedges(mesh, ends, &open) {
                 parts.join(one, other);
             }
         }
@@ -47,7 +47,7 @@ fn open_half_edges(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
 
 /// Returns the pairs of faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all
 /// are paired.
-fn faces_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Vec<(u32, u32)> {
+fn face_pairs_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Vec<(u32, u32)> {
     let Some(around) = AngularOrder::new(mesh, ends, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face(), pair[1].face())).collect();
@@ -97,8 +97,8 @@ impl<'m> AngularOrder<'m> {
         let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
         let first = *apexes.first()?;
-        let is_too_fine = first_too_fine_point(&[v, w])
-            .or(first_too_fine_point(&apexes))
+        let is_too_fine = first_point_below_exact_range(&[v, w])
+            .or(first_point_below_exact_range(&apexes))
             .is_some();
         let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
         if is_too_fine || apexes.iter().any(flat) {

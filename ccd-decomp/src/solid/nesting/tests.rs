@@ -25,7 +25,7 @@ fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
     TriangleMesh::new(points, &faces).unwrap()
 }
 
-fn wrong_and_unclear_counts(mesh: &TriangleMesh) -> [usize; 2] {
+fn wrong_and_unclear_shell_counts(mesh: &TriangleMesh) -> [usize; 2] {
     let topology = Topology::of(mesh);
     [
         topology.wrong_shells.count(),
@@ -42,7 +42,7 @@ fn shells_side_by_side_are_each_turned_outward() {
         (true, true, 0),
     ] {
         let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (10.0 * DVec3::X, 1.5, other)]);
-        assert_eq!(wrong_and_unclear_counts(&mesh), [wrong, 0]);
+        assert_eq!(wrong_and_unclear_shell_counts(&mesh), [wrong, 0]);
         let prepared = body_from_mesh(&mesh, Detail::Triangles).unwrap();
         assert_eq!(prepared.body.volume(), Volume::Solid);
     }
@@ -77,7 +77,11 @@ fn nested_shells_alternate() {
             4 => 0,
             _ => 4 - right(false),
         };
-        assert_eq!(wrong_and_unclear_counts(&mesh), [wrong, 0], "{flips:b}");
+        assert_eq!(
+            wrong_and_unclear_shell_counts(&mesh),
+            [wrong, 0],
+            "{flips:b}"
+        );
         let volume = Topology::of(&mesh).signed_volume.abs();
         let cube = |half: f64| 8.0 * half * half * half;
         let exact = cube(4.0) - cube(3.0) + cube(2.0) - cube(1.0);
@@ -92,18 +96,18 @@ fn nested_shells_alternate() {
 #[test]
 fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     let pair = |inward: bool| [(DVec3::ZERO, 1.0, inward), (0.7 * DVec3::ONE, 1.0, false)];
-    assert_eq!(wrong_and_unclear_counts(&cubes(&pair(false))), [0, 0]);
-    assert_eq!(wrong_and_unclear_counts(&cubes(&pair(true))), [1, 0]);
+    assert_eq!(wrong_and_unclear_shell_counts(&cubes(&pair(false))), [0, 0]);
+    assert_eq!(wrong_and_unclear_shell_counts(&cubes(&pair(true))), [1, 0]);
     let around = |inward: bool| (0.1 * DVec3::ONE, 9.0, inward);
     // Crossing shells with the orientation of their surroundings are part of the solid.
     let part = [pair(false).as_slice(), &[around(false)]].concat();
-    assert_eq!(wrong_and_unclear_counts(&cubes(&part)), [0, 0]);
+    assert_eq!(wrong_and_unclear_shell_counts(&cubes(&part)), [0, 0]);
     // Two cavities that cross, or a solid that crosses a cavity.
     let cavities = [pair(false).as_slice(), &[around(true)]].concat();
-    assert_eq!(wrong_and_unclear_counts(&cubes(&cavities))[1], 2);
+    assert_eq!(wrong_and_unclear_shell_counts(&cubes(&cavities))[1], 2);
     let both = [pair(true).as_slice(), &[around(false)]].concat();
     let mesh = cubes(&both);
-    assert_eq!(wrong_and_unclear_counts(&mesh)[1], 1);
+    assert_eq!(wrong_and_unclear_shell_counts(&mesh)[1], 1);
     let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
     assert_eq!(prepared.body.volume(), Volume::Surface);
     let said = prepared.report.to_string();
@@ -122,7 +126,7 @@ fn shells_that_share_an_edge_are_distinguished() {
         let topology = Topology::of(&mesh);
         assert_eq!(topology.shared_edges.count(), 1);
         assert_eq!(
-            wrong_and_unclear_counts(&mesh),
+            wrong_and_unclear_shell_counts(&mesh),
             [usize::from(one != other), 0]
         );
         assert!((topology.signed_volume - 2.0).abs() < 1e-12);
@@ -144,7 +148,7 @@ fn shells_that_share_faces_are_distinguished() {
         }
         let mesh = cubes(&of_lattice);
         let topology = Topology::of(&mesh);
-        assert_eq!(wrong_and_unclear_counts(&mesh), [0, 0], "{seed}");
+        assert_eq!(wrong_and_unclear_shell_counts(&mesh), [0, 0], "{seed}");
         let volume = topology.signed_volume.abs() - of_lattice.len() as f64;
         assert!(volume.abs() < 1e-9, "{seed}");
         let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
@@ -177,5 +181,5 @@ fn worst_middle() {
         let meant = FACE_CENTRE_ROUNDING * (size + middle.abs().max_element());
         Some(share(meant - lesser(ahead, -behind), meant))
     });
-    found.assert_within(1e4);
+    found.assert_tight_bound(1e4);
 }

@@ -1,7 +1,7 @@
 //! Builds a tree by agglomeration: mutual best neighbours along a space-filling curve become siblings, pass by pass,
 //! until one node is left (`[PLOC18]`).
 
-use super::nodes::{AabbF32, Below, Node};
+use super::nodes::{AabbF32, Node, NodeContent};
 use crate::tolerance::{ADJACENT_ONLY_PASSES, NEIGHBOUR_SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
@@ -39,7 +39,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
                 (tree[free], tree[free + 1]) = (node, row[other]);
                 next.push(Node {
                     cuboid: node.cuboid.union(row[other].cuboid),
-                    below: Below::Children(free as u32),
+                    content: NodeContent::Children(free as u32),
                 });
             }
         }

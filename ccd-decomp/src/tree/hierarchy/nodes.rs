@@ -55,12 +55,12 @@ impl AabbF32 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) cuboid: AabbF32,
-    pub(super) below: Below,
+    pub(super) content: NodeContent,
 }
 
 /// The content of a node: a piece or two children.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Below {
+pub(super) enum NodeContent {
     Piece(u32),
     /// An inner node, by the index of its first child. The second child follows it.
     Children(u32),
@@ -70,7 +70,7 @@ impl Node {
     pub(super) fn leaf(piece: u32, cuboid: AabbF32) -> Self {
         Node {
             cuboid,
-            below: Below::Piece(piece),
+            content: NodeContent::Piece(piece),
         }
     }
 }

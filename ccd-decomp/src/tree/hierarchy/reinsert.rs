@@ -1,8 +1,8 @@
 //! Improves a tree by reinsertion: moves the largest subtrees to where they minimise the total area of boxes
 //! (`[REINSERT18]`).
 
-use super::nodes::{Below, Node, sibling};
-use crate::tolerance::REINSERTED_SHARE;
+use super::nodes::{Node, NodeContent, sibling};
+use crate::tolerance::REINSERTION_CANDIDATE_SHARE;
 use rayon::prelude::*;
 
 /// The number of subtrees in a parallel task. Smaller tasks cost more than they gain.
@@ -15,7 +15,7 @@ pub(super) fn reinsert_subtrees(nodes: &mut [Node]) {
     }
     let mut tree = Tree::new(nodes);
     for share in (1..32).step_by(2).map(|n| 1.0 / n as f32) {
-        let count = (tree.nodes.len() as f32 * REINSERTED_SHARE * share) as usize;
+        let count = (tree.nodes.len() as f32 * REINSERTION_CANDIDATE_SHARE * share) as usize;
         tree.reinsert_largest_nodes(count.clamp(1, tree.nodes.len() - 1));
     }
 }
@@ -29,8 +29,8 @@ struct Tree<'a> {
 
 /// A possible move: the subtree, its new sibling, and the reduction of the total area.
 struct Reinsertion {
-    from: u32,
-    to: u32,
+    subtree: u32,
+    new_sibling: u32,
     area_reduction: f32,
 }
 
@@ -38,7 +38,7 @@ impl<'a> Tree<'a> {
     fn new(nodes: &'a mut [Node]) -> Self {
         let mut parents = vec![0; nodes.len()];
         for (node, parent) in nodes.iter().zip(0..) {
-            if let Below::Children(first) = node.below {
+            if let NodeContent::Children(first) = node.content {
                 parents[first as usize..][..2].fill(parent);
             }
         }
@@ -63,12 +63,19 @@ impl<'a> Tree<'a> {
         largest.sort_unstable_by(by_area);
         // The tree is not changed until all places are found, so that the search is parallel.
         let mut moves: Vec<Reinsertion> = (largest.par_iter().with_min_len(SUBTREES_PER_TASK))
-            .map_init(Vec::new, |stack, &(_, node)| self.best_move(node, stack))
+            .map_init(Vec::new, |stack, &(_, node)| {
+                self.best_reinsertion(node, stack)
+            })
             .flatten_iter()
             .collect();
         moves.sort_unstable_by(|a, b| b.area_reduction.total_cmp(&a.area_reduction));
         self.is_changed.fill(false);
-        for Reinsertion { from, to, .. } in moves {
+        for Reinsertion {
+            subtree: from,
+            new_sibling: to,
+            ..
+        } in moves
+        {
             let [old, new] = [from, to].map(|node| self.parents[node as usize]);
             let changed = [to, from, sibling(from), new, old].map(|node| node as usize);
             if !changed.iter().any(|&node| self.is_changed[node]) {
@@ -83,13 +90,13 @@ impl<'a> Tree<'a> {
     /// Returns the move of a subtree that reduces the total area of the boxes most; `None` if no move reduces it. The
     /// search climbs to the root, and searches every subtree beside the path. A branch is pruned if its boxes grow by
     /// more than the best gain.
-    fn best_move(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Reinsertion> {
+    fn best_reinsertion(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Reinsertion> {
         let cuboid = self.nodes[from as usize].cuboid;
         let area = cuboid.half_area();
         let parent = self.parents[from as usize];
         let mut best = Reinsertion {
-            from,
-            to: 0,
+            subtree: from,
+            new_sibling: 0,
             area_reduction: 0.0,
         };
         // The boxes above the old place shrink.
@@ -102,16 +109,19 @@ impl<'a> Tree<'a> {
                 if gain - area <= best.area_reduction {
                     continue;
                 }
-                let Node { cuboid: old, below } = self.nodes[node as usize];
+                let Node {
+                    cuboid: old,
+                    content: below,
+                } = self.nodes[node as usize];
                 let gain = gain - old.union(cuboid).half_area();
                 if gain > best.area_reduction {
                     best = Reinsertion {
-                        to: node,
+                        new_sibling: node,
                         area_reduction: gain,
                         ..best
                     };
                 }
-                if let Below::Children(first) = below {
+                if let NodeContent::Children(first) = below {
                     let gain = gain + old.half_area();
                     stack.extend([(gain, first), (gain, first + 1)]);
                 }
@@ -135,7 +145,7 @@ impl<'a> Tree<'a> {
         // A sibling is never chosen: it gains nothing, because a box is exactly the union of its children's.
         debug_assert_ne!(to, beside);
         let [moved, raised] = [to, beside].map(|node| self.nodes[node as usize]);
-        self.nodes[to as usize].below = Below::Children(from.min(beside));
+        self.nodes[to as usize].content = NodeContent::Children(from.min(beside));
         self.set_node(moved, beside);
         self.set_node(raised, parent);
         self.parents[beside as usize] = to;
@@ -146,7 +156,7 @@ impl<'a> Tree<'a> {
 
     fn set_node(&mut self, node: Node, index: u32) {
         self.nodes[index as usize] = node;
-        if let Below::Children(first) = node.below {
+        if let NodeContent::Children(first) = node.content {
             self.parents[first as usize..][..2].fill(index);
         }
     }
@@ -154,7 +164,7 @@ impl<'a> Tree<'a> {
     /// Recomputes the boxes from a node up to the root.
     fn refit(&mut self, mut node: u32) {
         loop {
-            if let Below::Children(first) = self.nodes[node as usize].below {
+            if let NodeContent::Children(first) = self.nodes[node as usize].content {
                 let [left, right] = [first, first + 1].map(|child| self.nodes[child as usize]);
                 self.nodes[node as usize].cuboid = left.cuboid.union(right.cuboid);
             }

@@ -58,15 +58,15 @@ impl Splitter {
         // Scaled to avoid underflow.
         let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
         let spread = match ExactHull::facets_of(&unit) {
-            Some(triangles) => second_moments(&unit, &triangles),
-            None => of_points(&unit),
+            Some(triangles) => second_moments_of_surface(&unit, &triangles),
+            None => second_moments_of_points(&unit),
         };
         principal_axis(spread).unwrap_or(DVec3::X)
     }
 }
 
 /// Returns the second moments of a surface of triangles about its centroid.
-fn second_moments(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
+fn second_moments_of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
     let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, Matrix3::zeros());
     for corners in triangles {
         let [p, q, r] = corners.map(|v| points[v as usize]);
@@ -82,7 +82,7 @@ fn second_moments(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
     second - outer_product(first / area) * area
 }
 
-fn of_points(points: &[DVec3]) -> Matrix3<f64> {
+fn second_moments_of_points(points: &[DVec3]) -> Matrix3<f64> {
     points.iter().map(|&p| outer_product(p)).sum()
 }
 

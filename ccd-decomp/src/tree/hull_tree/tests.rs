@@ -8,13 +8,13 @@ use ccd_core::{ConvexCombination, FacetClass, HierarchyNode, HullFault, Polytope
 use proptest::prelude::*;
 use std::cmp::Ordering;
 
-fn coordinate() -> impl Strategy<Value = f64> {
+fn any_coordinate() -> impl Strategy<Value = f64> {
     // On a grid, so that many points share planes and lines, and anywhere.
     prop_oneof![(-4i32..=4).prop_map(|x| 0.25 * f64::from(x)), -1.0..1.0f64]
 }
 
 fn point() -> impl Strategy<Value = DVec3> {
-    (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+    (any_coordinate(), any_coordinate(), any_coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
 /// Generates a piece: the hull of random points on a line, in a plane or in space.
@@ -61,7 +61,7 @@ fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
 }
 
 /// Returns whether a hull contains a point up to the distance `slack`, by a test of every facet.
-fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
+fn contains_within_slack(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
     let beyond = hull.facets.iter().map(|corners| {
         let at = |k: usize| hull.points[corners[k] as usize];
         let normals = (1..corners.len() - 1).map(|k| (at(k) - at(0)).cross(at(k + 1) - at(0)));
@@ -111,7 +111,7 @@ proptest! {
                     // A facet of a hull with volume may be so thin that rounding turns its normal; a
                     // plate's edges bound it as well, which planes alone do not show.
                     let has_volume = hull.facets.len() > 2;
-                    prop_assert!(has_volume || holds(&hull, point, 1e-9));
+                    prop_assert!(has_volume || contains_within_slack(&hull, point, 1e-9));
                 }
             }
         }
@@ -128,8 +128,8 @@ proptest! {
             let below = leaves(&tree, at);
             let real = |combination: &ConvexCombination| {
                 let point = combination.position(hull.points).unwrap();
-                let near = |&leaf: &usize| holds(&tree.hulls().get(leaf), point, 1e-9);
-                tree.class_of(at as u32, combination) == FacetClass::Free
+                let near = |&leaf: &usize| contains_within_slack(&tree.hulls().get(leaf), point, 1e-9);
+                tree.facet_class_at(at as u32, combination) == FacetClass::Free
                     || below.iter().any(near)
                     || between(&tree, &below, point)
             };
@@ -149,7 +149,7 @@ proptest! {
 
 /// Returns whether a point is within 1e-6 of two pieces, so that rounding may decide which piece contains it.
 fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
-    let near = |&&leaf: &&usize| holds(&tree.hulls().get(leaf), point, 1e-6);
+    let near = |&&leaf: &&usize| contains_within_slack(&tree.hulls().get(leaf), point, 1e-6);
     below.iter().filter(near).count() > 1
 }
 

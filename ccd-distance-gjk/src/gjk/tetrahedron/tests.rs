@@ -28,7 +28,7 @@ fn worst_volume() {
             share(height, allowed * up.length()),
         ))
     });
-    found.assert_within(20.0);
+    found.assert_tight_bound(20.0);
 }
 
 /// Tests that a weighted sum of four corners is accurate to `TOUCHING_ULPS`.
@@ -55,5 +55,5 @@ fn worst_combination() {
         let allowed = TOUCHING_ULPS * f64::EPSILON * reach.fold(0.0, greater);
         Some(share(off, allowed))
     });
-    found.assert_within(20.0);
+    found.assert_tight_bound(20.0);
 }

@@ -1,6 +1,6 @@
 //! Tests that hill climbing finds corners as high as a scan does.
 
-use super::{DirectionTable, SQUARES, centre_of_square, square_towards};
+use super::{DirectionTable, SQUARE_COUNT, centre_of_square, square_towards};
 use crate::tests::setting::{cube, prepared_polytope};
 use crate::tests::shape::{self, Pcg64, SeedableRng, direction};
 use ccd_core::glam::DVec3;
@@ -8,7 +8,7 @@ use ccd_core::order::greater;
 
 #[test]
 fn directions_are_in_the_square_whose_centre_is_near() {
-    for square in 0..SQUARES {
+    for square in 0..SQUARE_COUNT {
         for scale in [1e-150, 1.0, 1e150] {
             assert_eq!(square_towards(centre_of_square(square) * scale), square);
         }
@@ -21,7 +21,7 @@ fn directions_are_in_the_square_whose_centre_is_near() {
         assert!(angle <= 0.36, "{angle}");
     }
     for nonsense in [DVec3::NAN, DVec3::ZERO, DVec3::INFINITY] {
-        assert!(square_towards(nonsense) < SQUARES);
+        assert!(square_towards(nonsense) < SQUARE_COUNT);
     }
 }
 
@@ -39,7 +39,7 @@ fn hill_climbing_finds_an_extremal_corner() {
             let look = direction(&mut rng);
             let height = |v: &super::super::Vertex| look.dot(v.point);
             let highest = polytope.vertices.iter().map(height).fold(f64::MIN, greater);
-            let found = polytope.vertex(polytope.extremal(look));
+            let found = polytope.vertex(polytope.extremal_vertex(look));
             assert!(height(found) >= highest - 1e-15);
         }
     }

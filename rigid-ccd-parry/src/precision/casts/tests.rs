@@ -1,7 +1,7 @@
 use super::super::library::shape::{Ball, Cuboid};
 use super::*;
 
-fn cast(radius: Real) -> Option<Real> {
+fn cast_ball_at_wall(radius: Real) -> Option<Real> {
     let start = Pose::translation(-3.0, 0.0, 0.0);
     let flies = NonlinearRigidMotion::new(start, Vector::ZERO, Vector::X, Vector::ZERO);
     let rests = NonlinearRigidMotion::identity();
@@ -15,7 +15,7 @@ struct CastOnDrop;
 
 impl Drop for CastOnDrop {
     fn drop(&mut self) {
-        assert!(cast(1.0).is_some_and(|time| time <= 1.0));
+        assert!(cast_ball_at_wall(1.0).is_some_and(|time| time <= 1.0));
     }
 }
 
@@ -28,7 +28,7 @@ fn casts_work_when_a_thread_ends() {
     let thread = std::thread::spawn(|| {
         // Thread-local values are dropped in the reverse order of their creation.
         CAST_ON_DROP.with(|_| ());
-        cast(0.5)
+        cast_ball_at_wall(0.5)
     });
     assert!(thread.join().expect("no panic").is_some());
 }
@@ -38,7 +38,7 @@ fn shapes_at_one_address_are_distinguished_by_their_numbers() {
     for k in 1..200 {
         // Every ball has the same address on the stack.
         let radius = 0.001 * k as Real;
-        let time = cast(radius).expect("they meet");
+        let time = cast_ball_at_wall(radius).expect("they meet");
         let exact = 2.0 - radius;
         assert!((time - exact).abs() < 1e-5, "{radius}: {time}");
     }

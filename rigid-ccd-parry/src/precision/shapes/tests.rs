@@ -4,14 +4,14 @@ use super::super::library::utils::Array2;
 use super::*;
 use crate::Excess;
 
-fn prepared(shape: &dyn Shape) -> Prepared {
+fn prepared_body(shape: &dyn Shape) -> BodyOfShape {
     body(shape, &Options::default()).expect("served")
 }
 
 #[test]
 fn holes_of_height_fields_are_holes() {
     let mut field = HeightField::new(Array2::repeat(4, 5, 0.5), Vector::new(2.0, 1.0, 3.0));
-    let whole = prepared(&field);
+    let whole = prepared_body(&field);
     assert_eq!(whole.body().pieces().len(), 24);
     let removed = HeightFieldCellStatus::LEFT_TRIANGLE_REMOVED;
     field.set_cell_status(1, 2, removed);
@@ -21,7 +21,7 @@ fn holes_of_height_fields_are_holes() {
         removed | HeightFieldCellStatus::RIGHT_TRIANGLE_REMOVED,
     );
     field.set_cell_status(0, 0, HeightFieldCellStatus::ZIGZAG_SUBDIVISION);
-    let holed = prepared(&field);
+    let holed = prepared_body(&field);
     assert_eq!(holed.body().pieces().len(), 21);
     // Piece number k is triangle k.
     for piece in 0..21 {
@@ -42,7 +42,7 @@ fn voxels_are_boxes_on_the_grid() {
         .iter()
         .map(|[x, y, z]| IVector::new(*x, *y, *z))
         .collect();
-    let made = prepared(&Voxels::new(Vector::new(0.1, 0.3, 0.7), &keys));
+    let made = prepared_body(&Voxels::new(Vector::new(0.1, 0.3, 0.7), &keys));
     assert_eq!(made.body().pieces().len(), 4);
     let size = point(Vector::new(0.1, 0.3, 0.7));
     for [x, y, z] in cells {
@@ -55,7 +55,10 @@ fn voxels_are_boxes_on_the_grid() {
     }
     let far = IVector::new(1 << 21, 0, 0);
     let refused = body(&Voxels::new(Vector::ONE, &[far]), &Options::default());
-    assert!(matches!(refused, Err(ShapeError::Grid)), "{refused:?}");
+    assert!(
+        matches!(refused, Err(ShapeError::UnresolvableVoxels)),
+        "{refused:?}"
+    );
 }
 
 #[test]
@@ -63,7 +66,7 @@ fn voxels_are_all_found_at_any_size() {
     // Rounded divisions by such sizes are wrong by one at the ends of chunks.
     for size in [0.1, 0.3, 1e-3, 7.77, 123.456] {
         let keys: Vec<IVector> = (-40..40).map(|x| IVector::new(x, 7 * x + 1, -x)).collect();
-        let made = prepared(&Voxels::new(Vector::splat(size), &keys));
+        let made = prepared_body(&Voxels::new(Vector::splat(size), &keys));
         assert_eq!(made.body().pieces().len(), keys.len(), "{size}");
     }
 }
@@ -77,7 +80,7 @@ fn parts_of_a_compound_have_their_numbers() {
             SharedShape::ball(0.1),
         )
     });
-    let made = prepared(&Compound::new(parts.collect()));
+    let made = prepared_body(&Compound::new(parts.collect()));
     for piece in 0..9 {
         let at = made.body().pieces().get(piece as usize).points[0];
         assert_eq!(at.x, f64::from(made.sub_shape_index(piece)));
@@ -136,7 +139,11 @@ fn cylinders_and_cones_are_along_y_with_the_reported_excess() {
     }
     let cylinder = Cylinder::new(1.0, 2.0);
     let refused = |excess| body(&cylinder, &within(excess)).expect_err("refused");
-    let ShapeError::Excess { least, .. } = refused(Excess::Length(1e-8)) else {
+    let ShapeError::ExcessTooSmall {
+        least_excess: least,
+        ..
+    } = refused(Excess::Length(1e-8))
+    else {
         panic!("too fine");
     };
     assert!(least < 1e-7 && body(&cylinder, &within(Excess::Length(least))).is_ok());
@@ -144,5 +151,5 @@ fn cylinders_and_cones_are_along_y_with_the_reported_excess() {
         refused(Excess::Length(-1.0)),
         ShapeError::InvalidSize { what: "excess", .. }
     ));
-    assert_eq!(refused(Excess::NotAllowed), ShapeError::Round);
+    assert_eq!(refused(Excess::NotAllowed), ShapeError::RoundShapeRefused);
 }

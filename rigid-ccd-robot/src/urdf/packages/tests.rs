@@ -20,7 +20,8 @@ fn create_package() -> TempDir {
 #[test]
 fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
     let folder = create_package();
-    let mut packages = Packages::around(&folder.path().join("arm_description/urdf/arm.urdf"));
+    let mut packages =
+        SearchFolders::for_urdf(&folder.path().join("arm_description/urdf/arm.urdf"));
     let found = packages
         .find("package://arm_description/meshes/link.stl")
         .unwrap();

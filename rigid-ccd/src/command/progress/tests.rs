@@ -7,7 +7,7 @@ fn progress_line(progress: &Progress) -> String {
 /// Tests that progress counts the rows that are answered, not those that a batch has only read.
 #[test]
 fn answered_rows_count_and_read_rows_do_not() {
-    let progress = Progress::new(Total::Bytes(110));
+    let progress = Progress::new(TotalWork::Bytes(110));
     progress.begin_batch(0, 10);
     progress.begin_batch(4, 110);
     assert_eq!(progress_line(&progress), "0 rows answered, 9 %");
@@ -22,7 +22,7 @@ fn answered_rows_count_and_read_rows_do_not() {
 /// Tests that skipped rows count as answered when a run continues an earlier one, or begins at a later row.
 #[test]
 fn rows_that_were_skipped_count_as_answered() {
-    let progress = Progress::new(Total::Bytes(100));
+    let progress = Progress::new(TotalWork::Bytes(100));
     progress.begin_batch(0, 60);
     progress.begin_batch(2, 100);
     assert_eq!(progress_line(&progress), "0 rows answered, 60 %");

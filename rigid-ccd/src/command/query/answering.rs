@@ -2,7 +2,7 @@
 
 use crate::ParallelSolver;
 use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, TimedQuestion, parallel_solver, time};
-use crate::command::bad_rows::BadRows;
+use crate::command::bad_rows::BadRowCounter;
 use crate::command::files::{Rows, input_name};
 use crate::command::progress::Progress;
 use crate::table::courses::{CourseRow, Movements};
@@ -17,7 +17,7 @@ pub(super) struct BatchRun<'a> {
     pub(super) timed_question: TimedQuestion,
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
     batch: BatchSize,
-    pub(super) bad_rows: BadRows,
+    pub(super) bad_row_counter: BadRowCounter,
     pub(super) progress: Progress,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Batch {
 pub(super) struct AnsweredRow<'b> {
     pub(super) position: RowPosition,
     /// The motions or paths of the row; `None` for a row that cannot be read.
-    pub(super) course: Option<&'b Movements>,
+    pub(super) movements: Option<&'b Movements>,
     pub(super) row: ResultRow,
     /// The answer with its duration; `None` for a row with an error.
     pub(super) timed_answer: Option<&'b TimedAnswer>,
@@ -48,14 +48,14 @@ impl<'a> BatchRun<'a> {
         progress: Progress,
     ) -> Self {
         let solver = parallel_solver(threads, || {
-            timing.method.solver(timing.settings.instructions)
+            timing.method.solver(timing.settings.vector_instructions)
         });
         BatchRun {
             bodies,
             batch: BatchSize::new(solver.threads()),
             timed_question: timing,
             solver,
-            bad_rows: BadRows::new(input_name(motions)),
+            bad_row_counter: BadRowCounter::new(input_name(motions)),
             progress,
         }
     }
@@ -101,11 +101,12 @@ impl<'a> BatchRun<'a> {
             }
         };
         if let Err(problem) = answer {
-            self.bad_rows.report(position, problem, &self.progress);
+            self.bad_row_counter
+                .report(position, problem, &self.progress);
         }
         AnsweredRow {
             position,
-            course,
+            movements: course,
             row,
             timed_answer: answer.as_ref().ok(),
         }

@@ -6,7 +6,7 @@
 use super::args::QueryArgs;
 use super::journal::{Checkpoint, EarlierRun, Journal, JournalError, RecordedOptions};
 use crate::command::output::{JOURNAL_EXTENSION, Output, OutputError};
-use crate::command::table::{Table, WrittenSize, measure};
+use crate::command::table::{TableWriter, WrittenSize, measure};
 use crate::table::contacts;
 use crate::table::results::names;
 use anyhow::{Context, Result, bail};
@@ -15,8 +15,8 @@ use std::path::PathBuf;
 
 /// The open tables of results and contacts, with their journal.
 pub(super) struct Outputs {
-    pub(super) results: Table,
-    pub(super) contacts: Option<Table>,
+    pub(super) results: TableWriter,
+    pub(super) contacts: Option<TableWriter>,
     journal: Option<Journal>,
 }
 
@@ -85,13 +85,13 @@ impl OpenedTables {
             }
             places = ClaimedFiles::claim(args)?;
         }
-        places.begin_or_resume(args, recorded, (earlier, journal))
+        places.create_or_resume_tables(args, recorded, (earlier, journal))
     }
 }
 
 impl ClaimedFiles {
     /// Continues the tables of an interrupted run, or creates new tables if there was no such run.
-    fn begin_or_resume(
+    fn create_or_resume_tables(
         self,
         args: &QueryArgs,
         recorded: &RecordedOptions,
@@ -107,7 +107,7 @@ impl ClaimedFiles {
             Some((earlier, results)) if args.resume => {
                 let rows = results.partial_path().display().to_string();
                 let advice = format!("delete {rows} to start over");
-                check_options(&earlier, recorded, "interrupted", &advice)?;
+                refuse_changed_options(&earlier, recorded, "interrupted", &advice)?;
                 let outputs = Outputs::resume(self, &earlier.checkpoint, recorded, journal)?;
                 Ok(OpenedTables::Resumed(outputs, earlier.checkpoint))
             }
@@ -134,7 +134,7 @@ impl ClaimedFiles {
         if !rename_complete_table(self.results, results)? {
             return Ok(false);
         }
-        check_options(run, recorded, "finished", "omit --resume to start over")?;
+        refuse_changed_options(run, recorded, "finished", "omit --resume to start over")?;
         self.contacts
             .map_or(Ok(true), |table| rename_complete_table(table, contacts))
     }
@@ -168,7 +168,7 @@ fn rename_complete_table(table: Output, written: WrittenSize) -> Result<bool> {
 }
 
 /// Returns an error if the options differ from those of the earlier run.
-fn check_options(
+fn refuse_changed_options(
     earlier: &EarlierRun,
     recorded: &RecordedOptions,
     run: &str,
@@ -208,9 +208,10 @@ impl Outputs {
         let journal = journal
             .map(|path| Journal::start(path, recorded, None))
             .transpose()?;
-        let results = Table::start(places.results, &names(&args.columns()))?;
+        let results = TableWriter::start(places.results, &names(&args.columns()))?;
         let contacts = places.contacts;
-        let contacts = contacts.map(|place| Table::start(place, &names(&contacts::columns())));
+        let contacts =
+            contacts.map(|place| TableWriter::start(place, &names(&contacts::columns())));
         let contacts = contacts.transpose()?;
         Ok(Outputs {
             results,
@@ -247,12 +248,12 @@ impl Outputs {
 }
 
 /// Opens a table of an interrupted run, to append to it.
-fn resume_table(table: Output, written: WrittenSize) -> Result<Table> {
+fn resume_table(table: Output, written: WrittenSize) -> Result<TableWriter> {
     let Output::File(claim, _) = table else {
         bail!("--resume needs files");
     };
     let partial = claim.partial_path().display().to_string();
-    let table = Table::resume(claim, written)?;
+    let table = TableWriter::resume(claim, written)?;
     table.with_context(|| {
         format!(
             "--resume: {partial} is not as the interrupted run left it; delete it to start over"

@@ -5,7 +5,7 @@ use super::journal::Checkpoint;
 use super::summary::Summary;
 use super::{print_summary, run_outcome};
 use crate::command::files::{Rows, input_name};
-use crate::command::{Exit, print_error};
+use crate::command::{RunOutcome, print_error};
 use anyhow::{Context, Result, bail};
 
 /// Prints at which row a resumed run continues, or that it found no interrupted run.
@@ -60,7 +60,11 @@ fn warn_of_partial_page(args: &QueryArgs) {
 
 /// Reports that a finished run has nothing left to do, and returns its exit status. Refuses motions that are not those
 /// of the finished run.
-pub(super) fn report_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
+pub(super) fn report_finished(
+    args: &QueryArgs,
+    rows: &mut Rows,
+    end: Checkpoint,
+) -> Result<RunOutcome> {
     warn_of_partial_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());
     let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;

@@ -18,7 +18,7 @@ use anyhow::{Context, Result};
 /// The state of `ccd query` while it answers rows.
 pub(super) struct QueryRun<'a> {
     pub(super) args: &'a QueryArgs,
-    pub(super) answering: BatchRun<'a>,
+    pub(super) batch_run: BatchRun<'a>,
     pub(super) outputs: Outputs,
     /// The rows chosen for the page of `--html`; `None` without this option.
     pub(super) page_rows: Option<ChosenRows>,
@@ -29,18 +29,18 @@ impl QueryRun<'_> {
     /// Answers the selected rows from `start` on, and returns the last checkpoint.
     pub(super) fn answer_rows(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
         let mut done = start;
-        self.answering.progress.begin_batch(0, rows.bytes());
+        self.batch_run.progress.begin_batch(0, rows.bytes());
         loop {
             let end = self.args.rows.end;
             let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
-            let Some(batch) = self.answering.next(rows, remaining) else {
+            let Some(batch) = self.batch_run.next(rows, remaining) else {
                 return Ok(done);
             };
             self.write(&batch)?;
             done = Checkpoint {
                 rows: done.rows + batch.rows.len(),
                 checksum: rows.checksum(),
-                bad_rows: start.bad_rows + self.answering.bad_rows.count(),
+                bad_rows: start.bad_rows + self.batch_run.bad_row_counter.count(),
                 counts: self.summary.counts,
                 ..done
             };
@@ -57,10 +57,10 @@ impl QueryRun<'_> {
         for row in &batch.rows {
             let AnsweredRow {
                 position,
-                course,
+                movements: course,
                 mut row,
                 timed_answer: timed,
-            } = self.answering.answered_row(row);
+            } = self.batch_run.answered_row(row);
             match timed {
                 Some(timed) => self.summary.add(row.status, timed),
                 None => self.summary.add_error(),
@@ -91,10 +91,10 @@ impl QueryRun<'_> {
             bodies,
             timed_question: timing,
             solver,
-            bad_rows,
+            bad_row_counter: bad_rows,
             progress,
             ..
-        } = &mut self.answering;
+        } = &mut self.batch_run;
         let (bodies, columns) = (*bodies, contacts::columns());
         let TimedQuestion {
             question, settings, ..

@@ -18,7 +18,7 @@ pub(super) struct Summary {
     /// The number of rows of each status, including those of an earlier run.
     pub(super) counts: StatusCounts,
     /// The number of rows that an earlier run answered; only their status is known.
-    earlier_rows: usize,
+    earlier_row_count: usize,
     times: TimeHistogram,
     /// The number of pairs of nodes visited in all queries.
     pub(super) iterations: u64,
@@ -52,7 +52,7 @@ impl Summary {
     pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
         Summary {
             counts,
-            earlier_rows: counts.rows(),
+            earlier_row_count: counts.rows(),
             ..self
         }
     }
@@ -79,7 +79,7 @@ impl Summary {
     }
 
     /// Returns the number of rows answered in this run.
-    fn answered_rows(&self) -> u64 {
+    fn answered_row_count(&self) -> u64 {
         self.times.count
     }
 
@@ -95,8 +95,8 @@ impl Summary {
 
     /// Returns the means of the counters as one line; `None` without answers.
     pub(super) fn describe_means(&self) -> Option<String> {
-        let mean = |total: u64| total as f64 / self.answered_rows() as f64;
-        (self.answered_rows() > 0).then(|| {
+        let mean = |total: u64| total as f64 / self.answered_row_count() as f64;
+        (self.answered_row_count() > 0).then(|| {
             format!(
                 "means: {:.1} advancements, {:.1} oracle calls, {:.1} oracle steps",
                 mean(self.advancements),
@@ -117,29 +117,30 @@ struct TimeHistogram {
 }
 
 /// The number of low bits dropped from a time: all except the leading 10 of its fraction.
-const DROPPED_BITS: u32 = f64::MANTISSA_DIGITS - 1 - 10;
+const DROPPED_LOW_BIT_COUNT: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
 impl TimeHistogram {
     fn add(&mut self, micros: f64) {
         *self
             .counts
-            .entry(micros.to_bits() >> DROPPED_BITS)
+            .entry(micros.to_bits() >> DROPPED_LOW_BIT_COUNT)
             .or_default() += 1;
         self.count += 1;
         self.total += micros;
     }
 
     fn median(&self) -> f64 {
-        0.5 * (self.nth_time(self.count.saturating_sub(1) / 2) + self.nth_time(self.count / 2))
+        0.5 * (self.time_at_rank(self.count.saturating_sub(1) / 2)
+            + self.time_at_rank(self.count / 2))
     }
 
     /// Returns the time at an index in ascending order of times.
-    fn nth_time(&self, index: u64) -> f64 {
+    fn time_at_rank(&self, index: u64) -> f64 {
         let mut passed = 0;
         for (&bits, &count) in &self.counts {
             passed += count;
             if passed > index {
-                return f64::from_bits(bits << DROPPED_BITS);
+                return f64::from_bits(bits << DROPPED_LOW_BIT_COUNT);
             }
         }
         f64::NAN
@@ -157,12 +158,12 @@ impl fmt::Display for Summary {
             return Ok(());
         }
         write!(f, ": {}", counts.join(", "))?;
-        match rows - self.earlier_rows {
-            _ if self.earlier_rows == 0 => {}
+        match rows - self.earlier_row_count {
+            _ if self.earlier_row_count == 0 => {}
             0 => write!(f, "; 0 in this run")?,
             here => write!(f, "; {here} in this run")?,
         }
-        if self.answered_rows() == 0 {
+        if self.answered_row_count() == 0 {
             return Ok(());
         }
         write!(

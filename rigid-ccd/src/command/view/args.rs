@@ -66,7 +66,7 @@ pub(in crate::command) struct ViewArgs {
 }
 
 /// What a page shows: rows of a table of motions, or a scene.
-pub(super) enum Subject<'a> {
+pub(super) enum PageSubject<'a> {
     /// The rows of a table of motions, given by the table's path, for two bodies.
     Rows(BodiesArgs, &'a Path),
     /// The bodies of a scene, given by the path of its table.
@@ -75,17 +75,17 @@ pub(super) enum Subject<'a> {
 
 impl ViewArgs {
     /// Returns what the page shows; `None` if an option for it is missing, which the parser prevents.
-    pub(super) fn subject(&self) -> Option<Subject<'_>> {
+    pub(super) fn page_subject(&self) -> Option<PageSubject<'_>> {
         if let Some(scene) = &self.scene {
             let (meshes, duration) = (&self.meshes, self.duration);
-            return Some(Subject::Scene(scene, SceneArgs { meshes, duration }));
+            return Some(PageSubject::Scene(scene, SceneArgs { meshes, duration }));
         }
         let bodies = BodiesArgs {
             a: self.a.clone()?,
             b: self.b.clone()?,
             meshes: self.meshes.clone(),
         };
-        Some(Subject::Rows(bodies, self.motions.as_deref()?))
+        Some(PageSubject::Rows(bodies, self.motions.as_deref()?))
     }
 }
 

@@ -61,11 +61,12 @@ impl ChosenRows {
 
     /// Returns whether no further row is needed: the page is full, or every given id has a row.
     pub(super) fn is_full(&self) -> bool {
-        self.rows.len() >= MAX_ROWS || (!self.ids.is_empty() && self.missing().next().is_none())
+        self.rows.len() >= MAX_ROWS
+            || (!self.ids.is_empty() && self.ids_without_row().next().is_none())
     }
 
     /// Returns the given ids for which no row has been added.
-    pub(super) fn missing(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn ids_without_row(&self) -> impl Iterator<Item = &str> {
         let has = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
         self.ids
             .iter()

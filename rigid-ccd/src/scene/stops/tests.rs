@@ -58,7 +58,7 @@ fn bodies_that_stop_never_overlap() {
                 Mobility::Moving => scene.add(&bodies[kind], motion),
             };
         }
-        let stops = scene.stops(1.0).unwrap();
+        let stops = scene.find_stops(1.0).unwrap();
         let free = vec![
             Stop {
                 time: 1.0,
@@ -164,12 +164,12 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     let mut scene = Scene::new();
     scene.add_fixed(&plate, below);
     let second = scene.add(&ball, falls);
-    let stop = scene.stops(1.0).unwrap()[second];
+    let stop = scene.find_stops(1.0).unwrap()[second];
     assert!(stop.normal().unwrap().distance(-DVec3::Z) < 1e-12);
     let mut scene = Scene::new();
     let first = scene.add(&ball, falls);
     scene.add_fixed(&plate, below);
-    let stops = scene.stops(1.0).unwrap();
+    let stops = scene.find_stops(1.0).unwrap();
     assert!(stops[first].normal().unwrap().distance(-DVec3::Z) < 1e-12);
     assert_eq!(stops[first].contact.unwrap().hit.time, stops[first].time);
     // A body without a stop has no contact, nor has one that a limit stops.
@@ -181,7 +181,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
         budget: 0,
         ..Settings::DEFAULT
     };
-    let stop = scene.with_settings(spent).stops(1.0).unwrap()[first];
+    let stop = scene.with_settings(spent).find_stops(1.0).unwrap()[first];
     assert_eq!((stop.stopped_by, stop.contact), (Some(1), None));
 }
 
@@ -201,7 +201,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
             Motion::new(pose, [20.0, 0.0, 0.0], [0.0; 3]).unwrap(),
         );
     }
-    let stops = scene.stops(1.0).unwrap();
+    let stops = scene.find_stops(1.0).unwrap();
     for (k, stop) in stops.iter().enumerate().skip(1) {
         assert_eq!(stop.stopped_by, Some(k - 1));
         let place = scene.members[k]
@@ -240,7 +240,7 @@ fn a_pressed_ball_stays_above_the_floor() {
     for step in 0..200 {
         let motion = pressed(height, x);
         scene.set_movement(ball, motion).unwrap();
-        let stop = scene.stops(0.01).unwrap()[ball];
+        let stop = scene.find_stops(0.01).unwrap()[ball];
         let place = motion.pose(stop.time).translation();
         assert!(
             place.z > 0.5 - 1e-13 && place.z <= height,
@@ -269,14 +269,14 @@ fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
     .unwrap();
     let flying = scene.add(&ball, flies);
     // Without a budget nothing is proven free.
-    let stop = scene.stops(1.0).unwrap()[flying];
+    let stop = scene.find_stops(1.0).unwrap()[flying];
     assert!(stop.stopped_by == Some(0) && stop.time <= 0.5);
-    assert!(scene.stops(-1.0).is_err());
+    assert!(scene.find_stops(-1.0).is_err());
     // The start policy of other questions is unchanged.
     let mut scene = scene.with_settings(Settings::DEFAULT);
     let rests = Motion::still(Pose::at([1.0, 0.0, 0.0]).unwrap());
     scene.set_movement(flying, rests).unwrap();
-    scene.stops(1.0).unwrap();
+    scene.find_stops(1.0).unwrap();
     let first = scene.first_contact(1.0).unwrap().unwrap();
     assert!(matches!(first.hit.kind, HitKind::Touching(_)), "{first:?}");
 }
@@ -302,7 +302,7 @@ fn a_pressed_ball_does_not_sink_by_rounding() {
             let way = any();
             let motion = Motion::new(pose, [way.x, way.y, -0.5], any()).unwrap();
             scene.set_movement(index, motion).unwrap();
-            pose = motion.pose(scene.stops(1.0 / 60.0).unwrap()[index].time);
+            pose = motion.pose(scene.find_stops(1.0 / 60.0).unwrap()[index].time);
             let gap = pose.translation().z - 0.5;
             assert!(
                 gap > 0.4 * tolerance,
@@ -312,7 +312,7 @@ fn a_pressed_ball_does_not_sink_by_rounding() {
         // The body lifts off.
         let lifts = Motion::new(pose, [0.0, 0.0, 0.5], [0.0; 3]).unwrap();
         scene.set_movement(index, lifts).unwrap();
-        assert_eq!(scene.stops(1.0).unwrap()[index].stopped_by, None);
+        assert_eq!(scene.find_stops(1.0).unwrap()[index].stopped_by, None);
     }
 }
 
@@ -329,7 +329,7 @@ fn settings_at_their_limits_are_taken() {
         let mut scene = Scene::new().with_settings(config.clone());
         scene.add_fixed(&ball, far(0.0));
         scene.add(&ball, Motion::still(far(3.0)));
-        assert!(scene.stops(1.0).is_ok(), "{tolerance:e} {margin:e}");
+        assert!(scene.find_stops(1.0).is_ok(), "{tolerance:e} {margin:e}");
     }
     // The pose that a body has reached may be out of range for a motion.
     let mut scene = Scene::new();
@@ -337,7 +337,7 @@ fn settings_at_their_limits_are_taken() {
     scene.add(&ball, flies(1e12 - 10.0, 20.0));
     scene.add(&ball, flies(1e12, 1.0));
     scene.add(&ball, flies(1e12 - 30.0, 21.0));
-    assert!(scene.stops(2.0).is_ok());
+    assert!(scene.find_stops(2.0).is_ok());
 }
 
 #[test]
@@ -353,7 +353,7 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
             scene.add(&bodies[k % 4], throw);
         }
         scene.add_fixed(&bodies[1], Pose::IDENTITY);
-        let stops = scene.stops(1.0).unwrap();
+        let stops = scene.find_stops(1.0).unwrap();
         stopped += stops
             .iter()
             .filter(|stop| stop.stopped_by.is_some())
@@ -393,7 +393,7 @@ struct UncertainMotion {
 impl Trajectory for UncertainMotion {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let mut stretch = self.motion.stretch(from, to)?;
-        stretch.deviation.shift += self.shift;
+        stretch.deviation_bound.shift += self.shift;
         Ok(stretch)
     }
 }
@@ -416,7 +416,7 @@ fn stopped_bodies_are_as_blurred_as_moving_ones() {
     let mut scene = Scene::new();
     let wall = scene.add_fixed(&wall, Pose::at([2.0, 0.0, 0.0]).unwrap());
     let [first, second] = [scene.add(&ball, &blurred), scene.add(&ball, falling)];
-    let stops = scene.stops(2.0).unwrap();
+    let stops = scene.find_stops(2.0).unwrap();
     assert_eq!(
         [first, second].map(|body| stops[body].stopped_by),
         [Some(wall), Some(first)]

@@ -180,7 +180,7 @@ impl<'a, R: Record> Row<'a, R> {
     fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::AngularVelocity];
-        let is_given = |cell| self.record.is_given(cell);
+        let is_given = |cell| self.record.has_value(cell);
         match (
             self.column_where(side, end, is_given),
             self.column_where(side, velocities, is_given),

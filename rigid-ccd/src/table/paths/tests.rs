@@ -27,7 +27,7 @@ fn only_problem(text: &str) -> (usize, String) {
     (error.position.row, error.problem.to_string())
 }
 
-fn places(path: &Path, times: &[f64]) -> Vec<[f64; 3]> {
+fn positions_of_a(path: &Path, times: &[f64]) -> Vec<[f64; 3]> {
     let place = |&time| path.poses(time).unwrap()[0].translation().to_array();
     times.iter().map(place).collect()
 }
@@ -46,7 +46,7 @@ fn rows_of_an_id_are_one_path() {
     };
     assert_eq!((one.id.as_str(), one.duration), ("one", 4.0));
     let expected = [[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
-    assert_eq!(places(one, &[0.0, 1.0, 2.0, 3.0]), expected);
+    assert_eq!(positions_of_a(one, &[0.0, 1.0, 2.0, 3.0]), expected);
     assert_eq!(one.poses(3.0).unwrap()[1].translation(), 7.0 * DVec3::Y);
     assert_eq!((two.id.as_str(), two.duration), ("two", 0.0));
 }
@@ -153,7 +153,10 @@ fn a_path_that_cannot_be_followed_is_an_error() {
 fn a_path_has_a_centre_of_rotation() {
     let read = paths("t,a_px,a_qw,a_qx,a_qy,a_qz,a_cx,b_cy\n0,0,1,0,0,0,1,7\n2,2,0,0,0,1,1,7\n");
     let expected = [[0.0; 3], [1.0, -1.0, 0.0], [2.0, 0.0, 0.0]];
-    for (place, expected) in places(&read[0], &[0.0, 1.0, 2.0]).into_iter().zip(expected) {
+    for (place, expected) in positions_of_a(&read[0], &[0.0, 1.0, 2.0])
+        .into_iter()
+        .zip(expected)
+    {
         let off = DVec3::from(place).distance(expected.into());
         assert!(off < 1e-14, "{place:?}");
     }

@@ -2,16 +2,16 @@
 
 use super::ResultRow;
 use crate::batch::question::Question;
-use Cells::{Count, Number, Text};
+use CellGetter::{Count, Number, Text};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 /// A column of a table: its name in the header, and its cells.
 #[derive(Clone, Copy, Debug)]
-pub struct Column(pub &'static str, pub Cells);
+pub struct Column(pub &'static str, pub CellGetter);
 
 /// The function that returns a column's cell for a row, with a variant for each type of cell; `None` is an empty cell.
 #[derive(Clone, Copy, Debug)]
-pub enum Cells {
+pub enum CellGetter {
     /// The cells are texts.
     Text(fn(&ResultRow) -> Option<&str>),
     /// The cells are numbers.

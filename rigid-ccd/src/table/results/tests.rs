@@ -51,7 +51,7 @@ fn table_text(columns: &[Column], row: &ResultRow) -> String {
 }
 
 /// Returns the names of the columns, and the cells that are written for the outcome of a first contact.
-fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
+fn written_cells(outcome: Outcome) -> Vec<(&'static str, String)> {
     cells_of((Question::FirstContact, outcome), None)
 }
 
@@ -99,7 +99,7 @@ fn columns_with_counters(question: Question) -> Vec<Column> {
 
 #[test]
 fn a_contact_fills_every_cell() {
-    let row = written(Outcome::Contact {
+    let row = written_cells(Outcome::Contact {
         time: 0.1 + 0.2,
         contact: contact(),
     });
@@ -116,7 +116,7 @@ fn a_contact_fills_every_cell() {
 
 #[test]
 fn a_free_row_has_the_duration_and_no_distance() {
-    let row = written(Outcome::Free { proven_gap: 0.25 });
+    let row = written_cells(Outcome::Free { proven_gap: 0.25 });
     assert_eq!(cell(&row, "status"), "free");
     assert_eq!(cell(&row, "time"), "2.5");
     assert!(
@@ -127,13 +127,13 @@ fn a_free_row_has_the_duration_and_no_distance() {
 
 #[test]
 fn contacts_at_the_start_have_time_0() {
-    let touching = written(Outcome::Touching { contact: contact() });
+    let touching = written_cells(Outcome::Touching { contact: contact() });
     assert_eq!(
         (cell(&touching, "status"), cell(&touching, "time")),
         ("touching".into(), "0.0".into())
     );
     assert_eq!(cell(&touching, "feature_a"), "e3-7");
-    let inside = written(Outcome::Overlapping {
+    let inside = written_cells(Outcome::Overlapping {
         overlap: Overlap::AInsideB(DVec3::new(1.0, 2.0, 3.0)),
         upper: 0.0,
     });
@@ -147,7 +147,7 @@ fn contacts_at_the_start_have_time_0() {
 
 #[test]
 fn an_unresolved_row_has_its_safe_time_and_its_limit() {
-    let row = written(Outcome::Unresolved(Unresolved::from_safe_until(
+    let row = written_cells(Outcome::Unresolved(Unresolved::from_safe_until(
         0.75,
         Limit::Budget,
     )));
@@ -233,7 +233,10 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
     ] {
         let row = cells_of(interval(hit(0.0, first), later(2.0)), None);
         // Except for the last time, the row is that of a first contact.
-        assert_eq!(row[..COLUMNS.len()], written(outcome)[..COLUMNS.len()]);
+        assert_eq!(
+            row[..COLUMNS.len()],
+            written_cells(outcome)[..COLUMNS.len()]
+        );
         assert_eq!(cell(&row, "last_time"), "2.0");
     }
     let free = (

@@ -26,17 +26,17 @@ pub(super) struct LinkBounds {
 /// Upper bounds on the linear and the angular speed of a link, per unit of time; angles are in radians.
 #[derive(Clone, Copy, Debug, Default)]
 struct SpeedBounds {
-    linear: f64,
-    angular: f64,
+    linear_speed: f64,
+    angular_speed: f64,
 }
 
 /// Bounds on a joint's position and rate over an interval of time, in radians or as a length.
 pub(super) struct PositionBounds {
     /// The largest absolute value of the position in the interval.
-    pub(super) largest: f64,
+    pub(super) max_position: f64,
     /// The largest absolute value of the position in the interval and at time 0. All positions are computed from the
     /// one at time 0.
-    pub(super) largest_with_start: f64,
+    pub(super) max_position_with_start: f64,
     pub(super) first: f64,
     /// The absolute value of the joint's rate.
     pub(super) rate: f64,
@@ -44,9 +44,9 @@ pub(super) struct PositionBounds {
 
 impl PositionBounds {
     /// Returns the largest distance by which a prismatic joint slides; 0 for other joints.
-    fn slide_distance(&self, joint: &Joint) -> f64 {
+    fn max_slide_distance(&self, joint: &Joint) -> f64 {
         match joint.kind() {
-            JointKind::Prismatic(_) => self.largest_with_start,
+            JointKind::Prismatic(_) => self.max_position_with_start,
             JointKind::Fixed | JointKind::Revolute(_) => 0.0,
         }
     }
@@ -54,24 +54,24 @@ impl PositionBounds {
 
 impl LinkBounds {
     /// Updates the bounds from the link before a joint to the link after it.
-    pub(super) fn pass_joint(&mut self, joint: &Joint, positions: &PositionBounds) {
+    pub(super) fn move_past_joint(&mut self, joint: &Joint, positions: &PositionBounds) {
         let arm = length(joint.origin().translation());
         // The frame of the joint's axis as seen from the link before the joint.
         let frame = joint.origin().rotation();
         match joint.direction() {
             Direction::Forward => {
                 self.joints += 1.0;
-                self.arms += arm + positions.slide_distance(joint);
-                self.add_arm(arm);
+                self.arms += arm + positions.max_slide_distance(joint);
+                self.add_arm_motion(arm);
                 self.axis = self.axis.map(|axis| frame.conjugate() * axis);
-                self.add_freedom(joint, positions);
+                self.add_joint_motion(joint, positions);
             }
             Direction::Backward => {
                 // The inverse of a pose is rounded once more, at most as the product with another one.
                 self.joints += 2.0;
-                self.arms += 2.0 * (arm + positions.slide_distance(joint));
-                self.add_freedom(joint, positions);
-                self.add_arm(arm);
+                self.arms += 2.0 * (arm + positions.max_slide_distance(joint));
+                self.add_joint_motion(joint, positions);
+                self.add_arm_motion(arm);
                 self.axis = self.axis.map(|axis| frame * axis);
             }
         }
@@ -79,20 +79,22 @@ impl LinkBounds {
 
     /// Adds the bounds due to a joint's motion about or along its axis. The common axis is in the frame of the joint's
     /// axis.
-    fn add_freedom(&mut self, joint: &Joint, positions: &PositionBounds) {
+    fn add_joint_motion(&mut self, joint: &Joint, positions: &PositionBounds) {
         let PositionBounds { rate, .. } = *positions;
         match joint.kind() {
             JointKind::Fixed => {}
             JointKind::Prismatic(_) => {
-                self.add_arm(positions.largest);
-                let (turn, turning) =
-                    (self.speeds.angular, self.accelerations.angular_acceleration);
-                self.jerks.linear += 3.0 * rate * (turning + turn * turn);
-                self.accelerations.linear += 2.0 * turn * rate;
-                self.speeds.linear += rate;
+                self.add_arm_motion(positions.max_position);
+                let (turn, turning) = (
+                    self.speeds.angular_speed,
+                    self.accelerations.angular_acceleration,
+                );
+                self.jerks.linear_acceleration += 3.0 * rate * (turning + turn * turn);
+                self.accelerations.linear_acceleration += 2.0 * turn * rate;
+                self.speeds.linear_speed += rate;
             }
             JointKind::Revolute(axis) => {
-                self.angles += positions.largest_with_start;
+                self.angles += positions.max_position_with_start;
                 if rate > 0.0 {
                     self.add_rotation(axis, rate);
                 } else {
@@ -108,36 +110,39 @@ impl LinkBounds {
     }
 
     /// Adds the bounds due to the rotation of an arm of a given length that is fixed to the link.
-    fn add_arm(&mut self, length: f64) {
-        let SpeedBounds { angular, .. } = self.speeds;
+    fn add_arm_motion(&mut self, length: f64) {
+        let SpeedBounds {
+            angular_speed: angular,
+            ..
+        } = self.speeds;
         let turning = self.accelerations.angular_acceleration;
-        self.jerks.linear += (self.jerks.angular_acceleration
+        self.jerks.linear_acceleration += (self.jerks.angular_acceleration
             + (3.0 * turning + angular * angular) * angular)
             * length;
-        self.accelerations.linear += (turning + angular * angular) * length;
-        self.speeds.linear += angular * length;
+        self.accelerations.linear_acceleration += (turning + angular * angular) * length;
+        self.speeds.linear_speed += angular * length;
     }
 
     /// Adds the bounds due to a rotation at a nonzero rate about an axis, which is given in the joint's frame.
     fn add_rotation(&mut self, axis: DVec3, rate: f64) {
-        let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
+        let (across, common) = match (self.speeds.angular_speed > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),
             (true, Some(common)) => {
                 let across = length(common.cross(axis));
                 // Axes that count as parallel may differ by as much each.
-                let most = across + PARALLEL_SINE * self.joints;
-                (most, (across < PARALLEL_SINE).then_some(common))
+                let most = across + MAX_SINE_OF_PARALLEL_AXES * self.joints;
+                (most, (across < MAX_SINE_OF_PARALLEL_AXES).then_some(common))
             }
             (true, None) => (1.0, None),
         };
-        let swept = self.speeds.angular * lesser(across, 1.0);
+        let swept = self.speeds.angular_speed * lesser(across, 1.0);
         self.jerks.angular_acceleration +=
-            rate * (self.accelerations.angular_acceleration + self.speeds.angular * swept);
+            rate * (self.accelerations.angular_acceleration + self.speeds.angular_speed * swept);
         self.accelerations.angular_acceleration += rate * swept;
-        self.speeds.angular += rate;
+        self.speeds.angular_speed += rate;
         self.axis = common;
     }
 }
 
 /// The sine of the angle below which two axes count as parallel; it is far above rounding errors.
-const PARALLEL_SINE: f64 = 1e-12;
+const MAX_SINE_OF_PARALLEL_AXES: f64 = 1e-12;

@@ -15,12 +15,12 @@ fn check_deviation_between(
         let (a, b) = if a < b { (a, b) } else { (b, a) };
         let stretch = trajectory.stretch(a, b).unwrap();
         assert!(
-            stretch.deviation.shift >= 0.0 && stretch.deviation.turn >= 0.0,
+            stretch.deviation_bound.shift >= 0.0 && stretch.deviation_bound.turn >= 0.0,
             "{name}"
         );
         let time = rng.random_range(a..=b);
         let exact = trajectory.stretch(time, time).unwrap();
-        let allowed = stretch.deviation + exact.deviation;
+        let allowed = stretch.deviation_bound + exact.deviation_bound;
         let near = stretch.pose(time - a);
         let there = exact.motion.start();
         let centre = stretch.motion.centre();
@@ -84,7 +84,7 @@ fn trajectories_rest_after_their_end() {
             poses.stretch(1.0, 1.0 + time),
         ];
         for stretch in strays {
-            let DeviationBound { shift, turn } = stretch.unwrap().deviation;
+            let DeviationBound { shift, turn } = stretch.unwrap().deviation_bound;
             assert!(shift < 1e-10 && turn < 1e-10, "{time}: {shift:e} {turn:e}");
         }
     }
@@ -123,7 +123,7 @@ fn differences_that_overflow_are_unbounded() {
         let curve = Curve::bezier(&points, duration).unwrap();
         let spline = Spline::new(curve, OrientationCurve::slerp(&keys).unwrap());
         if let Ok(stretch) = spline.stretch(0.0, duration) {
-            let deviation = stretch.deviation.shift;
+            let deviation = stretch.deviation_bound.shift;
             assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");
         }
     }

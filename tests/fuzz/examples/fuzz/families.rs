@@ -77,10 +77,10 @@ fn passing_case(draw: &mut RandomSource, shapes: [Shape; 2], turn: f64, config: 
     let courses = [course(draw, 1.0, miss), course(draw, -1.0, [0.0; 3])];
     Case {
         shapes,
-        courses,
+        motions: courses,
         duration: 1.0,
         config,
-        expected: Expectation::Nothing,
+        expected: Expectation::Unknown,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Generates meshes around the origin, of size about 1.
 
-use crate::case::{Form, Shape};
+use crate::case::{MeshClass, Shape};
 use crate::draw::{RandomSource, scale_array};
 use crate::vector::Vector;
 
@@ -18,11 +18,11 @@ pub fn soup(draw: &mut RandomSource, count: usize) -> Shape {
     shape
 }
 
-fn shape(vertices: Vec<[f64; 3]>, faces: Vec<[u32; 3]>, form: Form) -> Shape {
+fn shape(vertices: Vec<[f64; 3]>, faces: Vec<[u32; 3]>, form: MeshClass) -> Shape {
     Shape {
         vertices,
         faces,
-        form,
+        mesh_class: form,
     }
 }
 
@@ -32,12 +32,12 @@ pub fn tetrahedron(draw: &mut RandomSource) -> Shape {
     let [a, b, c, d] = corners;
     let up = (b - a).cross(c - a).dot(d - a) > 0.0;
     let faces = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    let out = shape(corners.map(|c| c.0).to_vec(), faces, Form::Convex);
+    let out = shape(corners.map(|c| c.0).to_vec(), faces, MeshClass::Convex);
     if up {
         out
     } else {
         Shape {
-            form: Form::Convex,
+            mesh_class: MeshClass::Convex,
             ..out.flipped()
         }
     }
@@ -62,7 +62,7 @@ pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
             faces.push([quad[0], quad[2], quad[3]]);
         }
     }
-    shape(vertices, faces, Form::Solid)
+    shape(vertices, faces, MeshClass::Solid)
 }
 
 /// Returns a bipyramid: corners around an axis and two poles, convex or star-shaped.
@@ -80,9 +80,9 @@ pub fn bipyramid(draw: &mut RandomSource, corners: u32, waist: f64) -> Shape {
         faces.extend([[0, here, next], [1, next, here]]);
     }
     let form = if waist < 1.0 {
-        Form::Solid
+        MeshClass::Solid
     } else {
-        Form::Convex
+        MeshClass::Convex
     };
     shape(vertices, faces, form)
 }
@@ -113,7 +113,7 @@ pub fn hull(draw: &mut RandomSource, count: usize) -> Shape {
         faces.extend(rim.map(|&[a, b]| [a, b, p]));
     }
     faces.sort_unstable();
-    shape(vertices, faces, Form::Points)
+    shape(vertices, faces, MeshClass::Points)
 }
 
 /// Returns a random shape of this module, with up to about 30 triangles.

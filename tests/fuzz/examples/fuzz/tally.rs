@@ -9,30 +9,30 @@ use std::fmt;
 
 #[derive(Default)]
 pub struct Tally {
-    queries: u64,
-    answers: u64,
-    answers_by_method: BTreeMap<String, u64>,
+    query_count: u64,
+    answer_count: u64,
+    answer_counts_by_method: BTreeMap<String, u64>,
     /// The number of answers by status, for the default method.
     status_counts: BTreeMap<String, u64>,
     /// The number of unresolved answers by reason, for all methods.
-    unresolved: BTreeMap<String, u64>,
+    unresolved_counts: BTreeMap<String, u64>,
     /// The number of the first query that stayed unresolved for each reason.
-    first_query_numbers: BTreeMap<String, u64>,
+    first_unresolved_query_numbers: BTreeMap<String, u64>,
     refusal_counts: BTreeMap<String, u64>,
     fault_counts: BTreeMap<Fault, u64>,
     /// The number of queries for which the referee's search was not complete.
-    sampled: u64,
+    incomplete_search_count: u64,
 }
 
 impl Tally {
     /// Counts the outcome of a trial. Returns its failures that are among the first of their kind.
     pub fn add<'t>(&mut self, number: u64, trial: &'t Trial, print: usize) -> Vec<&'t Failure> {
-        self.queries += 1;
-        self.answers += trial.outcomes.len() as u64;
-        self.sampled += u64::from(!trial.proven);
+        self.query_count += 1;
+        self.answer_count += trial.outcomes.len() as u64;
+        self.incomplete_search_count += u64::from(!trial.is_search_complete);
         for (kind, method) in &trial.methods {
             *self
-                .answers_by_method
+                .answer_counts_by_method
                 .entry(format!("{kind} {method}"))
                 .or_default() += 1;
         }
@@ -44,11 +44,11 @@ impl Tally {
         }
         for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.methods) {
             if let Outcome::Unresolved(Unresolved { limit: reason, .. }) = outcome {
-                self.first_query_numbers
+                self.first_unresolved_query_numbers
                     .entry(format!("{reason:?}"))
                     .or_insert(number);
                 let entry = format!("{reason:?} {kind} {method}");
-                *self.unresolved.entry(entry).or_default() += 1;
+                *self.unresolved_counts.entry(entry).or_default() += 1;
             }
         }
         if let Some(why) = &trial.refusal_reason {
@@ -78,7 +78,7 @@ impl Tally {
             .iter()
             .filter_map(|&s| self.status_counts.get(s))
             .sum::<u64>();
-        count as f64 / self.queries as f64
+        count as f64 / self.query_count as f64
     }
 
     /// Checks that contacts and free bodies each occur in at least 5 % of the queries.
@@ -108,9 +108,9 @@ fn status(outcome: &Outcome) -> &'static str {
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Tally {
-            queries,
-            answers,
-            sampled,
+            query_count: queries,
+            answer_count: answers,
+            incomplete_search_count: sampled,
             ..
         } = self;
         writeln!(
@@ -119,9 +119,12 @@ impl fmt::Display for Tally {
         )?;
         let maps = [
             ("by the default", &self.status_counts),
-            ("asked", &self.answers_by_method),
-            ("unresolved", &self.unresolved),
-            ("first query, for --only", &self.first_query_numbers),
+            ("asked", &self.answer_counts_by_method),
+            ("unresolved", &self.unresolved_counts),
+            (
+                "first query, for --only",
+                &self.first_unresolved_query_numbers,
+            ),
             ("refused", &self.refusal_counts),
         ];
         for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {

@@ -1,6 +1,6 @@
 //! Draws one query of a family, and answers it by several methods, with a time limit.
 
-use crate::case::{Case, Form};
+use crate::case::{Case, MeshClass};
 use crate::draw::RandomSource;
 use crate::engine::{Kind, Method};
 use crate::families::Family;
@@ -19,21 +19,21 @@ pub fn run(family: Family, seed: u64, number: u64, watch: &Watchdog) -> Trial {
     let mut draw = RandomSource::new(seed, number);
     let case = family.draw(&mut draw);
     let asked = methods(&mut draw, &case);
-    watch.begin(number);
+    watch.begin_query(number);
     let trial = run_methods(case, asked);
-    watch.end();
+    watch.end_query();
     trial
 }
 
 /// Chooses the kinds of pieces and the methods for a case: always the default, and some others.
 fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
     let mut asked = vec![(Kind::Triangles, Method::Direct)];
-    let form = |form: Form| case.shapes.iter().any(|s| s.form == form);
+    let form = |form: MeshClass| case.shapes.iter().any(|s| s.mesh_class == form);
     let small = case.shapes.iter().all(|s| s.faces.len() < 200);
     if draw.bool_with_probability(0.4) {
         asked.push((Kind::Triangles, draw.pick(&[Method::Gjk, Method::Vmarch])));
     }
-    let pieces = match (form(Form::Convex), form(Form::Solid)) {
+    let pieces = match (form(MeshClass::Convex), form(MeshClass::Solid)) {
         (true, _) => draw.pick(&[Kind::Hull, Kind::Patches]),
         (false, true) => Kind::Patches,
         _ => Kind::Triangles,
@@ -45,9 +45,9 @@ fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
         ));
     }
     let turn: f64 = case
-        .courses
+        .motions
         .iter()
-        .map(|c| c.rotation_angle(case.duration))
+        .map(|c| c.max_rotation_angle(case.duration))
         .sum();
     if small && turn < 20.0 && draw.bool_with_probability(0.15) {
         asked.push((draw.pick(&[Kind::Triangles, pieces]), Method::Naive));
@@ -97,13 +97,13 @@ impl Watchdog {
         watch
     }
 
-    fn begin(&self, number: u64) {
+    fn begin_query(&self, number: u64) {
         if let Ok(mut all) = self.0.lock() {
             all.insert(thread::current().id(), (number, Instant::now()));
         }
     }
 
-    fn end(&self) {
+    fn end_query(&self) {
         if let Ok(mut all) = self.0.lock() {
             all.remove(&thread::current().id());
         }

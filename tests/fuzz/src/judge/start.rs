@@ -1,13 +1,13 @@
 //! Determines the state of the bodies at the start: their distance, and whether one is inside the other.
 
-use crate::double::Double;
+use crate::double::DoubleDouble;
 use crate::referee::Scene;
 use crate::solid::{PointLocation, Solid, distance_to_surface, points_beside_triangles};
 use crate::vector::Vector;
 use ccd_core::Volume;
 
 /// The distance of the bodies at the start, and whether they overlap, as far as the referee can tell.
-pub(super) struct Start {
+pub(super) struct StartState {
     pub(super) distance: f64,
     /// Whether the bodies certainly overlap: triangles penetrate by more than rounding, or one body is inside the
     /// other.
@@ -16,7 +16,7 @@ pub(super) struct Start {
     pub(super) may_contain: bool,
 }
 
-impl Start {
+impl StartState {
     pub(super) fn new(
         scene: &Scene,
         placed: &[Solid; 2],
@@ -28,11 +28,11 @@ impl Start {
         let touching = distance <= rounding;
         let deep = touching && scene.penetration_depth(0.0) > rounding;
         let inside = if touching {
-            find_shared_inner_point(placed, volumes, rounding)
+            containment_if_touching(placed, volumes, rounding)
         } else {
-            containment(placed, volumes)
+            containment_if_apart(placed, volumes)
         };
-        Start {
+        StartState {
             distance,
             overlaps: deep || inside == PointLocation::Inside,
             may_contain: touching || inside != PointLocation::Outside,
@@ -41,7 +41,7 @@ impl Start {
 }
 
 /// Returns whether a part of one body is inside the other body, given that the surfaces are apart.
-fn containment(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
+fn containment_if_apart(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
     let mut doubtful = PointLocation::Outside;
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
         for corner in placed[1 - outer].corners() {
@@ -58,8 +58,8 @@ fn containment(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
 }
 
 /// Returns `Inside` for bodies that touch if a point is found well inside one body, and on or inside the other body.
-fn find_shared_inner_point(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> PointLocation {
-    let well_inside = |p: Vector<Double>, solid: &Solid| {
+fn containment_if_touching(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> PointLocation {
+    let well_inside = |p: Vector<DoubleDouble>, solid: &Solid| {
         solid.locate(p) == PointLocation::Inside && distance_to_surface(p, &solid.triangles) > far
     };
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {

@@ -1,31 +1,31 @@
 //! Searches for the first contact by conservative advancement over all pairs of triangles, in f64, checked in
-//! [`Double`].
+//! [`DoubleDouble`].
 
-use super::{Ball, Evidence, Limit, RECHECK_DISTANCE, Scene};
-use crate::double::Double;
+use super::{Ball, ContactLimit, RELATIVE_RECHECK_DISTANCE, Scene, Violation};
+use crate::double::DoubleDouble;
 use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::Snapshot;
-use crate::vector::{Number, larger, minimum};
+use crate::vector::{Number, larger, smaller};
 
 /// The maximum number of steps of one pair of triangles, before the rest of the time is sampled.
 const MAX_PAIR_STEPS: usize = 300;
 /// The maximum number of steps of all pairs of triangles together.
 const MAX_TOTAL_STEPS: usize = 60_000;
-const SAMPLES: usize = 24;
+const SAMPLE_COUNT: usize = 24;
 
 /// The search for the first time at which two bodies are nearer than allowed.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
-    limit: Limit,
+    limit: ContactLimit,
     threshold: f64,
     until: f64,
-    found: Option<Evidence>,
+    violation: Option<Violation>,
     steps: usize,
-    proven: bool,
+    is_complete: bool,
 }
 
 /// A gap beyond the threshold, a bound on its closing rate, and a bound on the change of the rate per unit of time.
-struct GapRate {
+struct GapBounds {
     gap: f64,
     rate: f64,
     rate_change_bound: f64,
@@ -38,19 +38,19 @@ fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(scene: &'a Scene, limit: Limit, until: f64) -> Self {
+    pub(super) fn new(scene: &'a Scene, limit: ContactLimit, until: f64) -> Self {
         Search {
             scene,
             limit,
             threshold: limit.threshold,
             until,
-            found: None,
+            violation: None,
             steps: 0,
-            proven: true,
+            is_complete: true,
         }
     }
 
-    pub(super) fn run(mut self) -> (Option<Evidence>, bool) {
+    pub(super) fn run(mut self) -> (Option<Violation>, bool) {
         let [a, b] = &self.scene.sides;
         let begin = self.centre_balls_apart_until(a.reach + b.reach);
         let begin = self.bodies_apart_until(begin);
@@ -66,7 +66,7 @@ impl<'a> Search<'a> {
                 self.search_pair(i, j, begin);
             }
         }
-        (self.found, self.proven)
+        (self.violation, self.is_complete)
     }
 
     /// Returns a time until which the balls around the bodies' centres of rotation are certainly apart.
@@ -74,7 +74,8 @@ impl<'a> Search<'a> {
         let [a, b] = &self.scene.sides;
         let way = (b.track.start - a.track.start).rounded();
         let v = (b.track.velocity - a.track.velocity).rounded();
-        let kept = (reaches + self.threshold) * (1.0 + 1e-9) + RECHECK_DISTANCE * self.scene.scale;
+        let kept = (reaches + self.threshold) * (1.0 + 1e-9)
+            + RELATIVE_RECHECK_DISTANCE * self.scene.scale;
         let (square, along) = (v.dot(v), way.dot(v));
         let excess = way.dot(way) - kept * kept;
         let root = along * along - square * excess;
@@ -84,7 +85,7 @@ impl<'a> Search<'a> {
             self.until
         } else {
             // The smaller root, in the form without cancellation.
-            minimum(
+            smaller(
                 self.until,
                 larger(0.0, 0.999_999 * excess / (-along + root.sqrt())),
             )
@@ -98,13 +99,13 @@ impl<'a> Search<'a> {
             if self.steps > MAX_TOTAL_STEPS {
                 break;
             }
-            let GapRate {
+            let GapBounds {
                 gap,
                 rate,
                 rate_change_bound: bend,
-            } = self.measure(i, j, t);
-            if !(gap > RECHECK_DISTANCE * self.scene.scale) {
-                if self.is_below_threshold(i, j, t) {
+            } = self.triangle_gap(i, j, t);
+            if !(gap > RELATIVE_RECHECK_DISTANCE * self.scene.scale) {
+                if self.stop_if_below_threshold(i, j, t) {
                     return;
                 }
                 break;
@@ -114,12 +115,14 @@ impl<'a> Search<'a> {
                 return;
             }
         }
-        self.proven = false;
+        self.is_complete = false;
         let left = self.until - t;
-        for k in 0..=SAMPLES {
-            let t = t + left * (k as f64 / SAMPLES as f64);
-            let gap = self.measure(i, j, t).gap;
-            if !(gap > RECHECK_DISTANCE * self.scene.scale) && self.is_below_threshold(i, j, t) {
+        for k in 0..=SAMPLE_COUNT {
+            let t = t + left * (k as f64 / SAMPLE_COUNT as f64);
+            let gap = self.triangle_gap(i, j, t).gap;
+            if !(gap > RELATIVE_RECHECK_DISTANCE * self.scene.scale)
+                && self.stop_if_below_threshold(i, j, t)
+            {
                 return;
             }
         }
@@ -131,12 +134,12 @@ impl<'a> Search<'a> {
         let mut t = begin;
         for _ in 0..MAX_PAIR_STEPS {
             let [a, b] = [0, 1].map(|side| self.scene.triangles_at(side, t));
-            let near = self.scene.near_pairs(&a, &b);
+            let near = self.scene.near_triangle_pairs(&a, &b);
             let least = near
                 .iter()
-                .fold(f64::INFINITY, |least, &(d, ..)| minimum(least, d));
+                .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
-            let GapRate {
+            let GapBounds {
                 rate,
                 rate_change_bound: bend,
                 ..
@@ -158,13 +161,13 @@ impl<'a> Search<'a> {
     fn balls_apart_until(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..MAX_PAIR_STEPS {
-            let GapRate {
+            let GapBounds {
                 gap,
                 rate,
                 rate_change_bound: bend,
             } = self.ball_gap([p, q], &self.scene.snapshots(t));
-            if !(gap > 0.25 * minimum(p.radius, q.radius)
-                && gap > RECHECK_DISTANCE * self.scene.scale)
+            if !(gap > 0.25 * smaller(p.radius, q.radius)
+                && gap > RELATIVE_RECHECK_DISTANCE * self.scene.scale)
             {
                 break;
             }
@@ -178,7 +181,7 @@ impl<'a> Search<'a> {
 
     /// Returns the gap of two balls beyond the threshold, a bound on its closing rate, and a bound on the change of the
     /// rate.
-    fn ball_gap(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapRate {
+    fn ball_gap(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapBounds {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;
         let middles = [snapshots[0].arm_of(p.middle), snapshots[1].arm_of(q.middle)];
@@ -188,14 +191,14 @@ impl<'a> Search<'a> {
             - b.track.point_velocity(middles[1].rounded());
         let rate = velocity.length() + rates[0] * p.radius + rates[1] * q.radius;
         let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
-        GapRate {
+        GapBounds {
             gap: apart - p.radius - q.radius - self.threshold,
             rate,
             rate_change_bound: bend,
         }
     }
 
-    fn measure(&self, i: usize, j: usize, t: f64) -> GapRate {
+    fn triangle_gap(&self, i: usize, j: usize, t: f64) -> GapBounds {
         let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
         let snapshots = self.scene.snapshots(t);
         let near = self.ball_gap([p, q], &snapshots);
@@ -205,13 +208,18 @@ impl<'a> Search<'a> {
         let [[a, b, c], [d, e, f]] = self.triangles(i, j, &snapshots);
         let s = [a.rounded(), b.rounded(), c.rounded()];
         let t = [d.rounded(), e.rounded(), f.rounded()];
-        GapRate {
+        GapBounds {
             gap: distance(&s, &t) - self.threshold,
             ..near
         }
     }
 
-    fn triangles(&self, i: usize, j: usize, snapshots: &[Snapshot; 2]) -> [Triangle<Double>; 2] {
+    fn triangles(
+        &self,
+        i: usize,
+        j: usize,
+        snapshots: &[Snapshot; 2],
+    ) -> [Triangle<DoubleDouble>; 2] {
         let [a, b] = &self.scene.sides;
         let origin = snapshots[0].centre;
         [
@@ -220,9 +228,9 @@ impl<'a> Search<'a> {
         ]
     }
 
-    /// Checks in [`Double`] whether a pair of triangles is below the threshold at a time. If so, the search ends
+    /// Checks in [`DoubleDouble`] whether a pair of triangles is below the threshold at a time. If so, the search ends
     /// there.
-    fn is_below_threshold(&mut self, i: usize, j: usize, t: f64) -> bool {
+    fn stop_if_below_threshold(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
         let depth = if distance > error {
@@ -233,7 +241,7 @@ impl<'a> Search<'a> {
         let below = distance < self.threshold - error || depth > larger(self.limit.depth, error);
         if below {
             self.until = t;
-            self.found = Some(Evidence {
+            self.violation = Some(Violation {
                 time: t,
                 distance,
                 depth,

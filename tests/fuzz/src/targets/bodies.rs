@@ -15,7 +15,7 @@ pub(super) fn check_storing(model: &Model) {
     assert!(stored_bytes(&again) == bytes, "stored again, it differs");
     // A model that cannot be a body, for its number of pieces or their size, names the reason.
     match (model.body(), again.body()) {
-        (Ok(body), Ok(_)) => check_queries(&body),
+        (Ok(body), Ok(_)) => check_methods_agree(&body),
         (Err(one), Err(other)) => assert_eq!(one.to_string(), other.to_string()),
         (one, other) => panic!("{:?} and {:?}", one.err(), other.err()),
     }
@@ -28,7 +28,7 @@ pub(super) fn stored_bytes(model: &Model) -> Vec<u8> {
 }
 
 /// Runs all methods on a ball that flies past the body, and checks that no two answers contradict each other.
-pub(super) fn check_queries(body: &Body) {
+pub(super) fn check_methods_agree(body: &Body) {
     let points = body.pieces().points();
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
         panic!("a body without points");

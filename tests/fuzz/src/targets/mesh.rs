@@ -5,20 +5,20 @@ use crate::memory;
 use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_obj};
 
 /// The maximum size of a file, in bytes. Faults of readers need few bytes, and short files are read fast.
-const MAX_BYTES: usize = 1 << 14;
+const MAX_FILE_BYTES: usize = 1 << 14;
 
 /// The constant part of a reader's memory limit, in bytes. The limit grows with the file's size.
 const BASE_MEMORY_LIMIT: usize = 1 << 20;
-const MEMORY_PER_BYTE: usize = 1 << 10;
+const MEMORY_LIMIT_PER_INPUT_BYTE: usize = 1 << 10;
 /// The memory limit in bytes of a reader of scenes, in which a few bytes may use the same mesh many times.
-const MEMORY_OF_SCENES: usize = 1 << 28;
+const SCENE_MEMORY_LIMIT: usize = 1 << 28;
 /// The memory limit of making bodies, in bytes. The bound of an outer hull's excess uses up to half a million boxes.
-const MEMORY_OF_BODIES: usize = 1 << 28;
+const BODY_MEMORY_LIMIT: usize = 1 << 28;
 
 /// The largest number of triangles of a mesh from which patches and hulls are made. `Auto` has a budget of its own.
-const MAX_TRIANGLES: usize = 48;
+const MAX_PATCH_TRIANGLES: usize = 48;
 /// The largest number of triangles of a mesh from which bodies of any kind are made. Scenes of few bytes may have many.
-const MAX_SCENE_TRIANGLES: usize = 1 << 11;
+const MAX_BODY_TRIANGLES: usize = 1 << 11;
 /// One file in this many is made into an outer hull, which takes a hundred times as long as the other bodies.
 const FILES_PER_OUTER_HULL: usize = 56;
 
@@ -28,25 +28,25 @@ pub(super) fn run(format: Format, bytes: &[u8]) {
 
 /// Reads a scene file and checks its parts and bodies.
 pub(super) fn run_scene(format: Format, bytes: &[u8]) {
-    read(format, bytes, MEMORY_OF_SCENES);
-    if bytes.len() <= MAX_BYTES {
-        memory::with_memory_limit(MEMORY_OF_SCENES, || check_parts(format, bytes));
+    read(format, bytes, SCENE_MEMORY_LIMIT);
+    if bytes.len() <= MAX_FILE_BYTES {
+        memory::with_memory_limit(SCENE_MEMORY_LIMIT, || check_parts(format, bytes));
     }
 }
 
 fn read(format: Format, bytes: &[u8], memory: usize) {
-    if bytes.len() > MAX_BYTES {
+    if bytes.len() > MAX_FILE_BYTES {
         return;
     }
-    let memory = memory + MEMORY_PER_BYTE * bytes.len();
+    let memory = memory + MEMORY_LIMIT_PER_INPUT_BYTE * bytes.len();
     let read = memory::with_memory_limit(memory, || TriangleMesh::from_reader(format, bytes));
     match read {
-        Ok(mesh) if mesh.faces().len() > MAX_SCENE_TRIANGLES => check(&mesh),
-        Ok(mesh) => memory::with_memory_limit(MEMORY_OF_BODIES, || {
+        Ok(mesh) if mesh.faces().len() > MAX_BODY_TRIANGLES => check(&mesh),
+        Ok(mesh) => memory::with_memory_limit(BODY_MEMORY_LIMIT, || {
             check(&mesh);
             let mut details = affordable_details(mesh.faces().len());
             if bytes.len().is_multiple_of(FILES_PER_OUTER_HULL)
-                && mesh.faces().len() <= MAX_TRIANGLES
+                && mesh.faces().len() <= MAX_PATCH_TRIANGLES
             {
                 details.push(Detail::OuterHull);
             }
@@ -112,7 +112,7 @@ fn check_round_trip(mesh: &TriangleMesh) {
 
 fn affordable_details(triangles: usize) -> Vec<Detail> {
     let mut details = vec![Detail::Auto, Detail::Triangles];
-    if triangles <= MAX_TRIANGLES {
+    if triangles <= MAX_PATCH_TRIANGLES {
         details.extend([Detail::Patches(Default::default()), Detail::Hull]);
     }
     details

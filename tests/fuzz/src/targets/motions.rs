@@ -5,12 +5,12 @@ use rigid_ccd::table::motions::{MotionRows, MotionTable, Motions, RowPosition, w
 use std::io::{self, Read};
 
 /// The maximum size of the input, in bytes.
-const MAX_BYTES: usize = 1 << 14;
+const MAX_TABLE_BYTES: usize = 1 << 14;
 
 /// The constant part of the memory limit, in bytes. The limit grows with the input, because a row of one byte is a
 /// whole query.
-const MEMORY: usize = 1 << 24;
-const MEMORY_PER_BYTE: usize = 1 << 11;
+const BASE_MEMORY_LIMIT: usize = 1 << 24;
+const MEMORY_LIMIT_PER_INPUT_BYTE: usize = 1 << 11;
 
 pub(super) fn run(bytes: &[u8]) {
     run_within_memory_limit(bytes, || {
@@ -27,10 +27,13 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Runs a check of a table within a memory limit, unless the table has more than `MAX_BYTES`.
+/// Runs a check of a table within a memory limit, unless the table has more than `MAX_TABLE_BYTES`.
 pub(super) fn run_within_memory_limit(bytes: &[u8], check: impl FnOnce()) {
-    if bytes.len() <= MAX_BYTES {
-        memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);
+    if bytes.len() <= MAX_TABLE_BYTES {
+        memory::with_memory_limit(
+            BASE_MEMORY_LIMIT + MEMORY_LIMIT_PER_INPUT_BYTE * bytes.len(),
+            check,
+        );
     }
 }
 
@@ -86,7 +89,10 @@ fn check_written_rows(table: &MotionTable) {
     assert_eq!(again.errors, [], "{}", String::from_utf8_lossy(&bytes));
     assert_eq!(again.rows.len(), queries.len());
     for (one, (_, other)) in queries.iter().zip(&again.rows) {
-        assert_eq!(exact_values(one), exact_values(other));
+        assert_eq!(
+            losslessly_written_values(one),
+            losslessly_written_values(other)
+        );
         for (one, other) in [(one.a, other.a), (one.b, other.b)] {
             let turn = one.start().rotation().dot(other.start().rotation());
             assert!(turn.abs() > 1.0 - 1e-12, "{one:?} {other:?}");
@@ -95,7 +101,7 @@ fn check_written_rows(table: &MotionTable) {
 }
 
 /// Returns the values of a row that are written without loss.
-fn exact_values(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
+fn losslessly_written_values(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
     let numbers = [query.a, query.b].map(|motion| {
         [
             motion.start().translation(),

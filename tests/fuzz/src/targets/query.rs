@@ -15,7 +15,7 @@ struct Question {
     case: Case,
     asked: Vec<(Kind, Method)>,
     /// Whether to check also that other vector instructions give equal bits, and that contacts can be listed.
-    extra_checks: bool,
+    has_extra_checks: bool,
 }
 
 /// Decodes a query, answers it by its methods, and judges the answers.
@@ -28,19 +28,19 @@ pub(super) fn run(bytes: &[u8]) {
     if let Some(failure) = trial.failures.first() {
         panic!("{}", failure.report("", &trial.case));
     }
-    if question.extra_checks && trial.refusal_reason.is_none() {
-        check_equal_bits(&question.case);
+    if question.has_extra_checks && trial.refusal_reason.is_none() {
+        check_bits_and_contacts(&question.case);
     }
 }
 
 /// Checks that other vector instructions give answers of the same bits, and that contacts can be listed.
-fn check_equal_bits(case: &Case) {
+fn check_bits_and_contacts(case: &Case) {
     let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::NotBuilt) else {
         return;
     };
     let answer = |instructions| {
         let config = Settings {
-            instructions,
+            vector_instructions: instructions,
             ..case.config.clone()
         };
         let problem = bodies.problem(case, &config).ok()?;

@@ -7,11 +7,11 @@ use ccd_decomp::{Detail, Format, Model, TriangleMesh, prepare};
 use std::sync::LazyLock;
 
 /// The maximum size of the input, in bytes.
-const MAX_BYTES: usize = 1 << 14;
+const MAX_FILE_BYTES: usize = 1 << 14;
 
 /// The constant part of the memory limit of loading, in bytes; the limit grows with the input.
-const MEMORY: usize = 1 << 25;
-const MEMORY_PER_BYTE: usize = 1 << 10;
+const BASE_MEMORY_LIMIT: usize = 1 << 25;
+const MEMORY_LIMIT_PER_INPUT_BYTE: usize = 1 << 10;
 
 /// The length in bytes of the magic number and the version at the start of a file. The length of the payload and its
 /// checksum follow.
@@ -28,14 +28,17 @@ static HEADER: LazyLock<Vec<u8>> = LazyLock::new(|| {
 });
 
 pub(super) fn run(bytes: &[u8]) {
-    if bytes.len() > MAX_BYTES {
+    if bytes.len() > MAX_FILE_BYTES {
         return;
     }
     LazyLock::force(&HEADER);
-    memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
-        check(bytes);
-        check(&with_repaired_frame(bytes));
-    });
+    memory::with_memory_limit(
+        BASE_MEMORY_LIMIT + MEMORY_LIMIT_PER_INPUT_BYTE * bytes.len(),
+        || {
+            check(bytes);
+            check(&with_repaired_frame(bytes));
+        },
+    );
 }
 
 /// Returns the file with a magic number, version, length and checksum that fit its payload.

@@ -21,32 +21,32 @@ use super::library::query::cast_shapes_nonlinear;
 use super::library::shape::TriMesh;
 use super::shapes::{to_rigid_motion, to_tri_mesh};
 use crate::method::peer::contact_claim_at;
-use crate::method::solver::{Claim, Reply, Solver};
+use crate::method::solver::{ContactClaim, Reply, Solver};
 use anyhow::Result;
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
 /// Two meshes as parry's shapes, to be cast against each other. It does not report steps.
 #[derive(Clone, Debug)]
-pub struct NonlinearCast {
+pub struct CastMeshPair {
     a: TriMesh,
     b: TriMesh,
 }
 
-impl NonlinearCast {
+impl CastMeshPair {
     /// Converts two meshes to parry's shapes.
     ///
     /// # Errors
     /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
-        Ok(NonlinearCast {
+        Ok(CastMeshPair {
             a: to_tri_mesh(a)?,
             b: to_tri_mesh(b)?,
         })
     }
 }
 
-impl Solver for NonlinearCast {
+impl Solver for CastMeshPair {
     fn answer(&mut self, query: &Motions, _: f64) -> Reply {
         // `true`: bodies that penetrate at the start are reported at once.
         let hit = cast_shapes_nonlinear(
@@ -60,8 +60,8 @@ impl Solver for NonlinearCast {
         );
         let claim = match hit {
             Ok(Some(hit)) => contact_claim_at(f64::from(hit.time_of_impact), query.duration),
-            Ok(None) => Claim::NoContact,
-            Err(_) => Claim::Unresolved { safe_until: 0.0 },
+            Ok(None) => ContactClaim::NoContact,
+            Err(_) => ContactClaim::Unresolved { safe_until: 0.0 },
         };
         Reply::new(claim, 0)
     }

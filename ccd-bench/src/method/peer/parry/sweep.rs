@@ -26,7 +26,7 @@ use super::library::query::sweep_toi::{Sweep, SweepToiStatus, ToiProxy, sweep_ti
 use super::library::shape::TriMesh;
 use super::shapes::{pose_at, to_parry_vector, to_tri_mesh};
 use crate::method::peer::contact_claim_at;
-use crate::method::solver::{Claim, Reply, Solver};
+use crate::method::solver::{ContactClaim, Reply, Solver};
 use anyhow::Result;
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
@@ -47,7 +47,7 @@ const MAX_HIT_DISTANCE_IN_SLOPS: f64 = 1.25;
 /// The largest error due to the interpolation of rotations within a segment, as a fraction of the tolerance.
 const ROTATION_ERROR_FRACTION: f64 = 0.25;
 /// The largest rotation, in radians, for which the library's documentation calls its sweeps a good approximation.
-const MAX_ROTATION: f64 = FRAC_PI_4;
+const MAX_SWEEP_ROTATION: f64 = FRAC_PI_4;
 /// The largest displacement of one body relative to the other in a segment, as a multiple of the smaller body's radius.
 const MAX_RELATIVE_TRAVEL: f64 = 0.5;
 /// The maximum number of segments of a motion; queries that need more are unresolved.
@@ -81,19 +81,19 @@ impl SweptMeshPair {
 
     /// Returns the first time in a segment at which triangles meet, as a fraction of the segment; `None` if none meet.
     fn first_hit(&self, query: &Motions, tolerance: f64, [from, to]: [f64; 2]) -> Option<Real> {
-        let a = self.a.segment(&query.a, from, to);
-        let b = self.b.segment(&query.b, from, to);
+        let a = self.a.segment_motion(&query.a, from, to);
+        let b = self.b.segment_motion(&query.b, from, to);
         // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
         let still = b.poses[0] == b.poses[1];
         let slack = a.path_deviation + b.path_deviation + tolerance as Real;
-        let swept_a = |aabb: Aabb| swept_box(&aabb, &in_frame_a).loosened(slack);
+        let swept_a = |aabb: Aabb| box_around_both_poses(&aabb, &in_frame_a).loosened(slack);
         let swept_b = |aabb: Aabb| {
             if still {
                 aabb
             } else {
-                swept_box(&aabb, &in_frame_b)
+                box_around_both_poses(&aabb, &in_frame_b)
             }
         };
         let pairs = self
@@ -120,7 +120,7 @@ impl SweptMeshPair {
 impl Solver for SweptMeshPair {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let Some(count) = self.segment_count(query, tolerance) else {
-            let claim = Claim::Unresolved { safe_until: 0.0 };
+            let claim = ContactClaim::Unresolved { safe_until: 0.0 };
             return Reply::new(claim, 0);
         };
         let time = |k: u64| query.duration * (k as f64 / count as f64);
@@ -132,7 +132,7 @@ impl Solver for SweptMeshPair {
                 return Reply::new(claim, k + 1);
             }
         }
-        Reply::new(Claim::NoContact, count)
+        Reply::new(ContactClaim::NoContact, count)
     }
 }
 
@@ -146,7 +146,7 @@ struct SweptMesh {
 }
 
 /// The motion of a body over a segment of time.
-struct Segment {
+struct SegmentMotion {
     poses: [Pose; 2],
     sweep: Sweep,
     /// An upper bound of how far any point of the body leaves the straight line from its start to its end position.
@@ -169,10 +169,10 @@ impl SweptMesh {
         low.max(high).length()
     }
 
-    fn segment(&self, motion: &Motion, from: f64, to: f64) -> Segment {
+    fn segment_motion(&self, motion: &Motion, from: f64, to: f64) -> SegmentMotion {
         let poses = [pose_at(motion, from), pose_at(motion, to)];
         let turn = motion.spin().length() * (to - from);
-        Segment {
+        SegmentMotion {
             sweep: Sweep::from_poses(&poses[0], &poses[1], to_parry_vector(motion.centre())),
             poses,
             // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
@@ -193,11 +193,11 @@ fn max_segment_rotation(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
     // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
     let off = ROTATION_ERROR_FRACTION * tolerance / (0.2567 * 1.1 * reach);
-    lesser(MAX_ROTATION, 4.0 * off.cbrt())
+    lesser(MAX_SWEEP_ROTATION, 4.0 * off.cbrt())
 }
 
 /// Returns the smallest axis-aligned box that contains the given box at both poses.
-fn swept_box(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
+fn box_around_both_poses(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))
 }

@@ -1,6 +1,6 @@
 //! Bounds the closing speed of nodes of two moving bodies along a direction.
 
-use crate::method::rival::swept_spheres::{Gap, Pair, RssTree, Trees};
+use crate::method::rival::swept_spheres::{GapBound, RssNodePair, RssTree, RssTreePair};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
@@ -10,9 +10,9 @@ pub(super) struct ClosingSpeedBounds {
     a: BodyRotation,
     b: BodyRotation,
     /// The velocity of A's centre relative to B's, in the world frame.
-    velocity_world: DVec3,
+    relative_velocity_world: DVec3,
     /// The velocity of A's centre relative to B's, in A's frame.
-    velocity: DVec3,
+    relative_velocity: DVec3,
     /// B's axis of rotation in the world frame.
     axis_b_world: DVec3,
     /// B's axis of rotation in A's frame.
@@ -28,17 +28,17 @@ struct BodyRotation {
     rate: f64,
     /// A cache with one entry per node: the number of the motion, and the greatest distance of the node's points from
     /// that motion's axis.
-    axis_distances: Vec<(u64, f64)>,
+    axis_distance_cache: Vec<(u64, f64)>,
     motion: u64,
 }
 
 impl ClosingSpeedBounds {
-    pub(super) fn new(trees: &Trees) -> Self {
+    pub(super) fn new(trees: &RssTreePair) -> Self {
         ClosingSpeedBounds {
             a: BodyRotation::new(&trees.a),
             b: BodyRotation::new(&trees.b),
-            velocity_world: DVec3::ZERO,
-            velocity: DVec3::ZERO,
+            relative_velocity_world: DVec3::ZERO,
+            relative_velocity: DVec3::ZERO,
             axis_b_world: DVec3::Z,
             axis_b: DVec3::Z,
         }
@@ -48,14 +48,14 @@ impl ClosingSpeedBounds {
     pub(super) fn set_motions(&mut self, a: &RivalMotion, b: &RivalMotion) {
         self.a.set_motion(a);
         self.b.set_motion(b);
-        self.velocity_world = a.velocity - b.velocity;
+        self.relative_velocity_world = a.velocity - b.velocity;
         self.axis_b_world = b.axis;
     }
 
     /// Sets the placement of body A at the current time, and converts the motions to A's frame.
     pub(super) fn set_frame(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
-        self.velocity = to_a * self.velocity_world;
+        self.relative_velocity = to_a * self.relative_velocity_world;
         self.axis_b = to_a * self.axis_b_world;
     }
 
@@ -67,14 +67,23 @@ impl ClosingSpeedBounds {
     /// of the centres and of points at the ends of both levers \[C2A09 §4\]. It holds for turns of
     /// any size, since the distance of a point from the axis does not change.
     #[inline]
-    pub(super) fn safe_step(&mut self, trees: &Trees, pair: &Pair, gap: &Gap) -> f64 {
+    pub(super) fn safe_step(
+        &mut self,
+        trees: &RssTreePair,
+        pair: &RssNodePair,
+        gap: &GapBound,
+    ) -> f64 {
         if !(gap.distance > 0.0) {
             return 0.0;
         }
         let n = gap.direction;
-        let speed = self.velocity.dot(n)
-            + self.a.speed_bound(&trees.a, pair.a, n.cross(self.a.axis))
-            + self.b.speed_bound(&trees.b, pair.b, n.cross(self.axis_b));
+        let speed = self.relative_velocity.dot(n)
+            + self
+                .a
+                .rotational_speed_bound(&trees.a, pair.a, n.cross(self.a.axis))
+            + self
+                .b
+                .rotational_speed_bound(&trees.b, pair.b, n.cross(self.axis_b));
         if speed <= 0.0 {
             f64::INFINITY
         } else {
@@ -89,13 +98,13 @@ impl BodyRotation {
             centre: DVec3::ZERO,
             axis: DVec3::Z,
             rate: 0.0,
-            axis_distances: vec![(0, 0.0); tree.len()],
+            axis_distance_cache: vec![(0, 0.0); tree.node_count()],
             motion: 0,
         }
     }
 
     fn set_motion(&mut self, course: &RivalMotion) {
-        let axis = course.orientation.transpose() * course.axis;
+        let axis = course.start_orientation.transpose() * course.axis;
         self.rate = course.rate;
         if self.motion == 0 || axis != self.axis || course.centre != self.centre {
             self.axis = axis;
@@ -107,15 +116,15 @@ impl BodyRotation {
     /// Returns an upper bound of the speed of a node's points along a direction, due to rotation. `across` is the cross
     /// product of the direction with the axis.
     #[inline]
-    fn speed_bound(&mut self, tree: &RssTree, node: u32, across: DVec3) -> f64 {
+    fn rotational_speed_bound(&mut self, tree: &RssTree, node: u32, across: DVec3) -> f64 {
         if self.rate == 0.0 {
             return 0.0;
         }
-        let lever = &mut self.axis_distances[node as usize];
+        let lever = &mut self.axis_distance_cache[node as usize];
         if lever.0 != self.motion {
             *lever = (
                 self.motion,
-                tree.axis_distance(node, self.centre, self.axis),
+                tree.axis_distance_bound(node, self.centre, self.axis),
             );
         }
         self.rate * across.length() * lever.1

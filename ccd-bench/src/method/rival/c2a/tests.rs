@@ -20,5 +20,5 @@ fn shots_are_neither_missed_nor_late_nor_early() {
 
 #[test]
 fn work_without_end_is_given_up() {
-    assert_stops_at_work_limit(C2a::new, |rival, patience| rival.patience = patience);
+    assert_stops_at_work_limit(C2a::new, |rival, patience| rival.work_limit = patience);
 }

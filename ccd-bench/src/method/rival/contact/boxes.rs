@@ -1,17 +1,17 @@
 //! Tests whether two moving oriented boxes stay apart over an interval of time.
 
-use super::relative::Enclosure;
+use super::relative::MotionEnclosure;
 use crate::method::rival::interval::cross_radius;
 use crate::method::rival::obb_tree::Obb;
 use ccd_core::glam::{DMat3, DVec3};
 
 /// A bound on the rounding of cosines between the axes of two boxes. Without it the cross product of parallel axes
 /// would separate anything.
-const COSINE_SLACK: f64 = 1e-14;
+const COSINE_ROUNDING: f64 = 1e-14;
 
 /// The relation of two boxes over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum BoxRelation {
+pub(super) enum BoxSeparation {
     /// An axis separates the boxes over the whole interval.
     Separated,
     /// No axis is found that separates the boxes over the whole interval.
@@ -23,7 +23,7 @@ pub(super) enum BoxRelation {
 
 /// Tests whether one of the 15 axes separates the boxes over all of the interval. Both sides of
 /// every inequality are enclosed by interval arithmetic \[CONTACT02\].
-pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelation {
+pub(super) fn box_separation(a: &Obb, b: &Obb, enclosure: &MotionEnclosure) -> BoxSeparation {
     let into = b.axes.transpose();
     let centre = enclosure.rotation * a.centre + enclosure.offset;
     let t = into * (centre.middle - b.centre);
@@ -35,14 +35,14 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
     let (ha, hb) = (a.half_extents, b.half_extents);
     // The axes of B: the distance of the centres along them against both half widths.
     if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
-        return BoxRelation::Separated;
+        return BoxSeparation::Separated;
     }
     // The axes of A. |Σ t_i c_i| has the middle |Σ t c| and the radius Σ (|t|+r)(|c|+s) − |t||c|.
     let low = cos.abs();
     let along = cos.transpose_mul_vec3(t).abs() + low.transpose_mul_vec3(t.abs());
     let width = high.transpose_mul_vec3(t_high + hb) + ha;
     if (along - width).max_element() > 0.0 {
-        return BoxRelation::Separated;
+        return BoxSeparation::Separated;
     }
     // The axes `b_i × a_j`, for all i at once.
     let separates = |c: DVec3, c_high: DVec3, of_a: DVec3| {
@@ -58,17 +58,18 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
         || separates(cos.y_axis, y, ha.z * x + ha.x * z)
         || separates(cos.z_axis, z, ha.x * y + ha.y * x)
     {
-        return BoxRelation::Separated;
+        return BoxSeparation::Separated;
     }
-    BoxRelation::NotSeparated {
+    BoxSeparation::NotSeparated {
         spread: (t_radius + cos_radius * ha).max_element(),
     }
 }
 
 /// Returns upper bounds of the absolute values of cosines, each of which is known to within a radius.
 fn cosine_upper_bounds(cos: DMat3, radius: DMat3) -> DMat3 {
-    let upper =
-        |c: DVec3, r: DVec3| (c.abs() + r + COSINE_SLACK).min(DVec3::splat(1.0 + COSINE_SLACK));
+    let upper = |c: DVec3, r: DVec3| {
+        (c.abs() + r + COSINE_ROUNDING).min(DVec3::splat(1.0 + COSINE_ROUNDING))
+    };
     DMat3::from_cols(
         upper(cos.x_axis, radius.x_axis),
         upper(cos.y_axis, radius.y_axis),

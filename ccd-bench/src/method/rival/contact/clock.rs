@@ -1,6 +1,6 @@
 //! Halves intervals of time, and encloses the motion over each of them.
 
-use super::relative::{Enclosure, RelativeMotion, Span};
+use super::relative::{MotionEnclosure, RelativeMotion, TimeSpan};
 
 /// The maximum number of times that an interval is halved, since 2⁻⁵² of the duration is the resolution of numbers.
 pub(super) const MAX_HALVING_DEPTH: usize = 52;
@@ -8,7 +8,7 @@ pub(super) const MAX_HALVING_DEPTH: usize = 52;
 /// An interval of time that arises from repeated halving of the duration; its end may be cut short.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HalvedInterval {
-    pub(super) span: Span,
+    pub(super) span: TimeSpan,
     /// The number of halvings that led to this interval.
     pub(super) halving_depth: usize,
 }
@@ -22,30 +22,30 @@ pub(super) struct MotionEncloser {
     placement_cache: Vec<CachedEnclosure>,
     rate_cache: Vec<CachedEnclosure>,
     /// The number of halvings made so far.
-    pub(super) halvings: u64,
+    pub(super) halving_count: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct CachedEnclosure {
-    span: Span,
-    enclosure: Enclosure,
+    span: TimeSpan,
+    enclosure: MotionEnclosure,
 }
 
 impl HalvedInterval {
     /// Returns the interval from 0 to `end`.
     pub(super) fn whole_duration(end: f64) -> Self {
         HalvedInterval {
-            span: Span { start: 0.0, end },
+            span: TimeSpan { start: 0.0, end },
             halving_depth: 0,
         }
     }
 
     /// Returns the first and the second half of the interval.
     pub(super) fn halves(self) -> [HalvedInterval; 2] {
-        let Span { start, end } = self.span;
+        let TimeSpan { start, end } = self.span;
         let middle = self.span.middle();
         [(start, middle), (middle, end)].map(|(start, end)| HalvedInterval {
-            span: Span { start, end },
+            span: TimeSpan { start, end },
             halving_depth: self.halving_depth + 1,
         })
     }
@@ -55,11 +55,11 @@ impl MotionEncloser {
     /// Creates the encloser of a motion, with the interval width and the number of halvings at which halving ends.
     pub(super) fn new(relative: RelativeMotion, resolution: f64, most_halvings: u64) -> Self {
         let nothing = CachedEnclosure {
-            span: Span {
+            span: TimeSpan {
                 start: f64::NAN,
                 end: f64::NAN,
             },
-            enclosure: relative.enclosure_over(Span {
+            enclosure: relative.enclosure_over(TimeSpan {
                 start: 0.0,
                 end: 0.0,
             }),
@@ -70,7 +70,7 @@ impl MotionEncloser {
             max_halvings: most_halvings,
             placement_cache: vec![nothing; MAX_HALVING_DEPTH + 1],
             rate_cache: vec![nothing; MAX_HALVING_DEPTH + 1],
-            halvings: 0,
+            halving_count: 0,
         }
     }
 
@@ -86,35 +86,36 @@ impl MotionEncloser {
 
     /// Returns true if an interval must not be halved, because its width is at the resolution or it comes from the
     /// maximum number of halvings.
-    pub(super) fn is_at_resolution(&self, interval: HalvedInterval) -> bool {
+    pub(super) fn is_too_short_to_halve(&self, interval: HalvedInterval) -> bool {
         !(interval.span.width() > self.resolution) || interval.halving_depth >= MAX_HALVING_DEPTH
     }
 
     /// Returns true if the limit on the number of halvings is reached.
-    pub(super) fn is_at_limit(&self) -> bool {
-        self.halvings >= self.max_halvings
+    pub(super) fn is_at_halving_limit(&self) -> bool {
+        self.halving_count >= self.max_halvings
     }
 
     /// Returns the enclosure of all placements of the first body in the second body's frame over an interval.
-    pub(super) fn placements(&mut self, interval: HalvedInterval) -> &Enclosure {
+    pub(super) fn placement_enclosure(&mut self, interval: HalvedInterval) -> &MotionEnclosure {
         self.placement_cache[interval.halving_depth].enclosure_over(interval.span, |span| {
             self.relative_motion.enclosure_over(span)
         })
     }
 
     /// Returns the enclosure of the rates of change of the placements over an interval.
-    pub(super) fn rates(&mut self, interval: HalvedInterval) -> &Enclosure {
-        self.rate_cache[interval.halving_depth]
-            .enclosure_over(interval.span, |span| self.relative_motion.rates_over(span))
+    pub(super) fn rate_enclosure(&mut self, interval: HalvedInterval) -> &MotionEnclosure {
+        self.rate_cache[interval.halving_depth].enclosure_over(interval.span, |span| {
+            self.relative_motion.rate_enclosure_over(span)
+        })
     }
 }
 
 impl CachedEnclosure {
     fn enclosure_over(
         &mut self,
-        span: Span,
-        enclosure: impl FnOnce(Span) -> Enclosure,
-    ) -> &Enclosure {
+        span: TimeSpan,
+        enclosure: impl FnOnce(TimeSpan) -> MotionEnclosure,
+    ) -> &MotionEnclosure {
         if self.span != span {
             self.span = span;
             self.enclosure = enclosure(span);

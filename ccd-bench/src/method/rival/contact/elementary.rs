@@ -1,6 +1,6 @@
 //! The elementary tests of two triangles in motion: a corner against a face, an edge against an edge.
 
-use super::relative::Enclosure;
+use super::relative::MotionEnclosure;
 use crate::method::rival::Placement;
 use crate::method::rival::interval::{Interval, IntervalVec};
 use ccd_core::glam::DVec3;
@@ -8,7 +8,7 @@ use ccd_core::order::{greater, lesser};
 
 /// A triangle with its edge vectors, its normal, and the inward normals of its edges.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct TestTriangle {
+pub(super) struct TriangleWithNormals {
     corners: [DVec3; 3],
     /// The edge vectors: edge k leads from corner k to the next.
     edges: [DVec3; 3],
@@ -35,16 +35,16 @@ pub(super) struct ElementaryTestSet(u16);
 /// Two triangles, each in its body's frame; enclosures map the first into the frame of the second.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrianglePair {
-    pub(super) a: TestTriangle,
-    pub(super) b: TestTriangle,
+    pub(super) a: TriangleWithNormals,
+    pub(super) b: TriangleWithNormals,
 }
 
-impl TestTriangle {
+impl TriangleWithNormals {
     pub(super) fn new(corners: &[DVec3; 3]) -> Self {
         let [a, b, c] = *corners;
         let edges = [b - a, c - b, a - c];
         let normal = edges[0].cross(edges[1]);
-        TestTriangle {
+        TriangleWithNormals {
             corners: *corners,
             edges,
             normal,
@@ -61,7 +61,7 @@ impl TestTriangle {
 
 impl ElementaryTest {
     /// The number of elementary tests of two triangles.
-    const TEST_COUNT: usize = 15;
+    const ELEMENTARY_TEST_COUNT: usize = 15;
 
     /// Returns the test with the given number: corners first, then faces, then pairs of edges.
     fn from_number(number: usize) -> ElementaryTest {
@@ -79,7 +79,7 @@ impl ElementaryTestSet {
 
     /// The set of all elementary tests.
     pub(super) const ALL: ElementaryTestSet =
-        ElementaryTestSet((1 << ElementaryTest::TEST_COUNT) - 1);
+        ElementaryTestSet((1 << ElementaryTest::ELEMENTARY_TEST_COUNT) - 1);
 
     /// Returns true if no test is in the set.
     pub(super) fn is_empty(self) -> bool {
@@ -121,26 +121,28 @@ impl TrianglePair {
     pub(super) fn contact_function_rate(
         &self,
         test: ElementaryTest,
-        now: &Enclosure,
-        rates: &Enclosure,
+        now: &MotionEnclosure,
+        rates: &MotionEnclosure,
     ) -> Interval {
         let (a, b) = (&self.a, &self.b);
         match test {
-            ElementaryTest::VertexFace(i) => {
-                rates.transform_point(a.corners[i]).dot_vector(b.normal)
-            }
+            ElementaryTest::VertexFace(i) => rates
+                .enclose_transformed_point(a.corners[i])
+                .dot_vector(b.normal),
             ElementaryTest::FaceVertex(j) => {
-                let between = point_minus(b.corners[j], now.transform_point(a.corners[0]));
+                let between =
+                    point_minus(b.corners[j], now.enclose_transformed_point(a.corners[0]));
                 between.dot(rates.rotation * a.normal)
                     - rates
-                        .transform_point(a.corners[0])
+                        .enclose_transformed_point(a.corners[0])
                         .dot(now.rotation * a.normal)
             }
             ElementaryTest::EdgeEdge(i, j) => {
-                let between = point_minus(b.corners[j], now.transform_point(a.corners[i]));
+                let between =
+                    point_minus(b.corners[j], now.enclose_transformed_point(a.corners[i]));
                 let axis = (now.rotation * a.edges[i]).cross_vector(b.edges[j]);
                 let axis_rate = (rates.rotation * a.edges[i]).cross_vector(b.edges[j]);
-                between.dot(axis_rate) - rates.transform_point(a.corners[i]).dot(axis)
+                between.dot(axis_rate) - rates.enclose_transformed_point(a.corners[i]).dot(axis)
             }
         }
     }
@@ -151,10 +153,12 @@ impl TrianglePair {
     pub(super) fn tests_with_possible_roots(
         &self,
         tests: ElementaryTestSet,
-        now: &Enclosure,
+        now: &MotionEnclosure,
     ) -> ElementaryTestSet {
         let (a, b) = (&self.a, &self.b);
-        let corners = a.corners.map(|corner| now.transform_point(corner));
+        let corners = a
+            .corners
+            .map(|corner| now.enclose_transformed_point(corner));
         let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_vector(b.normal));
         if have_same_sign(over_b) {
             return ElementaryTestSet::NONE;
@@ -193,7 +197,7 @@ impl TrianglePair {
         &self,
         corner: DVec3,
         corners: &[IntervalVec; 3],
-        now: &Enclosure,
+        now: &MotionEnclosure,
     ) -> bool {
         (0..3).all(|k| {
             let inward = now.rotation * self.a.inward_edge_normals[k];
@@ -206,7 +210,7 @@ impl TrianglePair {
     /// With the points `p + s e` and `q + u g`, `w = q − p` and `c = e × g`, a common point needs `w · c
     /// = 0`, `w × g = s c`, `w × e = u c` and `w · g = s e·g − u g·g`, where s and u are between 0 and
     /// 1. The last three conditions also separate parallel edges, for which `c` and `w · c` vanish.
-    fn edges_may_meet(&self, edges: (usize, usize), p: IntervalVec, now: &Enclosure) -> bool {
+    fn edges_may_meet(&self, edges: (usize, usize), p: IntervalVec, now: &MotionEnclosure) -> bool {
         let g = self.b.edges[edges.1];
         let w = point_minus(self.b.corners[edges.1], p);
         let e = now.rotation * self.a.edges[edges.0];
@@ -215,11 +219,11 @@ impl TrianglePair {
             return false;
         }
         let at_s = w.cross_vector(g);
-        if excludes_multiples(at_s, c) {
+        if excludes_fractions(at_s, c) {
             return false;
         }
         let at_u = w.cross(e);
-        if excludes_multiples(at_u, c) {
+        if excludes_fractions(at_u, c) {
             return false;
         }
         let (along, of_e, of_g) = (w.dot_vector(g), e.dot_vector(g), g.length_squared());
@@ -236,11 +240,11 @@ impl TrianglePair {
     }
 }
 
-impl Enclosure {
+impl MotionEnclosure {
     /// Returns all positions of a point of the first body, or all its velocities if `self` encloses
     /// rates.
     #[inline]
-    pub(super) fn transform_point(&self, point: DVec3) -> IntervalVec {
+    pub(super) fn enclose_transformed_point(&self, point: DVec3) -> IntervalVec {
         self.rotation * point + self.offset
     }
 }
@@ -260,6 +264,6 @@ fn have_same_sign(values: [Interval; 3]) -> bool {
 }
 
 /// Returns true if no vector in `part` can be a vector in `whole` times a factor from 0 to 1.
-fn excludes_multiples(part: IntervalVec, whole: IntervalVec) -> bool {
+fn excludes_fractions(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.mignitude() - whole.magnitude()).max_element() > 0.0
 }

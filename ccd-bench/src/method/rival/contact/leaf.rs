@@ -2,7 +2,7 @@
 
 use super::clock::{HalvedInterval, MAX_HALVING_DEPTH, MotionEncloser};
 use super::elementary::{ElementaryTest, ElementaryTestSet, TrianglePair};
-use super::relative::Span;
+use super::relative::TimeSpan;
 use ccd_core::order::{greater, lesser};
 
 /// When two triangles first touch in an interval of time.
@@ -11,9 +11,9 @@ pub(super) enum FirstTouch {
     /// The triangles first touch at this time.
     AtTime(f64),
     /// The triangles do not touch in the interval.
-    Never,
+    NotInInterval,
     /// The work limit was reached before a first touch was found or excluded.
-    Unknown,
+    LimitReached,
 }
 
 /// Returns when two triangles first touch: the first root of all elementary tests. Time is halved, the first half
@@ -24,7 +24,7 @@ pub(super) fn first_touch(
     interval: HalvedInterval,
     clock: &mut MotionEncloser,
 ) -> FirstTouch {
-    let mut first = FirstTouch::Never;
+    let mut first = FirstTouch::NotInInterval;
     // The stack holds at most one second half of every level, and both halves of the last.
     let mut stack = [(interval, ElementaryTestSet::ALL); MAX_HALVING_DEPTH + 2];
     let mut height = 1;
@@ -34,18 +34,18 @@ pub(super) fn first_touch(
         if let FirstTouch::AtTime(time) = first {
             interval.span.end = lesser(interval.span.end, time);
         }
-        if !(interval.span.width() > 0.0 || first == FirstTouch::Never) {
+        if !(interval.span.width() > 0.0 || first == FirstTouch::NotInInterval) {
             continue;
         }
-        let open = triangles.tests_with_possible_roots(open, clock.placements(interval));
+        let open = triangles.tests_with_possible_roots(open, clock.placement_enclosure(interval));
         if open.is_empty() {
             continue;
         }
-        if clock.is_at_resolution(interval) {
+        if clock.is_too_short_to_halve(interval) {
             first = FirstTouch::AtTime(interval.span.start);
             continue;
         }
-        let open = open.filter(|test| match root(triangles, test, interval, clock) {
+        let open = open.filter(|test| match find_root(triangles, test, interval, clock) {
             Root::MaybeSeveral => true,
             Root::None => false,
             Root::AtTime(time) => {
@@ -54,10 +54,10 @@ pub(super) fn first_touch(
             }
         });
         if !open.is_empty() {
-            if clock.is_at_limit() {
-                return FirstTouch::Unknown;
+            if clock.is_at_halving_limit() {
+                return FirstTouch::LimitReached;
             }
-            clock.halvings += 1;
+            clock.halving_count += 1;
             let [early, late] = interval.halves();
             stack[height] = (late, open);
             stack[height + 1] = (early, open);
@@ -70,7 +70,7 @@ pub(super) fn first_touch(
 fn earlier_touch(first: FirstTouch, time: f64) -> FirstTouch {
     match first {
         FirstTouch::AtTime(known) => FirstTouch::AtTime(lesser(known, time)),
-        FirstTouch::Never | FirstTouch::Unknown => FirstTouch::AtTime(time),
+        FirstTouch::NotInInterval | FirstTouch::LimitReached => FirstTouch::AtTime(time),
     }
 }
 
@@ -83,15 +83,15 @@ enum Root {
 }
 
 /// Returns the root of a contact function over the interval if the function is proven monotone there, else
-/// [`Root::Several`].
-fn root(
+/// [`Root::MaybeSeveral`].
+fn find_root(
     triangles: &TrianglePair,
     test: ElementaryTest,
     interval: HalvedInterval,
     clock: &mut MotionEncloser,
 ) -> Root {
-    let rates = *clock.rates(interval);
-    let rate = triangles.contact_function_rate(test, clock.placements(interval), &rates);
+    let rates = *clock.rate_enclosure(interval);
+    let rate = triangles.contact_function_rate(test, clock.placement_enclosure(interval), &rates);
     if !rate.excludes_zero() {
         return Root::MaybeSeveral;
     }
@@ -100,7 +100,7 @@ fn root(
     };
     // As wide as the resolution: features that meet at their borders do so except for rounding.
     let slack = 0.5 * greater(0.0, clock.resolution() - found.width());
-    let around = Span {
+    let around = TimeSpan {
         start: found.start - slack,
         end: found.end + slack,
     };
@@ -124,9 +124,9 @@ const MAX_BRACKET_STEPS: usize = 110;
 fn root_by_false_position(
     triangles: &TrianglePair,
     test: ElementaryTest,
-    span: Span,
+    span: TimeSpan,
     clock: &MotionEncloser,
-) -> Option<Span> {
+) -> Option<TimeSpan> {
     let value =
         |time: f64| triangles.contact_function(test, &clock.relative_motion().placement_at(time));
     let (mut span, mut ends) = (span, [value(span.start), value(span.end)]);

@@ -10,14 +10,14 @@ use ccd_core::glam::{DMat3, DVec3};
 /// is the same point relative to the reference point of the second body, along that body's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RelativeMotion {
-    first_motion: BodyMotion,
-    second_motion: BodyMotion,
+    first_motion: MotionCoefficients,
+    second_motion: MotionCoefficients,
 }
 
 /// The motion of one body: `rotation(t) = constant_term + cos(ωt) cosine_coefficient + sin(ωt) sine_coefficient`. The
 /// reference point moves likewise, plus a straight part.
 #[derive(Clone, Copy, Debug)]
-struct BodyMotion {
+struct MotionCoefficients {
     constant_term: DMat3,
     cosine_coefficient: DMat3,
     sine_coefficient: DMat3,
@@ -31,19 +31,19 @@ struct BodyMotion {
 /// An enclosure of all placements of one body in the frame of another over an interval of time, or of their rates of
 /// change.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Enclosure {
+pub(super) struct MotionEnclosure {
     pub(super) rotation: IntervalMat,
     pub(super) offset: IntervalVec,
 }
 
 /// An interval of time, from `start` to `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
+pub(super) struct TimeSpan {
     pub(super) start: f64,
     pub(super) end: f64,
 }
 
-impl Span {
+impl TimeSpan {
     pub(super) fn width(self) -> f64 {
         self.end - self.start
     }
@@ -58,10 +58,10 @@ impl RelativeMotion {
     pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
         // The axes are those of the second body at the start: a body that does not rotate then needs no
         // inverse rotation.
-        let axes = second.0.orientation.transpose();
+        let axes = second.0.start_orientation.transpose();
         let mut relative = RelativeMotion {
-            first_motion: BodyMotion::new(first.0, first.1, axes),
-            second_motion: BodyMotion::new(second.0, second.1, axes),
+            first_motion: MotionCoefficients::new(first.0, first.1, axes),
+            second_motion: MotionCoefficients::new(second.0, second.1, axes),
         };
         // Only the difference of the linear parts matters; separate parts would be enclosed separately.
         relative.first_motion.start_centre -= relative.second_motion.start_centre;
@@ -83,28 +83,29 @@ impl RelativeMotion {
     }
 
     /// Returns an enclosure of all placements between two times.
-    pub(super) fn enclosure_over(&self, span: Span) -> Enclosure {
+    pub(super) fn enclosure_over(&self, span: TimeSpan) -> MotionEnclosure {
         let (first, position_first) = self.first_motion.enclosure_over(span);
         if self.second_motion.rate == 0.0 {
-            let offset = position_first.minus_point(self.second_motion.rest_start_position());
-            return Enclosure {
+            let offset =
+                position_first.minus_point(self.second_motion.unrotated_reference_position());
+            return MotionEnclosure {
                 rotation: first,
                 offset,
             };
         }
         let (second, position_second) = self.second_motion.enclosure_over(span);
         let back = second.transpose();
-        Enclosure {
+        MotionEnclosure {
             rotation: back * first,
             offset: back * (position_first - position_second),
         }
     }
 
     /// Returns an enclosure of all rates of change of the placements between two times.
-    pub(super) fn rates_over(&self, span: Span) -> Enclosure {
+    pub(super) fn rate_enclosure_over(&self, span: TimeSpan) -> MotionEnclosure {
         let (first_rate, position_first_rate) = self.first_motion.rates_over(span);
         if self.second_motion.rate == 0.0 {
-            return Enclosure {
+            return MotionEnclosure {
                 rotation: first_rate,
                 offset: position_first_rate,
             };
@@ -113,7 +114,7 @@ impl RelativeMotion {
         let (second, position_second) = self.second_motion.enclosure_over(span);
         let (second_rate, position_second_rate) = self.second_motion.rates_over(span);
         let (back, back_rate) = (second.transpose(), second_rate.transpose());
-        Enclosure {
+        MotionEnclosure {
             rotation: back_rate * first + back * first_rate,
             offset: back_rate * (position_first - position_second)
                 + back * (position_first_rate - position_second_rate),
@@ -121,10 +122,10 @@ impl RelativeMotion {
     }
 }
 
-impl BodyMotion {
+impl MotionCoefficients {
     fn new(course: &RivalMotion, reference: DVec3, axes: DMat3) -> Self {
         let axis = axes * course.axis;
-        let orientation = axes * course.orientation;
+        let orientation = axes * course.start_orientation;
         let still = course.rate == 0.0;
         // The part along the axis is fixed; the rest rotates.
         let along = |column: DVec3| {
@@ -136,7 +137,7 @@ impl BodyMotion {
         };
         let fixed = map_columns(orientation, along);
         let cos = orientation - fixed;
-        BodyMotion {
+        MotionCoefficients {
             constant_term: fixed,
             cosine_coefficient: cos,
             sine_coefficient: map_columns(cos, |column| axis.cross(column)),
@@ -148,7 +149,7 @@ impl BodyMotion {
     }
 
     /// Returns the start position of the reference point of a body that does not rotate.
-    fn rest_start_position(&self) -> DVec3 {
+    fn unrotated_reference_position(&self) -> DVec3 {
         self.start_centre + self.constant_term * self.reference_offset
     }
 
@@ -160,11 +161,11 @@ impl BodyMotion {
         (rotation, position)
     }
 
-    fn enclosure_over(&self, span: Span) -> (IntervalMat, IntervalVec) {
+    fn enclosure_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
         let half = 0.5 * span.width();
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * half);
-        let turning = rotation_over(cos, sin, arc);
+        let turning = rotation_over_arc(cos, sin, arc);
         let rotation = IntervalMat {
             middle: self.constant_term + turning.middle,
             radius: turning.radius,
@@ -172,7 +173,7 @@ impl BodyMotion {
         let straight = self.start_centre
             + self.velocity * span.middle()
             + self.constant_term * self.reference_offset;
-        let round = vector_rotation_over(
+        let round = rotated_vector_over_arc(
             cos * self.reference_offset,
             sin * self.reference_offset,
             arc,
@@ -184,11 +185,11 @@ impl BodyMotion {
         (rotation, position)
     }
 
-    fn rates_over(&self, span: Span) -> (IntervalMat, IntervalVec) {
+    fn rates_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * 0.5 * span.width());
         let (cos, sin) = (sin * self.rate, cos * -self.rate);
-        let round = vector_rotation_over(
+        let round = rotated_vector_over_arc(
             cos * self.reference_offset,
             sin * self.reference_offset,
             arc,
@@ -197,7 +198,7 @@ impl BodyMotion {
             middle: self.velocity + round.middle,
             radius: round.radius,
         };
-        (rotation_over(cos, sin, arc), velocity)
+        (rotation_over_arc(cos, sin, arc), velocity)
     }
 
     /// Returns the coefficients of cosine and sine for a rotation angle that is counted from the angle at `time`.
@@ -216,7 +217,7 @@ fn map_columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients `cos` and
 /// `sin`.
-fn rotation_over(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
+fn rotation_over_arc(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
     let Interval { middle, radius } = arc.cos;
     IntervalMat {
         middle: cos * middle,
@@ -225,7 +226,7 @@ fn rotation_over(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
 }
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients as vectors.
-fn vector_rotation_over(cos: DVec3, sin: DVec3, arc: SineCosineRange) -> IntervalVec {
+fn rotated_vector_over_arc(cos: DVec3, sin: DVec3, arc: SineCosineRange) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {
         middle: cos * middle,

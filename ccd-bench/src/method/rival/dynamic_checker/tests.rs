@@ -1,9 +1,9 @@
 use super::DynamicChecker;
 use crate::method::rival::tests::trials::{
     assert_exact_contact_times, assert_shots_are_conservative, assert_stops_at_work_limit,
-    boxes_rotating_past, knot_216,
+    boxes_rotating_past_each_other, knot_216,
 };
-use crate::method::solver::{Claim, Solver};
+use crate::method::solver::{ContactClaim, Solver};
 use crate::scene::model::cuboid;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
@@ -27,17 +27,17 @@ fn shots_are_neither_missed_nor_late_nor_early() {
 #[test]
 fn work_without_end_is_given_up() {
     assert_stops_at_work_limit(DynamicChecker::new, |rival, patience| {
-        rival.patience = patience;
+        rival.work_limit = patience;
     });
 }
 
 #[test]
 fn motions_beyond_numbers_are_given_up() {
-    let (a, b, mut query) = boxes_rotating_past();
+    let (a, b, mut query) = boxes_rotating_past_each_other();
     query.a = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1e308 * DVec3::Z).unwrap();
     query.duration = 1e10;
     let reply = DynamicChecker::new(&a, &b).answer(&query, 1e-3);
-    assert_eq!(reply.claim, Claim::Unresolved { safe_until: 0.0 });
+    assert_eq!(reply.claim, ContactClaim::Unresolved { safe_until: 0.0 });
 }
 
 /// Tests that a contact in the middle of the duration is found, although all time before it may be proven free.
@@ -54,7 +54,7 @@ fn a_touch_at_a_halving_is_a_contact() {
             b: Motion::still(pose(-1.0)),
             duration: 1.0,
         };
-        let Claim::Contact { time } = rival.answer(&query, 1e-6).claim else {
+        let ContactClaim::Contact { time } = rival.answer(&query, 1e-6).claim else {
             panic!("turned {k} times");
         };
         assert!((0.5 - 1e-6..=0.5 + 1e-12).contains(&time), "{time}");

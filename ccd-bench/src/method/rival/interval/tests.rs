@@ -3,7 +3,7 @@ use crate::method::rival::tests::samples::RandomSource;
 use ccd_core::order::{greater, lesser};
 
 /// The allowed error of a comparison, due to rounding.
-const SLACK: f64 = 1e-12;
+const ROUNDING_TOLERANCE: f64 = 1e-12;
 
 fn random_interval_vec(samples: &mut RandomSource) -> IntervalVec {
     IntervalVec {
@@ -20,26 +20,26 @@ fn random_interval_mat(samples: &mut RandomSource) -> IntervalMat {
     }
 }
 
-fn member_vec(of: IntervalVec, samples: &mut RandomSource) -> DVec3 {
+fn random_member_vec(of: IntervalVec, samples: &mut RandomSource) -> DVec3 {
     of.middle + of.radius * samples.vector(1.0)
 }
 
-fn member_mat(of: IntervalMat, samples: &mut RandomSource) -> DMat3 {
+fn random_member_mat(of: IntervalMat, samples: &mut RandomSource) -> DMat3 {
     let column = |k: usize| IntervalVec {
         middle: of.middle.col(k),
         radius: of.radius.col(k),
     };
-    let [a, b, c] = [0, 1, 2].map(|k| member_vec(column(k), samples));
+    let [a, b, c] = [0, 1, 2].map(|k| random_member_vec(column(k), samples));
     DMat3::from_cols(a, b, c)
 }
 
 fn contains(interval: Interval, value: f64) -> bool {
-    (interval.low() - SLACK..=interval.high() + SLACK).contains(&value)
+    (interval.low() - ROUNDING_TOLERANCE..=interval.high() + ROUNDING_TOLERANCE).contains(&value)
 }
 
 fn contains_vec(interval: IntervalVec, value: DVec3) -> bool {
     let off = (value - interval.middle).abs() - interval.radius;
-    off.max_element() <= SLACK
+    off.max_element() <= ROUNDING_TOLERANCE
 }
 
 #[test]
@@ -56,8 +56,14 @@ fn results_contain_those_of_members() {
         );
         let p = samples.vector(3.0);
         for _ in 0..10 {
-            let (x, y) = (member_vec(u, &mut samples), member_vec(v, &mut samples));
-            let (f, g) = (member_mat(m, &mut samples), member_mat(n, &mut samples));
+            let (x, y) = (
+                random_member_vec(u, &mut samples),
+                random_member_vec(v, &mut samples),
+            );
+            let (f, g) = (
+                random_member_mat(m, &mut samples),
+                random_member_mat(n, &mut samples),
+            );
             assert!(contains(u.dot(v), x.dot(y)) && contains(u.dot_vector(p), x.dot(p)));
             assert!(contains(u.dot(v) + u.dot_vector(p), x.dot(y) + x.dot(p)));
             assert!(contains(u.dot(v) - u.dot_vector(p), x.dot(y) - x.dot(p)));
@@ -72,11 +78,11 @@ fn results_contain_those_of_members() {
             for (interval, value) in both {
                 let off = value - interval.middle;
                 assert!((0..3).all(|k| {
-                    (off.col(k).abs() - interval.radius.col(k)).max_element() <= SLACK
+                    (off.col(k).abs() - interval.radius.col(k)).max_element() <= ROUNDING_TOLERANCE
                 }));
             }
-            assert!((x.abs() - u.magnitude()).max_element() <= SLACK);
-            assert!((u.mignitude() - x.abs()).max_element() <= SLACK);
+            assert!((x.abs() - u.magnitude()).max_element() <= ROUNDING_TOLERANCE);
+            assert!((u.mignitude() - x.abs()).max_element() <= ROUNDING_TOLERANCE);
         }
     }
 }
@@ -88,12 +94,14 @@ fn arcs_are_the_ranges_of_cosine_and_sine() {
         let angles = (-20_000..=20_000).map(|k| half * f64::from(k) / 20_000.0);
         let (mut least, mut most) = (f64::INFINITY, 0.0);
         for angle in angles {
-            assert!(contains(arc.cos, angle.cos()) && angle.sin().abs() <= arc.sin + SLACK);
+            assert!(
+                contains(arc.cos, angle.cos()) && angle.sin().abs() <= arc.sin + ROUNDING_TOLERANCE
+            );
             least = lesser(least, angle.cos());
             most = greater(most, angle.sin());
         }
         assert!((arc.cos.low() - least).abs() < 1e-5 && (arc.sin - most).abs() < 1e-5);
-        assert!((arc.cos.high() - 1.0).abs() < SLACK);
+        assert!((arc.cos.high() - 1.0).abs() < ROUNDING_TOLERANCE);
     }
 }
 

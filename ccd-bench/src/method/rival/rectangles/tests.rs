@@ -43,7 +43,7 @@ fn corners(lengths: DVec2, placement: &Placement) -> [DVec3; 4] {
         .map(|(x, y)| placement.apply(DVec3::new(x * lengths.x, y * lengths.y, 0.0)))
 }
 
-const IDENTITY: Placement = Placement {
+const IDENTITY_PLACEMENT: Placement = Placement {
     rotation: DMat3::IDENTITY,
     translation: DVec3::ZERO,
 };
@@ -52,7 +52,7 @@ const IDENTITY: Placement = Placement {
 fn distance_by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let halves = |[p, q, r, s]: [DVec3; 4]| [[p, q, r], [q, r, s]];
     let mut least = f64::INFINITY;
-    for half_a in halves(corners(a, &IDENTITY)) {
+    for half_a in halves(corners(a, &IDENTITY_PLACEMENT)) {
         for half_b in halves(corners(b, placement)) {
             least = lesser(
                 least,
@@ -122,7 +122,7 @@ fn the_vector_is_the_shortest() {
                 .map(|p| n.dot(p))
                 .into_iter()
                 .fold(f64::INFINITY, lesser);
-            let high = corners(a, &IDENTITY)
+            let high = corners(a, &IDENTITY_PLACEMENT)
                 .map(|p| n.dot(p))
                 .into_iter()
                 .fold(f64::NEG_INFINITY, greater);

@@ -23,7 +23,7 @@ fn stepping_solver() -> FixedTimeSteps {
 fn contacts_are_reported_at_the_next_sample() {
     for tolerance in [0.3, 0.01, 0.000_7] {
         let reply = stepping_solver().answer(&falling_cube_query(), tolerance);
-        let Claim::Contact { time } = reply.claim else {
+        let ContactClaim::Contact { time } = reply.claim else {
             panic!("{reply:?}")
         };
         assert!(
@@ -41,11 +41,11 @@ fn a_contact_between_samples_is_missed() {
     let (a, b) = (cuboid(0.5, 0.5, 0.01), cuboid(3.0, 3.0, 0.01));
     let ask = |tolerance: f64| FixedTimeSteps::new(&a, &b).answer(&query, tolerance);
     let missed = ask(2.0);
-    assert_eq!((missed.claim, missed.steps), (Claim::NoContact, 3));
-    assert!(matches!(ask(0.01).claim, Claim::Contact { .. }));
+    assert_eq!((missed.claim, missed.steps), (ContactClaim::NoContact, 3));
+    assert!(matches!(ask(0.01).claim, ContactClaim::Contact { .. }));
     query.duration = 0.5;
     let before = FixedTimeSteps::new(&a, &b).answer(&query, 0.01);
-    assert_eq!((before.claim, before.steps), (Claim::NoContact, 201));
+    assert_eq!((before.claim, before.steps), (ContactClaim::NoContact, 201));
 }
 
 #[test]
@@ -53,10 +53,10 @@ fn bodies_at_rest_are_tested() {
     let apart = query(resting_motion(1.1 * DVec3::Z), resting_motion(DVec3::ZERO));
     assert_eq!(
         stepping_solver().answer(&apart, 1e-3).claim,
-        Claim::NoContact
+        ContactClaim::NoContact
     );
     let across = query(resting_motion(0.9 * DVec3::Z), resting_motion(DVec3::ZERO));
-    let contact = Claim::Contact { time: 0.0 };
+    let contact = ContactClaim::Contact { time: 0.0 };
     assert_eq!(stepping_solver().answer(&across, 1e-3).claim, contact);
 }
 
@@ -64,7 +64,7 @@ fn bodies_at_rest_are_tested() {
 fn the_number_of_samples_is_limited() {
     let reply = stepping_solver().answer(&falling_cube_query(), 1e-9);
     assert_eq!(reply.steps, MAX_SAMPLES);
-    let Claim::Unresolved { safe_until } = reply.claim else {
+    let ContactClaim::Unresolved { safe_until } = reply.claim else {
         panic!("{reply:?}")
     };
     let expected = (MAX_SAMPLES - 1) as f64 * 1e-9 / 4.0;

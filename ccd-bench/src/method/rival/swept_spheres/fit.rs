@@ -15,11 +15,11 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
     let nodes = build_binary_tree(
         &mut triangles,
         |triangles, parent: Option<&(Placement, Node)>| {
-            let (frame, lengths, radius) = fit(triangles);
+            let (frame, lengths, radius) = fit_swept_rectangle(triangles);
             let node = Node {
                 placement: frame
                     .relative_to(parent.map_or(&IDENTITY_PLACEMENT, |(frame, _)| frame)),
-                lengths,
+                side_lengths: lengths,
                 radius,
                 content: NodeContent::Triangle(0),
             };
@@ -53,14 +53,14 @@ const IDENTITY_PLACEMENT: Placement = Placement {
 /// at the mean, or in the middle of the order if that would be lopsided.
 fn partition_triangles(part: &mut [Triangle], axis: DVec3) -> usize {
     /// The smallest share of the triangles that either part of a split may get.
-    const MIN_FRACTION: f64 = 1.0 / 16.0;
+    const MIN_SPLIT_FRACTION: f64 = 1.0 / 16.0;
 
     let along = |t: &Triangle| (t[0] + t[1] + t[2]).dot(axis);
     let count = part.len();
     let mean = part.iter().map(along).sum::<f64>() / count as f64;
     part.sort_unstable_by(|s, t| along(s).total_cmp(&along(t)));
     let below = part.partition_point(|t| along(t) < mean);
-    let few = greater(1.0, MIN_FRACTION * count as f64) as usize;
+    let few = greater(1.0, MIN_SPLIT_FRACTION * count as f64) as usize;
     if (few..=count - few).contains(&below) {
         below
     } else {
@@ -70,7 +70,7 @@ fn partition_triangles(part: &mut [Triangle], axis: DVec3) -> usize {
 
 /// Fits a rectangle across the direction in which the triangles are thinnest, and returns its frame, its side lengths
 /// and the required radius \[PQP99 §3\].
-fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
+fn fit_swept_rectangle(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     let (_, axes) = principal_axes(triangles.iter().flatten().copied());
     let to_axes = axes.transpose();
     let points = || triangles.iter().flatten().map(|&p| to_axes * p);

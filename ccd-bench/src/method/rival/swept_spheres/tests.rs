@@ -1,4 +1,4 @@
-use super::{NodeContent, Pair, PairChildren, RssTree, Trees};
+use super::{NodeContent, PairChildren, RssNodePair, RssTree, RssTreePair};
 use crate::method::rival::Placement;
 use crate::scene::model::Model;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -44,7 +44,7 @@ fn nodes_hold_their_triangles_and_are_tight() {
             let mut farthest = 0.0_f64;
             for point in below.iter().flat_map(|&t| tree.triangles[t as usize]) {
                 let local = inside.rotation.transpose() * (point - inside.translation);
-                let nearest = local.clamp(DVec3::ZERO, node.lengths.extend(0.0));
+                let nearest = local.clamp(DVec3::ZERO, node.side_lengths.extend(0.0));
                 farthest = greater(farthest, local.distance(nearest));
             }
             assert!(
@@ -82,7 +82,7 @@ fn no_split_is_lopsided() {
 
 #[test]
 fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
-    let trees = Trees {
+    let trees = RssTreePair {
         a: RssTree::new(&knot()),
         b: RssTree::new(&knot()),
     };
@@ -90,7 +90,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
     let (mut checked, mut apart) = (0, 0);
     for _ in 0..60 {
         let placement = random_placement(&mut rng);
-        let mut pair: Pair = trees.root_pair(&placement).unwrap();
+        let mut pair: RssNodePair = trees.root_pair(&placement).unwrap();
         while let PairChildren::Pairs(pairs) = trees.children(&pair) {
             pair = pairs[rng.random_range(0..2)];
             let (a, b) = (triangles(&trees.a, pair.a), triangles(&trees.b, pair.b));
@@ -100,14 +100,15 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             let mut true_distance = f64::INFINITY;
             for &i in &a {
                 for &j in &b {
-                    let nearest = trees.nearest(super::TrianglePair { a: i, b: j }, &placement);
+                    let nearest =
+                        trees.nearest_points(super::TriangleIndexPair { a: i, b: j }, &placement);
                     true_distance = lesser(true_distance, nearest.vector_from_a_to_b().length());
                 }
             }
-            let gap = trees.gap(&pair);
+            let gap = trees.gap_bound(&pair);
             assert_eq!(gap.distance, trees.distance(&pair));
             assert!(gap.distance <= true_distance + 1e-12);
-            assert!(true_distance <= gap.distance + trees.distance_slack(&pair) + 1e-12);
+            assert!(true_distance <= gap.distance + trees.distance_excess_bound(&pair) + 1e-12);
             if gap.distance > 0.0 {
                 let along = |points: &[DVec3; 3]| points.map(|p| gap.direction.dot(p));
                 let high = a
@@ -137,13 +138,13 @@ fn levers_reach_all_points() {
         DVec3::new(0.3, -0.2, 0.5),
         DVec3::new(1.0, 2.0, 3.0).normalize(),
     );
-    for node in 0..tree.len() as u32 {
+    for node in 0..tree.node_count() as u32 {
         let farthest = triangles(&tree, node)
             .iter()
             .flat_map(|&t| tree.triangles[t as usize])
             .map(|p| (p - centre).cross(axis).length())
             .fold(0.0, greater);
-        let lever = tree.axis_distance(node, centre, axis);
+        let lever = tree.axis_distance_bound(node, centre, axis);
         let size = tree.nodes[node as usize].diameter_bound();
         assert!(
             farthest <= lever && lever <= farthest + size,

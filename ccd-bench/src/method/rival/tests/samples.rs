@@ -84,7 +84,7 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
             interior_plane_distance(b[i], a),
         );
         for j in 0..3 {
-            least = lesser(least, edge_distance(edge(a, i), edge(b, j)));
+            least = lesser(least, segment_distance(edge(a, i), edge(b, j)));
         }
     }
     least
@@ -104,7 +104,7 @@ fn interior_plane_distance(p: DVec3, t: &[DVec3; 3]) -> f64 {
 
 /// Returns the distance of two segments: the least over their ends, and over their lines if the nearest points lie on
 /// the segments.
-fn edge_distance([p, p2]: [DVec3; 2], [q, q2]: [DVec3; 2]) -> f64 {
+fn segment_distance([p, p2]: [DVec3; 2], [q, q2]: [DVec3; 2]) -> f64 {
     let to_segment = |x: DVec3, a: DVec3, b: DVec3| {
         let s = ((x - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
         x.distance(a.lerp(b, s))

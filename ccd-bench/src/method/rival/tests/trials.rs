@@ -3,9 +3,9 @@
 use crate::method::rival::patience::WorkLimit;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
 use crate::method::rival::{Placement, RivalMotion};
-use crate::method::solver::{Claim, Solver};
+use crate::method::solver::{ContactClaim, Solver};
 use crate::scene::model::Model;
-use crate::scene::tests::shots::Shots;
+use crate::scene::tests::shots::ShotGenerator;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Motion, Pose};
@@ -19,7 +19,7 @@ struct ExactCase {
     a: TriangleMesh,
     b: TriangleMesh,
     query: Motions,
-    time: f64,
+    contact_time: f64,
     /// The closing speed at the contact point, in units of length per unit of time.
     closing_speed: f64,
 }
@@ -54,7 +54,7 @@ fn rotated_box_mesh(half: DVec3, turn: DMat3) -> TriangleMesh {
     TriangleMesh::new((0..8).map(corner).collect(), &faces).unwrap()
 }
 
-fn unrotated_motion(at: DVec3, velocity: DVec3, spin: DVec3) -> Motion {
+fn motion_from_unrotated_pose(at: DVec3, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(Pose::at(at).unwrap(), velocity, spin).unwrap()
 }
 
@@ -78,16 +78,16 @@ const SLAB_HALF_EXTENTS: DVec3 = DVec3::new(10.0, 10.0, 1.0);
 /// The position of the slab, at which its top is at height 0.
 const SLAB_POSITION: DVec3 = DVec3::new(0.0, 0.0, -1.0);
 
-fn falling_boxes() -> Vec<ExactCase> {
+fn falling_box_cases() -> Vec<ExactCase> {
     let fall = |name, a, b, at_b, time| ExactCase {
         name,
         a,
         b,
         query: query(
-            unrotated_motion(3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
+            motion_from_unrotated_pose(3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
             resting_motion_at(at_b),
         ),
-        time,
+        contact_time: time,
         closing_speed: 4.0,
     };
     let cube = DVec3::splat(0.5);
@@ -118,7 +118,7 @@ fn falling_boxes() -> Vec<ExactCase> {
 }
 
 /// Returns cases of rotating rods that meet a slab, a wall, another rod, or a post.
-fn turning_rods() -> Vec<ExactCase> {
+fn turning_rod_cases() -> Vec<ExactCase> {
     let (length, width, height) = (2.0_f64, 0.05_f64, 1.2);
     let radius = length.hypot(width);
     let angle = |height: f64| (height / radius).asin() - width.atan2(length);
@@ -129,10 +129,10 @@ fn turning_rods() -> Vec<ExactCase> {
         a: box_mesh(DVec3::new(length, 0.3, width)),
         b: box_mesh(SLAB_HALF_EXTENTS),
         query: query(
-            unrotated_motion(height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y),
+            motion_from_unrotated_pose(height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y),
             resting_motion_at(SLAB_POSITION),
         ),
-        time: angle(height) / PI,
+        contact_time: angle(height) / PI,
         closing_speed: PI * rise(height),
     }];
     for turns in [1.0, 1.9] {
@@ -141,10 +141,10 @@ fn turning_rods() -> Vec<ExactCase> {
             a: box_mesh(DVec3::new(width, 0.3, length)),
             b: box_mesh(DVec3::new(1.0, 10.0, 10.0)),
             query: query(
-                unrotated_motion(DVec3::ZERO, DVec3::ZERO, turns * PI * DVec3::Y),
+                motion_from_unrotated_pose(DVec3::ZERO, DVec3::ZERO, turns * PI * DVec3::Y),
                 resting_motion_at((height + 1.0) * DVec3::X),
             ),
-            time: angle(height) / (turns * PI),
+            contact_time: angle(height) / (turns * PI),
             closing_speed: turns * PI * rise(height),
         });
     }
@@ -155,10 +155,10 @@ fn turning_rods() -> Vec<ExactCase> {
         a: rod(),
         b: rod(),
         query: query(
-            unrotated_motion(DVec3::ZERO, DVec3::ZERO, speed * DVec3::Y),
-            unrotated_motion(apart * DVec3::X, DVec3::ZERO, -speed * DVec3::Y),
+            motion_from_unrotated_pose(DVec3::ZERO, DVec3::ZERO, speed * DVec3::Y),
+            motion_from_unrotated_pose(apart * DVec3::X, DVec3::ZERO, -speed * DVec3::Y),
         ),
-        time: angle(0.5 * apart) / speed,
+        contact_time: angle(0.5 * apart) / speed,
         closing_speed: 2.0 * speed * rise(0.5 * apart),
     });
     scenes.push(rod_on_post());
@@ -177,10 +177,10 @@ fn rod_on_post() -> ExactCase {
         a: box_mesh(DVec3::new(length, width, 0.1)),
         b: rotated_box_mesh(DVec3::new(0.1, 0.1, 0.5), outward),
         query: query(
-            unrotated_motion(DVec3::ZERO, DVec3::ZERO, 1.5 * DVec3::Z),
+            motion_from_unrotated_pose(DVec3::ZERO, DVec3::ZERO, 1.5 * DVec3::Z),
             resting_motion_at(distance * near + 0.1 * SQRT_2 * facing),
         ),
-        time: (at - (width / distance).asin()) / 1.5,
+        contact_time: (at - (width / distance).asin()) / 1.5,
         closing_speed: 1.5 * (distance * distance - width * width).sqrt(),
     }
 }
@@ -194,12 +194,12 @@ pub(in crate::method::rival) fn assert_exact_contact_times<C: Solver>(
     /// The allowed lateness due to rounding, as a fraction of the duration.
     const MAX_ROUNDING_LATENESS: f64 = 1e-12;
 
-    for scene in falling_boxes().into_iter().chain(turning_rods()) {
+    for scene in falling_box_cases().into_iter().chain(turning_rod_cases()) {
         let reply = rival(&scene.a, &scene.b).answer(&scene.query, tolerance);
-        let Claim::Contact { time } = reply.claim else {
-            panic!("{}: {reply:?}, not {}", scene.name, scene.time);
+        let ContactClaim::Contact { time } = reply.claim else {
+            panic!("{}: {reply:?}, not {}", scene.name, scene.contact_time);
         };
-        let early = scene.time - time;
+        let early = scene.contact_time - time;
         let most = 2.0 * tolerance / scene.closing_speed;
         assert!(
             early >= -MAX_ROUNDING_LATENESS,
@@ -270,10 +270,10 @@ pub(in crate::method::rival) fn assert_shots_are_conservative(
     /// The least time between samples, as a fraction of the duration; bodies that are far apart are sampled less often.
     const MIN_SAMPLE_SPACING: f64 = 5e-4;
 
-    let shots = Shots {
+    let shots = ShotGenerator {
         count: 60,
         translation_count: 20,
-        distance: 3.0..3.8,
+        start_distances: 3.0..3.8,
         max_offset: 2.3,
         seed: 5,
     };
@@ -284,9 +284,11 @@ pub(in crate::method::rival) fn assert_shots_are_conservative(
     let (mut hits, mut free) = (0, 0);
     for query in shots.queries().unwrap() {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-        let apart = |time: f64| brute_force.distance(&b.at(time).relative_to(&a.at(time)));
+        let apart = |time: f64| {
+            brute_force.distance(&b.placement_at(time).relative_to(&a.placement_at(time)))
+        };
         let until = match rival.answer(&query, tolerance).claim {
-            Claim::Contact { time } => {
+            ContactClaim::Contact { time } => {
                 let distance = apart(time);
                 assert!(
                     distance <= 1.000_001 * tolerance,
@@ -296,7 +298,7 @@ pub(in crate::method::rival) fn assert_shots_are_conservative(
                 hits += 1;
                 time
             }
-            Claim::NoContact => {
+            ContactClaim::NoContact => {
                 free += 1;
                 query.duration
             }
@@ -322,22 +324,22 @@ pub(in crate::method::rival) fn assert_stops_at_work_limit<C: Solver>(
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
     give: impl Fn(&mut C, WorkLimit),
 ) {
-    let (a, b, query) = boxes_rotating_past();
+    let (a, b, query) = boxes_rotating_past_each_other();
     let mut rival = rival(&a, &b);
-    assert_eq!(rival.answer(&query, 1e-6).claim, Claim::NoContact);
+    assert_eq!(rival.answer(&query, 1e-6).claim, ContactClaim::NoContact);
     let short = [
         WorkLimit {
-            steps: 20,
+            max_steps: 20,
             ..WorkLimit::default()
         },
         WorkLimit {
-            pairs: 1_000,
+            max_pairs: 1_000,
             ..WorkLimit::default()
         },
     ];
     for patience in short {
         give(&mut rival, patience);
-        let Claim::Unresolved { safe_until } = rival.answer(&query, 1e-6).claim else {
+        let ContactClaim::Unresolved { safe_until } = rival.answer(&query, 1e-6).claim else {
             panic!("{patience:?} was enough");
         };
         let within = 0.0 < safe_until && safe_until < query.duration;
@@ -346,11 +348,12 @@ pub(in crate::method::rival) fn assert_stops_at_work_limit<C: Solver>(
 }
 
 /// Returns two boxes that rotate past each other without contact, so close that the decision takes many steps.
-pub(in crate::method::rival) fn boxes_rotating_past() -> (TriangleMesh, TriangleMesh, Motions) {
+pub(in crate::method::rival) fn boxes_rotating_past_each_other()
+-> (TriangleMesh, TriangleMesh, Motions) {
     // Its upright edges are at a distance of 1 from its axis.
     let turning = box_mesh(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(
-        unrotated_motion(DVec3::ZERO, DVec3::ZERO, 6.0 * DVec3::Z),
+        motion_from_unrotated_pose(DVec3::ZERO, DVec3::ZERO, 6.0 * DVec3::Z),
         resting_motion_at(1.51 * DVec3::X),
     );
     (turning, box_mesh(DVec3::splat(0.5)), query)

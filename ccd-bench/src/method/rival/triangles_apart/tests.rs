@@ -10,7 +10,7 @@ fn random_vec(rng: &mut Pcg64) -> DVec3 {
 
 /// Returns two random triangles: in parallel planes, with corners on a grid, collapsed to segments, or in general
 /// position.
-fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
+fn random_triangle_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     let kind = rng.random_range(0..5);
     let mut triangle = |shift: DVec3| {
         let mut corners = [0; 3].map(|_| random_vec(rng));
@@ -49,7 +49,7 @@ fn the_points_are_nearest() {
     let mut rng = Pcg64::seed_from_u64(2);
     let (mut apart, mut meeting) = (0, 0);
     for _ in 0..50_000 {
-        let (a, b) = random_pair(&mut rng);
+        let (a, b) = random_triangle_pair(&mut rng);
         let found = nearest(&a, &b);
         let distance = found.vector_from_a_to_b().length();
         for (point, triangle) in [(found.on_a, &a), (found.on_b, &b)] {
@@ -82,27 +82,27 @@ fn the_points_are_nearest() {
 
 #[test]
 fn samples_agree() {
-    const STEPS: u32 = 24;
+    const GRID_STEPS: u32 = 24;
     let mut rng = Pcg64::seed_from_u64(3);
     for _ in 0..100 {
-        let (a, b) = random_pair(&mut rng);
+        let (a, b) = random_triangle_pair(&mut rng);
         let distance = nearest(&a, &b).vector_from_a_to_b().length();
         let mut least = f64::INFINITY;
         let [p, q, r] = a;
-        for i in 0..=STEPS {
-            for j in 0..=STEPS - i {
+        for i in 0..=GRID_STEPS {
+            for j in 0..=GRID_STEPS - i {
                 let (u, v) = (
-                    f64::from(i) / f64::from(STEPS),
-                    f64::from(j) / f64::from(STEPS),
+                    f64::from(i) / f64::from(GRID_STEPS),
+                    f64::from(j) / f64::from(GRID_STEPS),
                 );
                 least = lesser(
                     least,
-                    distance_to_samples(p + u * (q - p) + v * (r - p), &b, STEPS),
+                    distance_to_samples(p + u * (q - p) + v * (r - p), &b, GRID_STEPS),
                 );
             }
         }
         // Edges are at most √12 long, and some sample is within an edge's step of either point.
-        let spacing = 2.0 * 12_f64.sqrt() / f64::from(STEPS);
+        let spacing = 2.0 * 12_f64.sqrt() / f64::from(GRID_STEPS);
         assert!(distance <= least + 1e-12, "{distance} {least}");
         assert!(least <= distance + spacing, "{distance} {least}");
     }

@@ -3,7 +3,7 @@ use crate::method::rival::tests::samples::RandomSource;
 
 /// Returns true if an edge of one triangle passes through the other. Two triangles in general position cross only in
 /// that way.
-fn is_pierced(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
+fn any_edge_pierces(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let pierces = |edge: [DVec3; 2], t: &[DVec3; 3]| {
         let normal = (t[1] - t[0]).cross(t[2] - t[0]);
         let [from, to] = edge.map(|p| (p - t[0]).dot(normal));
@@ -26,7 +26,7 @@ fn the_test_agrees_with_edges_through_triangles() {
     for _ in 0..20_000 {
         let (a, b) = (samples.triangle(), samples.triangle());
         let cross = triangles_cross(&a, &b);
-        assert_eq!(cross, is_pierced(&a, &b), "{a:?} {b:?}");
+        assert_eq!(cross, any_edge_pierces(&a, &b), "{a:?} {b:?}");
         assert_eq!(cross, triangles_cross(&b, &a));
         crossings += usize::from(cross);
     }

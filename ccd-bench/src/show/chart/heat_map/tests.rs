@@ -1,8 +1,8 @@
 use super::*;
 
-fn draw_map(kind: &'static HeatMapKind, cells: Vec<Option<HeatCell>>) -> String {
+fn draw_map(kind: &'static HeatMapTexts, cells: Vec<Option<HeatCell>>) -> String {
     let map = HeatMap {
-        kind,
+        texts: kind,
         methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
         rows: vec![HeatRow {
             name: "bullet and paper".to_owned(),
@@ -19,11 +19,12 @@ fn count(svg: &str, colour: &str) -> usize {
 
 #[test]
 fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
-    let cell =
-        |worst, share, limit: &str| Some(HeatCell::solved_range(worst, share, limit.to_owned()));
+    let cell = |worst, share, limit: &str| {
+        Some(HeatCell::solved_range_cell(worst, share, limit.to_owned()))
+    };
     let right = cell(Verdict::Right, 1.0, "");
     let svg = draw_map(
-        SOLVED_RANGE,
+        SOLVED_RANGE_TEXTS,
         vec![right, cell(Verdict::Missed, 0.25, "1e5"), None],
     );
     for text in [
@@ -45,8 +46,8 @@ fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
 
 #[test]
 fn costs_that_grow_are_darker() {
-    let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::cost_growth(factor)));
-    let svg = draw_map(COST_GROWTH, cells.into_iter().chain([None]).collect());
+    let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::cost_growth_cell(factor)));
+    let svg = draw_map(COST_GROWTH_TEXTS, cells.into_iter().chain([None]).collect());
     assert_eq!(
         (count(&svg, "#EAF2F8"), count(&svg, "#102F54")),
         (2, 2),

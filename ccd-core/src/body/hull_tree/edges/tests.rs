@@ -24,7 +24,7 @@ fn edges_are_found_as_in_a_table() {
 }
 
 /// Finds the first fault of facets that do not close a surface with a hash table of edges, as a reference.
-fn fault_by_a_table(hull: &Hull) -> Result<(), HullFault> {
+fn find_fault_by_hash_set(hull: &Hull) -> Result<(), HullFault> {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges = HashSet::new();
     for (facet, corners) in (0..).zip(hull.facets.iter()) {
@@ -60,7 +60,7 @@ fn the_first_fault_is_found_as_by_a_table() {
         let facets = facets.iter().collect();
         let hull = Hull { points, facets };
         closed += u32::from(check_facets(&hull).is_ok());
-        assert_eq!(check_facets(&hull), fault_by_a_table(&hull));
+        assert_eq!(check_facets(&hull), find_fault_by_hash_set(&hull));
     }
     assert!((200..1900).contains(&closed), "{closed}");
 }

@@ -1,7 +1,7 @@
 //! Measures the worst rounding errors of the tree search: of discs in f32 against their points in f64, and of the found
 //! point. The error of f64 is a five hundred millionth of that of f32.
 
-use super::{Disc, Discs, LANES, SupportTree};
+use super::{Disc, DiscGroup, LANES, SupportTree};
 use crate::math::order::greater;
 use crate::rounding::{DISC_HEIGHT_ERROR_F32, DISC_TILT_ERROR_F32, HEIGHT_ERROR_F64};
 use crate::tests::rational::Exact3;
@@ -32,13 +32,13 @@ fn worst_disc() {
     let found = WorstCaseSearch::of("DISC_F32", 20_000).search(|tape| {
         let (points, along) = points(tape);
         let (exact, d) = unit_in_max_norm(along);
-        let discs = Discs::new(&points, LANES);
+        let discs = DiscGroup::new(&points, LANES);
         let bound = f64::from(discs.bounds(d)[0]) - f64::from(DISC_HEIGHT_ERROR_F32);
         let highest = points.iter().map(|p| p.dot(exact));
         let highest = highest.fold(f64::NEG_INFINITY, greater);
         Some(share(highest - bound, DISC_HEIGHT_ERROR_F32.into()))
     });
-    found.assert_within(100.0);
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn worst_tilt() {
         let allowed = f64::from(DISC_TILT_ERROR_F32) * exact.length_squared();
         Some(share(truth - across, allowed))
     });
-    found.assert_within(20.0);
+    found.assert_tight_bound(20.0);
 }
 
 /// Measures how much lower than the highest point the found point may be, among points of nearly equal height.
@@ -73,8 +73,8 @@ fn worst_farthest() {
             let (east, north) = along.any_orthonormal_pair();
             let (middle, wide) = (DVec3::from(tape.vector(-8..=2)), tape.size(-20..=2));
             let points: [DVec3; 12] = std::array::from_fn(|_| {
-                let aside = east * tape.any(-2..=0) + north * tape.any(-2..=0);
-                middle + (aside + along * tape.any(-58..=-48)) * wide
+                let aside = east * tape.any_number(-2..=0) + north * tape.any_number(-2..=0);
+                middle + (aside + along * tape.any_number(-58..=-48)) * wide
             });
             let chosen = SupportTree::new(&points).extremal_point(along) as usize;
             let exact = Exact3::of(along);
@@ -88,5 +88,5 @@ fn worst_farthest() {
             let allowed = 2.0 * HEIGHT_ERROR_F64 * along.abs().element_sum() * reach;
             Some(share(missed, allowed))
         });
-    found.assert_within(20.0);
+    found.assert_tight_bound(20.0);
 }

@@ -9,24 +9,24 @@ use glam::{DMat3, DVec3, Vec3};
 /// The number of points whose heights are computed at once by vector instructions.
 const LANES: usize = 8;
 
-const MAX_POINTS: usize = 3 * MAX_SAMPLED_TRIANGLES;
+const MAX_SAMPLE_POINTS: usize = 3 * MAX_SAMPLED_TRIANGLES;
 
 /// A sample of a node's points, moved to the origin and scaled to unit size. The memory is reused by one sample after
 /// the other.
 #[derive(Clone, Debug)]
-pub(crate) struct Sample {
-    buffer: [DVec3; MAX_POINTS],
+pub(crate) struct PointSample {
+    buffer: [DVec3; MAX_SAMPLE_POINTS],
     count: usize,
     /// The points in blocks of eight x, y and z coordinates; the last block repeats the last point.
-    blocks: [[[f32; LANES]; 3]; MAX_POINTS / LANES],
+    blocks: [[[f32; LANES]; 3]; MAX_SAMPLE_POINTS / LANES],
 }
 
-impl Sample {
+impl PointSample {
     /// A sample without points.
-    pub(crate) const EMPTY: Sample = Sample {
-        buffer: [DVec3::ZERO; MAX_POINTS],
+    pub(crate) const EMPTY: PointSample = PointSample {
+        buffer: [DVec3::ZERO; MAX_SAMPLE_POINTS],
         count: 0,
-        blocks: [[[0.0; LANES]; 3]; MAX_POINTS / LANES],
+        blocks: [[[0.0; LANES]; 3]; MAX_SAMPLE_POINTS / LANES],
     };
 
     /// Fills the sample with a node's points, or with every k-th point if there are too many. Triangles are taken with
@@ -35,7 +35,7 @@ impl Sample {
         self.count = 0;
         let size = if node_points.are_triangles { 3 } else { 1 };
         let groups = node_points.points.len() / size;
-        let step = groups.div_ceil(MAX_POINTS / size).max(1);
+        let step = groups.div_ceil(MAX_SAMPLE_POINTS / size).max(1);
         for group in (0..groups).step_by(step) {
             let points = &node_points.points[size * group..size * (group + 1)];
             self.buffer[self.count..][..size].copy_from_slice(points);
@@ -50,7 +50,7 @@ impl Sample {
     }
 
     /// Returns half the surface area of the sample's bounding box along the columns of a frame.
-    pub(super) fn surface(&self, frame: &DMat3) -> f32 {
+    pub(super) fn half_surface_area(&self, frame: &DMat3) -> f32 {
         let axes = [0, 1, 2].map(|k| frame.col(k).as_vec3());
         let mut low = [[f32::INFINITY; LANES]; 3];
         let mut high = [[f32::NEG_INFINITY; LANES]; 3];

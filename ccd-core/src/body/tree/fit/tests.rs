@@ -7,7 +7,7 @@ use crate::tuning::MAX_SAMPLED_TRIANGLES;
 use glam::DQuat;
 
 /// Returns the least of half the surface areas of the points' boxes along all trial frames.
-fn least_surface_area(points: &[DVec3], triangles: bool) -> f64 {
+fn least_half_surface_area(points: &[DVec3], triangles: bool) -> f64 {
     let mut frames = vec![DMat3::IDENTITY];
     frames.push(principal_axes(|| points.iter().map(|&p| (p, 1.0))));
     if triangles {
@@ -87,16 +87,16 @@ fn random_triangles_in_rectangle(
 #[test]
 fn boxes_are_as_small_as_the_best_of_all_frames() {
     let mut rng = rng(8);
-    let mut sample = Sample::EMPTY;
+    let mut sample = PointSample::EMPTY;
     let [mut by_area, mut by_turn] = [0; 2];
     for k in 0..60 {
         let shape = [[1.0, 0.0], [2.0, 0.5]][k % 2];
         let points = random_triangles_in_rectangle(&mut rng, MAX_SAMPLED_TRIANGLES, shape);
         sample.fill_from(&triangles(&points));
         let found = surface(best_frame(&sample, true), &points);
-        let least = least_surface_area(&points, true);
+        let least = least_half_surface_area(&points, true);
         assert!(found <= (1.0 + 1e-4) * least, "{found} for {least}");
-        let of_points = least_surface_area(&points, false);
+        let of_points = least_half_surface_area(&points, false);
         let better = found < 0.99 * of_points;
         by_turn += usize::from(better && k % 2 == 0);
         by_area += usize::from(better && k % 2 == 1);
@@ -107,7 +107,7 @@ fn boxes_are_as_small_as_the_best_of_all_frames() {
 #[test]
 fn boxes_are_as_small_as_those_of_all_points() {
     let mut rng = rng(7);
-    let mut sample = Sample::EMPTY;
+    let mut sample = PointSample::EMPTY;
     for size in [1e-9, 1.0, 1e9] {
         for count in [
             1,
@@ -129,7 +129,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                 let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
                 assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
-                let least = least_surface_area(&points, triangles);
+                let least = least_half_surface_area(&points, triangles);
                 let most = match count {
                     // The middles of two triangles are on a line, and rounding chooses the axes across it.
                     1 | 2 => 1.5,
@@ -147,7 +147,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
 
 #[test]
 fn degenerate_points_have_a_box() {
-    let mut sample = Sample::EMPTY;
+    let mut sample = PointSample::EMPTY;
     let shapes = [
         [0.0; 3],
         [1e-310, 0.0, 3e-310],
@@ -194,16 +194,19 @@ fn only_orthonormal_frames_are_frames() {
 #[test]
 fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut rng = rng(9);
-    let mut sample = Sample::EMPTY;
+    let mut sample = PointSample::EMPTY;
     for (count, size) in [(40, 1.0), (3, 1e-9), (7, 1e9), (13, 1e3)] {
         let points = sheet(&mut rng, count, size);
         sample.fill_from(&triangles(&points));
         let (low, high) = crate::math::vector::bounding_box(sample.points().iter().copied());
         assert!((low + high).length() < 1e-9, "{low} {high}");
         assert!(((high - low).max_element() - 1.0).abs() < 1e-9);
-        let mut fresh = Sample::EMPTY;
+        let mut fresh = PointSample::EMPTY;
         fresh.fill_from(&triangles(&points));
         let turned = DMat3::from_quat(DQuat::from_axis_angle(direction(&mut rng), 1.0));
-        assert_eq!(sample.surface(&turned), fresh.surface(&turned));
+        assert_eq!(
+            sample.half_surface_area(&turned),
+            fresh.half_surface_area(&turned)
+        );
     }
 }

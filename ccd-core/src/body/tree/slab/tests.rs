@@ -1,7 +1,7 @@
 use super::Slab;
 use crate::math::order::greater;
 use crate::rounding::UNIT_ROUNDOFF_F64;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
@@ -11,26 +11,26 @@ fn worst_slab() {
     let found = WorstCaseSearch::of("Slab::about: 16u", 20_000).search(|tape| {
         let [u, v, centre] = [(); 3].map(|()| DVec3::from(tape.vector(-20..=10)));
         let corners = [(); 6].map(|()| {
-            let at = centre + u * tape.any(-10..=0) + v * tape.any(-10..=0);
-            DVec3::from(at.to_array().map(|x| x + x * tape.any(-54..=-45)))
+            let at = centre + u * tape.any_number(-10..=0) + v * tape.any_number(-10..=0);
+            DVec3::from(at.to_array().map(|x| x + x * tape.any_number(-54..=-45)))
         });
         let slab = Slab::fit_to(&corners, centre)?;
-        let normal = Double3::from(slab.normal);
+        let normal = DoubleDouble3::from(slab.normal);
         let height = |&p: &DVec3| {
             normal
-                .dot(Double3::from(p) - Double3::from(centre))
+                .dot(DoubleDouble3::from(p) - DoubleDouble3::from(centre))
                 .get()
                 .abs()
         };
         let size = |&p: &DVec3| (p - centre).abs().max_element();
         let size = corners.iter().map(size).fold(0.0, greater);
         let highest = corners.iter().map(height).fold(0.0, greater);
-        let found =
-            Double::from(slab.half_thickness) - Double::from(16.0 * UNIT_ROUNDOFF_F64 * size);
+        let found = DoubleDouble::from(slab.half_thickness)
+            - DoubleDouble::from(16.0 * UNIT_ROUNDOFF_F64 * size);
         Some(share(
-            (Double::from(highest) - found).get(),
+            (DoubleDouble::from(highest) - found).get(),
             16.0 * UNIT_ROUNDOFF_F64 * size,
         ))
     });
-    found.assert_within(30.0);
+    found.assert_tight_bound(30.0);
 }

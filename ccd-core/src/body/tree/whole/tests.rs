@@ -1,18 +1,20 @@
 //! Tests that a body's box contains all of the body's points, up to its `slack`.
 
 use super::*;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation};
 use crate::tests::worst::{WorstCaseSearch, share};
 
 /// Measures how much of a box's slack is needed for the exact heights of all points, without a rounding radius.
 #[test]
 fn worst_slack() {
-    let mut sample = Sample::EMPTY;
+    let mut sample = PointSample::EMPTY;
     let found = WorstCaseSearch::of("Whole::slack", 20_000).search(|tape| {
         let [u, v, w, middle] = [(); 4].map(|()| DVec3::from(tape.vector(-20..=0)));
         let points = [(); 6].map(|()| {
-            let at = u * tape.any(-8..=0) + v * tape.any(-8..=0) + w * tape.any(-8..=0);
+            let at = u * tape.any_number(-8..=0)
+                + v * tape.any_number(-8..=0)
+                + w * tape.any_number(-8..=0);
             middle + at
         });
         let node_points = NodePoints {
@@ -28,30 +30,30 @@ fn worst_slack() {
             1 => axis.map(|x| tape.number_near(x)),
             _ => DVec3::from(tape.vector(-20..=0)),
         };
-        let n = Double3::from(n);
+        let n = DoubleDouble3::from(n);
         let length = n.dot(n).sqrt().get();
         let along = |axis: DVec3| {
-            let part = n.dot(Double3::from(axis));
+            let part = n.dot(DoubleDouble3::from(axis));
             part.max(-part)
         };
-        let half = whole.half.to_array();
+        let half = whole.half_extents.to_array();
         let reach = (0..3)
-            .map(|k| along(whole.axes.col(k)) * Double::from(half[k]))
-            .fold(Double::ZERO, |sum, part| sum + part);
+            .map(|k| along(whole.axes.col(k)) * DoubleDouble::from(half[k]))
+            .fold(DoubleDouble::ZERO, |sum, part| sum + part);
         let over = |&point: &DVec3| {
-            let way = Double3::from(point) - Double3::from(whole.centre);
+            let way = DoubleDouble3::from(point) - DoubleDouble3::from(whole.centre);
             (n.dot(way) - reach).get()
         };
         let over = points.iter().map(over).fold(f64::NEG_INFINITY, greater);
         (length > 0.0 && whole.radius > 0.0).then(|| share(over, whole.slack * length))
     });
-    found.assert_within(30.0);
+    found.assert_tight_bound(30.0);
 }
 
 #[test]
 fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
     let mut rng = rng(5);
-    let mut sample = Sample::EMPTY;
+    let mut sample = PointSample::EMPTY;
     for _ in 0..300 {
         let size = magnitude(&mut rng, -9.0, 9.0);
         let turn = rotation(&mut rng);
@@ -79,7 +81,7 @@ fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
         for _ in 0..20 {
             let n = direction(&mut rng);
             let along = (whole.axes.transpose() * n).abs();
-            let reach = along.dot(whole.half) + whole.slack;
+            let reach = along.dot(whole.half_extents) + whole.slack;
             for &point in &points {
                 let height = n.dot(point - whole.centre);
                 assert!(height <= reach, "{height} {reach}");

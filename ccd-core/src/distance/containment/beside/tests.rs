@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 /// The number of samples of an edge.
 const SAMPLES: usize = 1 << 14;
 
-const REACH: f64 = 1e-9;
+const MAX_EDGE_HEIGHT: f64 = 1e-9;
 
 /// A permutation of the axes and a translation, both exact for whole numbers.
 struct Placement {
@@ -23,7 +23,7 @@ impl Placement {
     fn new(rng: &mut Pcg64) -> Self {
         Placement {
             axes: rng.random_range(0..3),
-            shift: whole(rng, 9),
+            shift: random_whole_vector(rng, 9),
         }
     }
 
@@ -41,12 +41,12 @@ impl Placement {
 }
 
 /// Draws a vector of whole numbers from −`most` to `most`.
-fn whole(rng: &mut Pcg64, most: i32) -> DVec3 {
+fn random_whole_vector(rng: &mut Pcg64, most: i32) -> DVec3 {
     DVec3::from([0; 3].map(|_| f64::from(rng.random_range(-most..=most))))
 }
 
 fn random_plane_point(rng: &mut Pcg64) -> DVec2 {
-    whole(rng, 7).truncate()
+    random_whole_vector(rng, 7).truncate()
 }
 
 /// Draws the corners of a plate, counterclockwise: a triangle, or a rectangle.
@@ -191,13 +191,14 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
         let plate = plate(&outline, &placement);
         // The other body has another placement.
         let elsewhere = Placement {
-            shift: whole(&mut rng, 9),
+            shift: random_whole_vector(&mut rng, 9),
             ..placement
         };
         let other = random_body_with_edge(&mut rng, edge, &elsewhere);
         let back = placement.shift - elsewhere.shift;
         let (a, b) = (plate.pieces().get(0), other.pieces().get(0));
-        let found: Vec<DVec3> = points_beside_edges(&a, &b, |p| p + back, REACH).collect();
+        let found: Vec<DVec3> =
+            points_beside_edges(&a, &b, |p| p + back, MAX_EDGE_HEIGHT).collect();
         let expected = if height > 0.0 {
             Some(Vec::new())
         } else {
@@ -227,7 +228,13 @@ fn pieces_in_one_plane_have_no_points() {
         polytope(corners.to_vec(), &[&[0, 1, 2], &[2, 1, 0]])
     });
     let (a, b) = (a.pieces().get(0), b.pieces().get(0));
-    assert_eq!(points_beside_edges(&a, &b, |p| p, REACH).count(), 0);
+    assert_eq!(
+        points_beside_edges(&a, &b, |p| p, MAX_EDGE_HEIGHT).count(),
+        0
+    );
     let tilted = |p: DVec3| p.with_z(1.0 - p.y);
-    assert_eq!(points_beside_edges(&a, &b, tilted, REACH).count(), 2);
+    assert_eq!(
+        points_beside_edges(&a, &b, tilted, MAX_EDGE_HEIGHT).count(),
+        2
+    );
 }

@@ -14,11 +14,11 @@ use crate::math::order::{greater, lesser};
 use crate::math::simd::{Vec3x8, load};
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tuning::{MAX_TURNING_PLANE_TIME, MUCH_LARGER_RATIO};
+use crate::tuning::{MAX_TURNING_PLANE_TIME, MIN_TURNING_PLANE_RADIUS_RATIO};
 use crate::vectorize;
 use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
-use setting::{Setting, Shape};
+use setting::{PairConfiguration, Shape};
 
 /// A rigid set of points that turns about a centre.
 struct Solid {
@@ -30,7 +30,7 @@ struct Solid {
 
 impl Solid {
     /// Returns the largest height of a point along `n` after `tau`.
-    fn highest(&self, n: DVec3, tau: f64) -> f64 {
+    fn max_height(&self, n: DVec3, tau: f64) -> f64 {
         let turn = DQuat::from_scaled_axis(self.spin * tau);
         let heights = self.points.iter().map(|&x| n.dot(turn * (x - self.centre)));
         heights.fold(f64::NEG_INFINITY, greater) + n.dot(self.centre)
@@ -74,7 +74,7 @@ struct Sample<C, P> {
 
 /// The largest errors among the samples, as shares of their allowances.
 #[derive(Debug, Default)]
-struct WorstShares {
+struct WorstErrorShares {
     support: f64,
     rate: f64,
     cross_product: f64,
@@ -87,16 +87,16 @@ struct WorstShares {
     turning_plane_count: usize,
     /// The number of free times of bodies that accelerate.
     accelerating_count: usize,
-    unbounded_count: usize,
+    unbounded_free_time_count: usize,
 }
 
 #[test]
 fn planes_hold_and_allowances_suffice_for_boxes() {
     let mut rng = rng(1);
-    let mut worst = WorstShares::new();
+    let mut worst = WorstErrorShares::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng);
-        let sample = Setting::new(&mut rng, &other).boxes(&mut rng, &other);
+        let sample = PairConfiguration::new(&mut rng, &other).boxes(&mut rng, &other);
         sample.check_random_axes(&mut rng, &mut worst);
     }
     worst.assert_within_allowances();
@@ -105,10 +105,10 @@ fn planes_hold_and_allowances_suffice_for_boxes() {
 #[test]
 fn planes_hold_and_allowances_suffice_for_triangles() {
     let mut rng = rng(2);
-    let mut worst = WorstShares::new();
+    let mut worst = WorstErrorShares::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng).triangle();
-        let sample = Setting::new(&mut rng, &other).triangles(&mut rng, &other);
+        let sample = PairConfiguration::new(&mut rng, &other).triangles(&mut rng, &other);
         sample.check_random_axes(&mut rng, &mut worst);
     }
     worst.assert_within_allowances();
@@ -132,7 +132,7 @@ impl AxisValues {
     }
 
     /// Returns all values for comparison, with `None` for NaN, so that NaN values compare equal.
-    fn numbers(&self) -> Vec<Option<f32>> {
+    fn comparable_values(&self) -> Vec<Option<f32>> {
         let rows = [
             &self.axis[..],
             &self.free_times,
@@ -146,11 +146,11 @@ impl AxisValues {
     }
 }
 
-impl WorstShares {
+impl WorstErrorShares {
     fn new() -> Self {
-        WorstShares {
+        WorstErrorShares {
             min_relative_excess: f64::INFINITY,
-            ..WorstShares::default()
+            ..WorstErrorShares::default()
         }
     }
 
@@ -166,7 +166,7 @@ impl WorstShares {
             "{self:?}"
         );
         assert!(
-            self.accelerating_count > 5_000 && self.unbounded_count > 500,
+            self.accelerating_count > 5_000 && self.unbounded_free_time_count > 500,
             "{self:?}"
         );
     }
@@ -183,7 +183,7 @@ fn axis_values<L: Simd, C: Children, P: OtherNode>(
     let pairs = sample.pairs(level);
     let some = axis::oriented_towards(Vec3x8::splat(level, some), pairs.offset);
     let axes = [
-        widest_axis(&pairs),
+        widest_gap_axis(&pairs),
         closest_approach_axis(&pairs),
         axis::axis_along(pairs.children, pairs.other, pairs.offset, some),
     ];
@@ -193,7 +193,7 @@ fn axis_values<L: Simd, C: Children, P: OtherNode>(
 type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
-fn widest_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> AxesX8<L> {
+fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> AxesX8<L> {
     axis::widest_gap_axis(pairs.children, pairs.other, pairs.offset)
 }
 
@@ -212,8 +212,8 @@ fn values_along_axis<L: Simd, C: Children, P: OtherNode>(
 ) -> AxisValues {
     let motion = pairs.motion;
     let (m, o) = (
-        motion.split.cross_angular_velocity(axis.n),
-        motion.other.cross_angular_velocity(axis.n),
+        motion.split_rotation.cross_angular_velocity(axis.n),
+        motion.other_rotation.cross_angular_velocity(axis.n),
     );
     let rate =
         axis.n.dot(pairs.velocity) + pairs.children.extent_along(m) + pairs.other.extent_along(o);
@@ -224,8 +224,8 @@ fn values_along_axis<L: Simd, C: Children, P: OtherNode>(
         cross_product_lengths: [*m.length(), *o.length()],
         free_times: [
             fixed_plane_times(pairs, axis),
-            free_times_turning_with_split(pairs, axis),
-            free_times_turning_with_other(pairs, axis),
+            free_times_with_split_body(pairs, axis),
+            free_times_with_other_body(pairs, axis),
         ],
     }
 }
@@ -239,7 +239,7 @@ fn fixed_plane_times<L: Simd, C: Children, P: OtherNode>(
 }
 
 #[inline(never)]
-fn free_times_turning_with_split<L: Simd, C: Children, P: OtherNode>(
+fn free_times_with_split_body<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
@@ -247,7 +247,7 @@ fn free_times_turning_with_split<L: Simd, C: Children, P: OtherNode>(
 }
 
 #[inline(never)]
-fn free_times_turning_with_other<L: Simd, C: Children, P: OtherNode>(
+fn free_times_with_other_body<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
@@ -274,7 +274,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         EightPairs::new(level, &self.group, &self.other_node, &self.motion)
     }
 
-    fn check_random_axes(&self, rng: &mut Pcg64, worst: &mut WorstShares) {
+    fn check_random_axes(&self, rng: &mut Pcg64, worst: &mut WorstErrorShares) {
         // Axes may have any length.
         let some = direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
         let found = self.axis_values_on_all_levels(some);
@@ -285,9 +285,9 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         for found in &found {
             self.record_errors(found, worst);
             self.check_fixed_plane(found, worst);
-            if reach > MUCH_LARGER_RATIO * self.other_node.radius() {
+            if reach > MIN_TURNING_PLANE_RADIUS_RATIO * self.other_node.radius() {
                 self.check_turning_plane(found, LargerBody::SplitBody, worst);
-            } else if self.other_node.radius() > MUCH_LARGER_RATIO * reach {
+            } else if self.other_node.radius() > MIN_TURNING_PLANE_RADIUS_RATIO * reach {
                 self.check_turning_plane(found, LargerBody::OtherBody, worst);
             }
         }
@@ -298,19 +298,24 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let [best, baseline] = [Instructions::Best, Instructions::Baseline]
             .map(|instructions| vectorize!(instructions.level(), level => axis_values(level, self, some)));
         for (best, baseline) in best.iter().zip(&baseline) {
-            assert_eq!(best.numbers(), baseline.numbers(), "{:?}", self.motion);
+            assert_eq!(
+                best.comparable_values(),
+                baseline.comparable_values(),
+                "{:?}",
+                self.motion
+            );
         }
         best
     }
 
     /// Compares each value in f32 with its value in f64, and records the largest errors in `worst`.
-    fn record_errors(&self, found: &AxisValues, worst: &mut WorstShares) {
+    fn record_errors(&self, found: &AxisValues, worst: &mut WorstErrorShares) {
         let frees = self.axis_free_times(found);
         for lane in 0..self.children.len() {
             let of = self.error_shares(found, &frees, lane);
             worst.support = greater(worst.support, of.support);
             worst.rate = greater(worst.rate, of.rate);
-            worst.cross_product = greater(worst.cross_product, of.across);
+            worst.cross_product = greater(worst.cross_product, of.cross_product);
             worst.clock = greater(worst.clock, of.clock);
         }
     }
@@ -320,20 +325,25 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Checks that a fixed plane keeps the pair apart for its whole free time.
-    fn check_fixed_plane(&self, found: &AxisValues, worst: &mut WorstShares) {
+    fn check_fixed_plane(&self, found: &AxisValues, worst: &mut WorstErrorShares) {
         let [free, ..] = found.free_times;
         for (lane, free) in free.into_iter().enumerate() {
             let n = found.normal(lane);
             let gap = |tau: f64| {
-                let child = self.children[lane].highest(n, tau) + n.dot(self.displacement(tau));
-                (-self.other_solid.highest(-n, tau) - child) / n.length()
+                let child = self.children[lane].max_height(n, tau) + n.dot(self.displacement(tau));
+                (-self.other_solid.max_height(-n, tau) - child) / n.length()
             };
             worst.fixed_plane_count += usize::from(self.check(lane, free, gap, worst));
         }
     }
 
     /// Checks that a plane that turns with a body keeps the pair apart for its whole free time.
-    fn check_turning_plane(&self, found: &AxisValues, with: LargerBody, worst: &mut WorstShares) {
+    fn check_turning_plane(
+        &self,
+        found: &AxisValues,
+        with: LargerBody,
+        worst: &mut WorstErrorShares,
+    ) {
         let [_, with_split, with_other] = found.free_times;
         let free = match with {
             LargerBody::SplitBody => with_split,
@@ -347,8 +357,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             };
             let gap = |tau: f64| {
                 let n = DQuat::from_scaled_axis(spin * tau) * found.normal(lane);
-                let top = child.highest(n, tau) + n.dot(self.displacement(tau));
-                (-self.other_solid.highest(-n, tau) - top) / n.length()
+                let top = child.max_height(n, tau) + n.dot(self.displacement(tau));
+                (-self.other_solid.max_height(-n, tau) - top) / n.length()
             };
             worst.turning_plane_count += usize::from(self.check(lane, free[lane], gap, worst));
         }
@@ -360,7 +370,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         lane: usize,
         free: f32,
         gap: impl Fn(f64) -> f64,
-        worst: &mut WorstShares,
+        worst: &mut WorstErrorShares,
     ) -> bool {
         assert!(free >= 0.0, "{:?}", self.motion);
         if free == 0.0 {
@@ -380,7 +390,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             );
         }
         worst.accelerating_count += usize::from(self.motion.acceleration.is_some());
-        worst.unbounded_count += usize::from(free == f32::INFINITY);
+        worst.unbounded_free_time_count += usize::from(free == f32::INFINITY);
         let rest = (gap(until) - kept) / (gap(0.0) - kept);
         worst.min_relative_excess = lesser(worst.min_relative_excess, rest);
         true

@@ -1,13 +1,13 @@
 use super::reach;
 use crate::body::tree::NodeOrTriangle;
-use crate::tests::scene::{Kind, rng, scene};
+use crate::tests::scene::{SceneKind, rng, scene};
 
 #[test]
 fn no_point_of_a_node_is_beyond_the_reach() {
     let mut rng = rng(41);
     let mut nodes = 0;
     for _ in 0..200 {
-        let scene = scene(&mut rng, Kind::Any, 60);
+        let scene = scene(&mut rng, SceneKind::RandomMotion, 60);
         let problem = scene.problem();
         for side in [&problem.a, &problem.b] {
             let tree = side.body.tree();

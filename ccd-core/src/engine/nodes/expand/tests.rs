@@ -4,8 +4,8 @@ use super::*;
 use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::tests::nearest::{Triangle, nearest};
-use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
-use crate::tuning::MUCH_LARGER_RATIO;
+use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, rng, scene};
+use crate::tuning::MIN_TURNING_PLANE_RADIUS_RATIO;
 
 /// The number of sampled times within a lane's free time, both ends included.
 const SAMPLES: usize = 17;
@@ -14,73 +14,94 @@ const SAMPLES: usize = 17;
 #[derive(Debug, Default)]
 struct Tally {
     /// The number of lanes with a free time, all of which are checked.
-    free: usize,
-    no_free_time: usize,
+    lanes_with_free_time: usize,
+    lanes_without_free_time: usize,
     /// The number of free times that are more than 1.5 times as long as those of fixed planes.
-    longer_by_turning_plane: usize,
+    times_lengthened_by_turning_plane: usize,
     /// The number of lanes without a free time whose pieces are within the gap to keep at the clock.
-    overlapping: usize,
+    lanes_within_gap: usize,
     /// The number of samples at which one axis separates all triangles.
-    proven_by_axis: usize,
-    proven_by_pieces: usize,
+    samples_proven_by_axis: usize,
+    samples_proven_by_pieces: usize,
     /// The number of lanes with a free time, by the body whose node is split.
     lanes_by_split_body: [usize; 2],
-    boxes: usize,
-    triangles: usize,
+    lanes_of_boxes: usize,
+    lanes_of_triangles: usize,
     lanes_against_triangle: usize,
 }
 
 #[test]
 fn free_times_hold_for_any_bodies_and_motions() {
-    let tally = audit_random_scenes(Kind::Any, 1, 75_000);
+    let tally = audit_random_scenes(SceneKind::RandomMotion, 1, 75_000);
     assert_shares_are_substantial(&tally);
 }
 
 #[test]
 fn free_times_hold_for_sliding_bodies() {
-    let tally = audit_random_scenes(Kind::Sliding, 2, 30_000);
+    let tally = audit_random_scenes(SceneKind::Sliding, 2, 30_000);
     assert_shares_are_substantial(&tally);
 }
 
 #[test]
 fn free_times_hold_near_the_rim_of_a_turning_body() {
-    let tally = audit_random_scenes(Kind::NearRim, 3, 45_000);
+    let tally = audit_random_scenes(SceneKind::NearRim, 3, 45_000);
     assert_shares_are_substantial(&tally);
     // Such scenes need planes that turn with the larger body.
-    assert!(20 * tally.longer_by_turning_plane > tally.free, "{tally:?}");
+    assert!(
+        20 * tally.times_lengthened_by_turning_plane > tally.lanes_with_free_time,
+        "{tally:?}"
+    );
 }
 
 #[test]
 fn overlapping_pairs_get_no_free_time_though_they_recede() {
-    let tally = audit_random_scenes(Kind::Receding, 4, 20_000);
-    assert!(4 * tally.no_free_time > tally.free, "{tally:?}");
-    assert!(tally.overlapping > 200, "{tally:?}");
+    let tally = audit_random_scenes(SceneKind::Receding, 4, 20_000);
+    assert!(
+        4 * tally.lanes_without_free_time > tally.lanes_with_free_time,
+        "{tally:?}"
+    );
+    assert!(tally.lanes_within_gap > 200, "{tally:?}");
 }
 
 fn assert_shares_are_substantial(tally: &Tally) {
-    assert!(20 * tally.no_free_time > tally.free, "{tally:?}");
-    assert!(8 * tally.free > tally.no_free_time, "{tally:?}");
+    assert!(
+        20 * tally.lanes_without_free_time > tally.lanes_with_free_time,
+        "{tally:?}"
+    );
+    assert!(
+        8 * tally.lanes_with_free_time > tally.lanes_without_free_time,
+        "{tally:?}"
+    );
     assert!(
         tally
             .lanes_by_split_body
             .iter()
-            .all(|&n| 4 * n > tally.free),
+            .all(|&n| 4 * n > tally.lanes_with_free_time),
         "{tally:?}"
     );
-    assert!(10 * tally.boxes > tally.free, "{tally:?}");
-    assert!(10 * tally.triangles > tally.free, "{tally:?}");
-    assert!(20 * tally.lanes_against_triangle > tally.free, "{tally:?}");
+    assert!(
+        10 * tally.lanes_of_boxes > tally.lanes_with_free_time,
+        "{tally:?}"
+    );
+    assert!(
+        10 * tally.lanes_of_triangles > tally.lanes_with_free_time,
+        "{tally:?}"
+    );
+    assert!(
+        20 * tally.lanes_against_triangle > tally.lanes_with_free_time,
+        "{tally:?}"
+    );
 }
 
 /// Checks lanes of random scenes until enough of them have a free time.
-fn audit_random_scenes(kind: Kind, seed: u64, lanes: usize) -> Tally {
+fn audit_random_scenes(kind: SceneKind, seed: u64, lanes: usize) -> Tally {
     let mut rng = rng(seed);
     let mut tally = Tally::default();
     for number in 0.. {
-        if tally.free >= lanes {
+        if tally.lanes_with_free_time >= lanes {
             break;
         }
-        let scene = scene(&mut rng, kind, 200).with_random_accelerations(&mut rng);
+        let scene = scene(&mut rng, kind, 200).with_occasional_accelerations(&mut rng);
         let audit = SceneAudit {
             problem: &scene.problem(),
             scene: &scene,
@@ -96,7 +117,7 @@ fn audit_random_scenes(kind: Kind, seed: u64, lanes: usize) -> Tally {
 struct SceneAudit<'a> {
     problem: &'a Problem<'a>,
     scene: &'a Scene,
-    name: (Kind, u64, usize),
+    name: (SceneKind, u64, usize),
 }
 
 /// A lane of an expansion: the child, the other node, and the interval of its free time.
@@ -105,7 +126,7 @@ struct BoundedPair {
     split: WhichBody,
     child: NodeId,
     other: NodeId,
-    from: f64,
+    start_clock: f64,
     end_clock: f64,
 }
 
@@ -130,11 +151,11 @@ impl SceneAudit<'_> {
             let s = self.clock(rng);
             let expansion = expand(
                 &NodeContext::new(self.problem),
-                &Split::of_all_children(split, node, other),
+                &Split::with_all_children(split, node, other),
                 s,
             );
             self.check(&expansion, split, node, other, s, tally);
-            let count = self.below(split, node).0;
+            let count = self.child_count_and_kind(split, node).0;
             let lane = self.next(rng, &expansion, count);
             ids[split as usize] = expansion.first + lane;
         }
@@ -163,7 +184,7 @@ impl SceneAudit<'_> {
     }
 
     /// Returns the number of a node's children, and whether these are triangles.
-    fn below(&self, split: WhichBody, node: NodeId) -> (u32, bool) {
+    fn child_count_and_kind(&self, split: WhichBody, node: NodeId) -> (u32, bool) {
         let tree = split.of(self.problem).body.tree();
         match tree.get(node) {
             NodeOrTriangle::Node(node) => match node.children {
@@ -185,7 +206,7 @@ impl SceneAudit<'_> {
         tally: &mut Tally,
     ) {
         let still = expand_with_fixed_planes(self.problem, split, node, other, s);
-        let (count, triangles) = self.below(split, node);
+        let (count, triangles) = self.child_count_and_kind(split, node);
         for lane in 0..count {
             let free = expansion.bounds.free_times.time_of_lane(lane as usize);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
@@ -193,25 +214,25 @@ impl SceneAudit<'_> {
                 split,
                 child: expansion.first + lane,
                 other,
-                from: s,
+                start_clock: s,
                 end_clock: lesser(1.0, s + f64::from(free)),
             };
             if free > 0.0 {
                 self.verify_lane(&pair, tally);
-                tally.free += 1;
+                tally.lanes_with_free_time += 1;
                 tally.lanes_by_split_body[split as usize] += 1;
-                tally.longer_by_turning_plane +=
+                tally.times_lengthened_by_turning_plane +=
                     usize::from(free > 1.5 * still.free_times.time_of_lane(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
                 tally.lanes_against_triangle += usize::from(other_tree.piece(other).is_some());
                 if triangles {
-                    tally.triangles += 1;
+                    tally.lanes_of_triangles += 1;
                 } else {
-                    tally.boxes += 1;
+                    tally.lanes_of_boxes += 1;
                 }
             } else {
-                tally.no_free_time += 1;
-                tally.overlapping += usize::from(self.overlap(&pair));
+                tally.lanes_without_free_time += 1;
+                tally.lanes_within_gap += usize::from(self.overlap(&pair));
             }
         }
     }
@@ -219,7 +240,7 @@ impl SceneAudit<'_> {
     /// Returns whether some pieces of a lane are within the gap to keep; `false` for a lane of more than 64 pairs of
     /// pieces.
     fn overlap(&self, lane: &BoundedPair) -> bool {
-        let (near, far) = self.at(lane, lane.from);
+        let (near, far) = self.at(lane, lane.start_clock);
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
@@ -231,10 +252,10 @@ impl SceneAudit<'_> {
         let mut prover = AxisSearch::default();
         for k in 0..SAMPLES {
             let share = k as f64 / (SAMPLES - 1) as f64;
-            let s = lane.from + share * (lane.end_clock - lane.from);
+            let s = lane.start_clock + share * (lane.end_clock - lane.start_clock);
             let (near, far) = self.at(lane, s);
             if prover.separates(&near, &far, kept) {
-                tally.proven_by_axis += 1;
+                tally.samples_proven_by_axis += 1;
             } else {
                 let least = self.least_distance(&near, &far, kept);
                 assert!(
@@ -242,7 +263,7 @@ impl SceneAudit<'_> {
                     "{:?}: {least:e} apart at {s}, {kept:e} promised: {lane:?}",
                     self.name,
                 );
-                tally.proven_by_pieces += 1;
+                tally.samples_proven_by_pieces += 1;
             }
         }
     }
@@ -357,7 +378,7 @@ fn expand_with_fixed_planes(
         panic!("a node to split");
     };
     let common = NodeContext::new(problem);
-    let split_all = Split::of_all_children(split, node, other);
+    let split_all = Split::with_all_children(split, node, other);
     vectorize!(problem.level, level => {
         let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::FromMotion);
         match below.children {
@@ -368,7 +389,7 @@ fn expand_with_fixed_planes(
             NodeChildren::Triangles(group) => {
                 let pieces = split.of(problem).body.pieces();
                 let group = &tree.triangle_group(group, pieces);
-                still(&motion, group, &group.members)
+                still(&motion, group, &group.header)
             }
             NodeChildren::Piece(_) => panic!("a node to split"),
         }
@@ -395,7 +416,7 @@ fn still<L: Simd, C: Children>(
                 .fold(0.0, greater)
         }
     };
-    let much = 0.99 * MUCH_LARGER_RATIO;
+    let much = 0.99 * MIN_TURNING_PLANE_RADIUS_RATIO;
     let members = GroupHeader {
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members

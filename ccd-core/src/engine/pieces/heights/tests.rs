@@ -48,7 +48,8 @@ fn many_points_are_bounded_like_all_of_them() {
             direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
         let (bodies, pulls) = ([moving, still], [linear_acceleration, DVec3::ZERO]);
         let problem =
-            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
+            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.to_query_settings())
+                .unwrap();
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
@@ -70,7 +71,7 @@ fn many_points_are_bounded_like_all_of_them() {
             twin.speed()
         );
         // The rounding is that of heights about the centre, and of the positions from which they are computed.
-        let span = problem.a.body.tree().span() + side.path.centre.length();
+        let span = problem.a.body.tree().max_distance_from_origin() + side.path.centre.length();
         let slack = 128.0
             * crate::rounding::UNIT_ROUNDOFF_F64
             * (span + velocity.length() + linear_acceleration.length());
@@ -131,7 +132,8 @@ fn points_rise_and_sink_as_their_body_turns() {
             [acceleration, DVec3::ZERO],
         );
         let problem =
-            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
+            Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.to_query_settings())
+                .unwrap();
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
@@ -205,7 +207,7 @@ impl ReferenceHeights {
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
         assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
         assert_eq!(
-            heights.few_tracks().is_some(),
+            heights.tracks_if_few_points().is_some(),
             self.arms.len() <= MAX_TRACKED_POINTS
         );
         for tau in [0.0, 0.1, 0.5, 1.0] {
@@ -217,9 +219,9 @@ impl ReferenceHeights {
                     <= self.least_point_value(tau, |p| -p.second_derivative) + 1e-12
             );
             let both = |p: &PointHeight| p.height + p.rate;
-            let least = heights.least_value_after(tau, both);
+            let least = heights.least_point_value(tau, both);
             assert!(least <= self.least_point_value(tau, both) + 1e-11 * (1.0 + rate * rate));
-            let Some(few) = heights.few_tracks() else {
+            let Some(few) = heights.tracks_if_few_points() else {
                 continue;
             };
             assert!(is(least, self.least_point_value(tau, both)));

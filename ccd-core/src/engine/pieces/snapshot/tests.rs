@@ -7,7 +7,7 @@ mod resting;
 use super::*;
 use crate::tests::nearest::nearest;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{Kind, RngExt, direction, magnitude, rng, scene};
+use crate::tests::scene::{RngExt, SceneKind, direction, magnitude, rng, scene};
 
 const SAMPLES: u32 = 32;
 
@@ -16,7 +16,11 @@ fn an_axis_separates_for_as_long_as_it_says() {
     let mut rng = rng(1);
     let (mut some, mut forever, mut used) = (0, 0, 0);
     for number in 0..20_000 {
-        let kind = [Kind::Any, Kind::NearRim, Kind::Sliding][number % 3];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::NearRim,
+            SceneKind::Sliding,
+        ][number % 3];
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
@@ -33,7 +37,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let gap = heights(clock, normal);
         // The slack is the part of the gap that may be used up.
         let slack = gap.abs() * magnitude(&mut rng, -3.0, 0.0);
-        let free = snapshot.fixed_axis_time(normal, slack);
+        let free = snapshot.fixed_plane_free_time(normal, slack);
         let until = free.map_or(1.0, |free| clock + free);
         let least = gap - slack - 3.0 * problem.rounding;
         for k in 0..=SAMPLES {
@@ -63,7 +67,11 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
     let mut rng = rng(2);
     let (mut some, mut forever) = (0, 0);
     for number in 0..20_000 {
-        let kind = [Kind::Any, Kind::NearRim, Kind::Sliding][number % 3];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::NearRim,
+            SceneKind::Sliding,
+        ][number % 3];
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
@@ -113,14 +121,14 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
 fn no_slack_is_no_time() {
     let mut rng = rng(3);
     for _ in 0..500 {
-        let scene = scene(&mut rng, Kind::Any, 1);
+        let scene = scene(&mut rng, SceneKind::RandomMotion, 1);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free = snapshot.fixed_axis_time(direction(&mut rng), slack);
+            let free = snapshot.fixed_plane_free_time(direction(&mut rng), slack);
             assert_eq!(free, Some(0.0), "{slack}");
         }
-        let free = snapshot.fixed_axis_time(DVec3::NAN, 1.0);
+        let free = snapshot.fixed_plane_free_time(DVec3::NAN, 1.0);
         assert_eq!(free, Some(0.0));
     }
 }

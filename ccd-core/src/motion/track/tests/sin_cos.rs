@@ -2,7 +2,7 @@ use crate::limits::MAX_ROTATION_ANGLE;
 use crate::math::order::greater;
 use crate::motion::track::sin_cos;
 use crate::rounding::UNIT_ROUNDOFF_F64;
-use crate::tests::double::Double;
+use crate::tests::double::DoubleDouble;
 use crate::tests::worst::{WorstCaseSearch, share};
 
 #[test]
@@ -33,16 +33,17 @@ fn worst_sine_and_cosine() {
             _ => {
                 tape.index_below(600_000) as f64
                     * std::f64::consts::FRAC_PI_2
-                    * (1.0 + tape.any(-53..=-20))
+                    * (1.0 + tape.any_number(-53..=-20))
             }
         };
         let (sin, cos) = sin_cos(angle.abs());
-        let exact = Double::from(angle.abs()).sin_cos();
-        let off = |rounded: f64, exact: Double| (Double::from(rounded) - exact).get().abs();
+        let exact = DoubleDouble::from(angle.abs()).sin_cos();
+        let off =
+            |rounded: f64, exact: DoubleDouble| (DoubleDouble::from(rounded) - exact).get().abs();
         Some(share(
             greater(off(sin, exact.0), off(cos, exact.1)),
             2.0 * UNIT_ROUNDOFF_F64,
         ))
     });
-    found.assert_within(3.0);
+    found.assert_tight_bound(3.0);
 }

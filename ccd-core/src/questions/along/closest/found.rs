@@ -5,7 +5,7 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::questions::along::motions::{Span, StretchMotions};
-use crate::questions::along::stretches::Stretches;
+use crate::questions::along::stretches::WaitingStretches;
 use crate::questions::closest::ladder::{LowerBoundAttempts, MarginQuery};
 use crate::settings::QuerySettings;
 use crate::shortcuts::bounding_volumes::least_distance;
@@ -45,7 +45,7 @@ impl Query<'_> {
 
 /// The bounds of the least distance of a stretch's motions, and the time at which the motions are nearest.
 #[derive(Default)]
-pub(super) struct StretchResult {
+pub(super) struct StretchDistance {
     pub(super) lower: f64,
     pub(super) upper: f64,
     /// The sum of both bodies' deviations, which bounds the difference between the bodies' distance and that of the
@@ -57,14 +57,14 @@ pub(super) struct StretchResult {
     pub(super) approach_rate: f64,
 }
 
-impl StretchResult {
+impl StretchDistance {
     /// Creates the result for motions that are farther apart than the least distance found so far. The bodies are so
     /// despite their deviations.
-    pub(super) fn farther_than(lower: f64) -> Self {
-        StretchResult {
+    pub(super) fn for_distant_motions(lower: f64) -> Self {
+        StretchDistance {
             lower,
             upper: lower,
-            ..StretchResult::default()
+            ..StretchDistance::default()
         }
     }
 
@@ -78,7 +78,7 @@ impl StretchResult {
     /// Returns the end of the stretch beyond which the distance probably decreases further; `None` if there is no such
     /// end. The motions are nearest at about that end. At their rate of approach there, the distance would fall by more
     /// than the deviations over another stretch of this length.
-    pub(super) fn approaching_end(&self, motions: &StretchMotions) -> Option<f64> {
+    pub(super) fn end_where_distance_decreases(&self, motions: &StretchMotions) -> Option<f64> {
         let Span { from, end: to, .. } = motions.span;
         let (near, falls) = (
             MIN_CUT_SHARE * motions.span.length(),
@@ -101,7 +101,7 @@ pub(super) struct LeastDistanceSoFar {
     pub(super) lower: f64,
     pub(super) nearest_contact: Option<(f64, Contact)>,
     /// The lower bound of the distance that is proven for all times, with the state of further attempts.
-    pub(super) lower_bounds: LowerBoundAttempts,
+    pub(super) lower_bound_attempts: LowerBoundAttempts,
 }
 
 impl LeastDistanceSoFar {
@@ -110,8 +110,8 @@ impl LeastDistanceSoFar {
         LeastDistanceSoFar {
             lower: f64::INFINITY,
             nearest_contact: None,
-            lower_bounds: LowerBoundAttempts::new(0.0, query.settings.budget)
-                .with_early_start(is_timed),
+            lower_bound_attempts: LowerBoundAttempts::new(0.0, query.settings.budget)
+                .with_earlier_first_attempt(is_timed),
         }
     }
 
@@ -128,10 +128,10 @@ impl LeastDistanceSoFar {
         &mut self,
         motions: &StretchMotions,
         outcome: &Outcome,
-    ) -> Result<StretchResult, Limit> {
-        let mut seen = StretchResult {
+    ) -> Result<StretchDistance, Limit> {
+        let mut seen = StretchDistance {
             total_deviation: motions.total_deviation,
-            ..StretchResult::default()
+            ..StretchDistance::default()
         };
         match *outcome {
             Outcome::LeastDistance {
@@ -143,7 +143,7 @@ impl LeastDistanceSoFar {
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
                 seen.time = time;
-                seen.approach_rate = motions.approach(time, &contact);
+                seen.approach_rate = motions.approach_rate(time, &contact);
             }
             Outcome::Overlapping { overlap, .. } => {
                 if let Overlap::Pieces(contact) = overlap {
@@ -167,7 +167,11 @@ impl LeastDistanceSoFar {
         }
     }
 
-    pub(super) fn nearest(&self, query: &Query<'_>, stretches: &Stretches<'_, '_>) -> Answer {
+    pub(super) fn nearest(
+        &self,
+        query: &Query<'_>,
+        stretches: &WaitingStretches<'_, '_>,
+    ) -> Answer {
         let Some((time, contact)) = self.nearest_contact else {
             let reason = Limit::OracleGaveUp;
             return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
@@ -186,7 +190,7 @@ impl LeastDistanceSoFar {
     pub(super) fn unresolved(
         &self,
         query: &Query<'_>,
-        stretches: &Stretches<'_, '_>,
+        stretches: &WaitingStretches<'_, '_>,
         span: Span,
         reason: Limit,
     ) -> Answer {
@@ -195,7 +199,7 @@ impl LeastDistanceSoFar {
             let problem = motions.problem(query, &query.settings)?;
             Ok(motions.lower_bound_for_bodies(least_distance(&problem)))
         };
-        let spans = stretches.waiting().iter().chain([&span]);
+        let spans = stretches.waiting_spans().iter().chain([&span]);
         // Written so that NaN is no bound.
         let known = |apart: Result<f64, InputError>| apart.ok().filter(|&apart| apart > 0.0);
         let apart = spans.map(|span| known(apart(span)).unwrap_or(0.0));
@@ -206,7 +210,10 @@ impl LeastDistanceSoFar {
     /// Returns the unresolved outcome for a search that reached a limit; `lower` is a lower bound of the distance at
     /// all times.
     fn unresolved_outcome(&self, lower: f64, limit: Limit) -> Outcome {
-        let lower = lesser(greater(self.lower_bounds.lower, lower), self.upper());
+        let lower = lesser(
+            greater(self.lower_bound_attempts.lower, lower),
+            self.upper(),
+        );
         let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
         Outcome::Unresolved(Unresolved::for_least_distance(
             lower,
@@ -218,7 +225,7 @@ impl LeastDistanceSoFar {
     pub(super) fn answer(
         &self,
         query: &Query<'_>,
-        stretches: &Stretches<'_, '_>,
+        stretches: &WaitingStretches<'_, '_>,
         outcome: Outcome,
     ) -> Answer {
         Answer {

@@ -22,7 +22,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
             _ => continue,
         };
         for budget in 1..60 {
-            swings.config.budget = budget;
+            swings.settings.budget = budget;
             match swings.first() {
                 Outcome::Unresolved(Unresolved {
                     safe_until,
@@ -41,12 +41,12 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
 }
 
 /// A trajectory that goes back and forth along x past the origin, with a corner at each reversal.
-struct Shuttle {
+struct ShuttleTrajectory {
     laps: u32,
     lateral_offset: f64,
 }
 
-impl Shuttle {
+impl ShuttleTrajectory {
     fn at(&self, time: f64) -> DVec3 {
         let way = time * f64::from(self.laps);
         let lap = way.floor();
@@ -59,7 +59,7 @@ impl Shuttle {
     }
 }
 
-impl Trajectory for Shuttle {
+impl Trajectory for ShuttleTrajectory {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [start, end] = [from, to].map(|time| self.at(time));
         let velocity = if to > from {
@@ -74,7 +74,7 @@ impl Trajectory for Shuttle {
         };
         let motion = Motion::new(crate::Pose::at(start)?, velocity, DVec3::ZERO)?;
         Ok(Stretch {
-            deviation: DeviationBound { shift, turn: 0.0 },
+            deviation_bound: DeviationBound { shift, turn: 0.0 },
             ..Stretch::exact(motion)
         })
     }
@@ -97,7 +97,7 @@ fn each_part_between_two_corners_has_a_budget() {
             budget,
             ..Settings::DEFAULT
         };
-        let shuttle = Shuttle {
+        let shuttle = ShuttleTrajectory {
             laps,
             lateral_offset: beside,
         };
@@ -176,14 +176,14 @@ fn each_part_between_two_corners_has_a_budget() {
 
 /// A trajectory with unbounded deviations, with a corner near the end of every stretch, or with invalid bounds.
 struct HostileTrajectory {
-    stray: DeviationBound,
+    deviation: DeviationBound,
     step: f64,
 }
 
 impl Trajectory for HostileTrajectory {
     fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
         Ok(Stretch {
-            deviation: self.stray,
+            deviation_bound: self.deviation,
             ..Stretch::exact(Motion::STILL)
         })
     }
@@ -199,7 +199,7 @@ fn budgets_end_cuts_where_there_is_no_bound() {
     let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
     let ask = |shift: f64, turn: f64, step: f64| {
         let hostile = HostileTrajectory {
-            stray: DeviationBound { shift, turn },
+            deviation: DeviationBound { shift, turn },
             step,
         };
         let config = Settings {

@@ -18,7 +18,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     let (mut kept, mut violated, mut between) = (0, 0, 0);
     for number in 0..200 {
         let mut swings = SwingingBodies::draw(&mut rng);
-        let tolerance = swings.config.tolerance;
+        let tolerance = swings.settings.tolerance;
         let least = sampled_least_distance(&swings);
         let ask = |swings: &SwingingBodies| {
             let query = swings.query();
@@ -40,7 +40,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
             if !(required >= 0.0) {
                 continue;
             }
-            swings.config.clearance = Some(required);
+            swings.settings.clearance = Some(required);
             let outcome = ask(&swings);
             assert!(
                 outcome.lower() <= least + ROUNDING,
@@ -83,7 +83,7 @@ fn budgets_end_a_search_with_bounds_that_hold() {
         let whole = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
         let work = whole.unwrap().stats.work();
         for share in [0.1, 0.5, 0.9] {
-            swings.config.budget = (share * work as f64) as u64 + 1;
+            swings.settings.budget = (share * work as f64) as u64 + 1;
             let query = swings.query();
             let answer = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
             let outcome = answer.unwrap().outcome;

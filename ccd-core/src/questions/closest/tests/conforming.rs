@@ -34,7 +34,7 @@ fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
     let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, TAU * DVec3::Z).unwrap();
     let config = Settings::DEFAULT;
     let problem = Problem::about((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
-    let first = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+    let first = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
     assert!(matches!(first.outcome, Outcome::Free { .. }));
     let closest = approach(&problem);
     assert!(

@@ -70,7 +70,7 @@ fn a_clearance_is_violated_by_more_than_the_excess_only() {
             if !(required > 0.0) {
                 continue;
             }
-            scene.config.clearance = Some(required);
+            scene.settings.clearance = Some(required);
             let outcome = approach(&scene.problem()).outcome;
             assert!(outcome.lower() <= upper, "{number}: {outcome:?}");
             match outcome.clearance(required) {

@@ -26,7 +26,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
             if !(required >= 0.0) {
                 continue;
             }
-            scene.config.clearance = Some(required);
+            scene.settings.clearance = Some(required);
             let problem = scene.problem();
             let answer = approach(&problem);
             let outcome = answer.outcome;
@@ -82,15 +82,15 @@ fn a_required_distance_costs_little_more_than_a_margin() {
             continue;
         };
         for distance in [0.7 * lower, 1.5 * contact.separation.upper] {
-            scene.config.clearance = Some(distance);
+            scene.settings.clearance = Some(distance);
             required += approach(&scene.problem()).stats.work();
-            scene.config.margin = distance;
+            scene.settings.margin = distance;
             let problem = scene.problem();
             let any = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
             margins += any.stats.work();
             measured += known.stats.work();
-            scene.config.margin = 0.0;
-            scene.config.clearance = None;
+            scene.settings.margin = 0.0;
+            scene.settings.clearance = None;
             assert!(!matches!(any.outcome, Outcome::Unresolved(_)));
         }
     }
@@ -108,7 +108,7 @@ fn searches_that_end_early_know_a_part_of_the_distance() {
         if !(whole.outcome.lower() > 0.01) {
             continue;
         }
-        scene.config.budget = whole.stats.work() - 1;
+        scene.settings.budget = whole.stats.work() - 1;
         let problem = scene.problem();
         let answer = approach(&problem);
         let Outcome::Unresolved(Unresolved { lower, nearest, .. }) = answer.outcome else {

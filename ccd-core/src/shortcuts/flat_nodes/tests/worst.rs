@@ -7,7 +7,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, direction, rotation};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
@@ -24,14 +24,14 @@ fn worst_reach() {
             Problem::about((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT).ok()?;
         let node = FlatNode::new(&problem.a, 0, 0.0)?;
         let n = (node.normal + direction(tape) * tape.size(-30..=4)).normalize();
-        let [exact, normal] = [n, node.normal].map(Double3::from);
+        let [exact, normal] = [n, node.normal].map(DoubleDouble3::from);
         let along = exact.dot(normal).get().abs();
         let radius = node.node.radius;
-        let truth = Double::from(node.half?) * Double::from(along)
-            + Double::from(radius) * exact.cross(normal).length();
+        let truth = DoubleDouble::from(node.half?) * DoubleDouble::from(along)
+            + DoubleDouble::from(radius) * exact.cross(normal).length();
         let allowed = RATE_ERROR_F64 * radius;
-        let lost = truth - (Double::from(node.extent_along(n)) - Double::from(allowed));
+        let lost = truth - (DoubleDouble::from(node.extent_along(n)) - DoubleDouble::from(allowed));
         Some(share(lost.get(), allowed))
     });
-    found.assert_within(20.0);
+    found.assert_tight_bound(20.0);
 }

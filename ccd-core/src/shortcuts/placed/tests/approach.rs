@@ -7,7 +7,7 @@ use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::shortcuts::placed::{ApproachRateBounds, PlacedNode};
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::DVec3;
@@ -21,18 +21,18 @@ fn motion(tape: &mut RandomCase) -> Option<Motion> {
 
 /// Sums over both bodies: the exact rate of approach and its exact derivative, and the terms of the engine's bounds of
 /// them.
-struct Sums {
-    rate: Double,
-    second_derivative: Double,
+struct ApproachRateTerms {
+    rate: DoubleDouble,
+    second_derivative: DoubleDouble,
     speed: f64,
     size: f64,
     second_derivative_without_allowance: f64,
 }
 
-impl Sums {
+impl ApproachRateTerms {
     fn new() -> Self {
-        let zero = Double::ZERO;
-        Sums {
+        let zero = DoubleDouble::ZERO;
+        ApproachRateTerms {
             rate: zero,
             second_derivative: zero,
             speed: 0.0,
@@ -51,29 +51,30 @@ impl Sums {
     ) {
         let path = &side.path;
         let frame = path.frame(s);
-        let centre = Double3::from(path.centre_at(s));
-        let spin = Double3::from(motion.spin());
-        let axis = Double3::from(n);
+        let centre = DoubleDouble3::from(path.centre_at(s));
+        let spin = DoubleDouble3::from(motion.spin());
+        let axis = DoubleDouble3::from(n);
         let arms = side.body.pieces().triangle(0);
         // The corners are in their rounded positions, relative to the node's centre.
-        let placed = arms.map(|x| Double3::from(frame.point(x) - node.centre));
-        let arms = placed.map(|x| x + Double3::from(node.centre) - centre);
+        let placed = arms.map(|x| DoubleDouble3::from(frame.point(x) - node.centre));
+        let arms = placed.map(|x| x + DoubleDouble3::from(node.centre) - centre);
         let speeds = arms.map(|arm| axis.dot(spin.cross(arm)));
         let fastest = speeds
             .into_iter()
-            .reduce(Double::max)
+            .reduce(DoubleDouble::max)
             .expect("three corners");
-        let velocity = Double3::from(motion.velocity());
-        let velocity = velocity + Double3::from(path.acceleration).scale(Double::from(s));
+        let velocity = DoubleDouble3::from(motion.velocity());
+        let velocity =
+            velocity + DoubleDouble3::from(path.acceleration).scale(DoubleDouble::from(s));
         self.rate = self.rate + axis.dot(velocity) + fastest;
         let turning = arms.map(|arm| spin.cross(arm).length());
         let farthest = turning
             .into_iter()
-            .reduce(Double::max)
+            .reduce(DoubleDouble::max)
             .expect("three corners");
         self.second_derivative = self.second_derivative + axis.cross(spin).length() * farthest;
         self.second_derivative =
-            self.second_derivative + axis.dot(Double3::from(path.acceleration));
+            self.second_derivative + axis.dot(DoubleDouble3::from(path.acceleration));
         let arm = node.centre - path.centre_at(s);
         self.speed += path.speed() + path.rate * (length(arm) + node.radius);
         self.size += path.rate * node.radius;
@@ -96,22 +97,24 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     });
     let bodies = [a, b];
     let problem =
-        Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).ok()?;
+        Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.to_query_settings())
+            .ok()?;
     let (n, s) = (unit(tape.vector(-40..=0).into())?, tape.fraction());
     let sides = [&problem.a, &problem.b];
     let nodes = sides.map(|side| PlacedNode::new(side, side.body.tree().nodes() as u32, s));
     let [at, bt] = &nodes;
-    let found = ApproachRateBounds::along(&problem, [at, bt], n, s);
-    let mut sums = Sums::new();
+    let found = ApproachRateBounds::along_axis(&problem, [at, bt], n, s);
+    let mut sums = ApproachRateTerms::new();
     for (k, n) in [(0, n), (1, -n)] {
         sums.add(sides[k], &motions[k], &nodes[k], n, s);
     }
     let allowed = RATE_ERROR_F64 * (2.0 * sums.speed + sums.size);
-    let rate = Double::from(found.rate) - Double::from(allowed);
+    let rate = DoubleDouble::from(found.rate) - DoubleDouble::from(allowed);
     let rate = share((sums.rate - rate).get(), allowed);
     let allowed = found.second_derivative - sums.second_derivative_without_allowance;
     let second_derivative = share(
-        (sums.second_derivative - Double::from(sums.second_derivative_without_allowance)).get(),
+        (sums.second_derivative - DoubleDouble::from(sums.second_derivative_without_allowance))
+            .get(),
         allowed,
     );
     Some([rate, second_derivative])
@@ -121,12 +124,12 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
 fn worst_rate() {
     let found = WorstCaseSearch::of("RATE_F64, rates of nodes", 20_000)
         .search(|tape| Some(error_shares(tape)?[0]));
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }
 
 #[test]
 fn worst_bend() {
     let found = WorstCaseSearch::of("RATE_F64, bends of nodes", 20_000)
         .search(|tape| Some(error_shares(tape)?[1]));
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }

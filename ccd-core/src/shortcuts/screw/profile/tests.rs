@@ -9,36 +9,36 @@ use crate::problem::Problem;
 use crate::rounding::profile_rounding;
 use crate::settings::Settings;
 use crate::shortcuts::placed::PlacedNode;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::body;
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::DVec3;
 
 /// Returns the cylindrical coordinates of a point, with the azimuth within half a turn of `near`.
-fn cylindrical_coordinates(axis: &ScrewAxis, point: Double3, near: f64) -> [Double; 3] {
-    let unit = Double3::from(axis.unit).unit();
-    let way = point - Double3::from(axis.origin);
+fn cylindrical_coordinates(axis: &ScrewAxis, point: DoubleDouble3, near: f64) -> [DoubleDouble; 3] {
+    let unit = DoubleDouble3::from(axis.direction).unit();
+    let way = point - DoubleDouble3::from(axis.origin);
     let height = way.dot(unit);
     let across = way - unit.scale(height);
-    let x = Double3::from(axis.azimuths[0]);
+    let x = DoubleDouble3::from(axis.azimuth_axes[0]);
     let x = (x - unit.scale(unit.dot(x))).unit();
     let y = unit.cross(x);
     let [east, north] = [x, y].map(|of| of.dot(across));
     // One Newton step doubles the digits of the angle.
     let rough = north.get().atan2(east.get());
     let turns = ((near - rough) / std::f64::consts::TAU).round();
-    let angle = Double::from(rough);
+    let angle = DoubleDouble::from(rough);
     let (sin, cos) = angle.sin_cos();
     let radius = across.length();
     let angle = angle + (north * cos - east * sin) / radius;
-    let tau = Double::from(std::f64::consts::TAU);
+    let tau = DoubleDouble::from(std::f64::consts::TAU);
     let tau = tau - tau.sin_cos().0;
-    [radius, height, angle + tau * Double::from(turns)]
+    [radius, height, angle + tau * DoubleDouble::from(turns)]
 }
 
 /// Returns the largest amount by which a corner lies outside the interval of its profile, as a share of the allowance
 /// for rounding.
-fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
+fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let body = body(&[corners]);
     let problem = Problem::about((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
@@ -46,16 +46,16 @@ fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let profile = Profile::new(&node, axis)?;
     let (arm, distance) = {
         let way = node.centre - axis.origin;
-        let height = way.dot(axis.unit);
-        (length(way), length(way - height * axis.unit))
+        let height = way.dot(axis.direction);
+        (length(way), length(way - height * axis.direction))
     };
     let frame = problem.a.path.frame(0.0);
     let places = corners.map(|x| {
         // The position is relative to the node's centre, as in the node.
-        let from_centre = Double3::from(frame.point(x) - node.centre);
+        let from_centre = DoubleDouble3::from(frame.point(x) - node.centre);
         cylindrical_coordinates(
             axis,
-            from_centre + Double3::from(node.centre),
+            from_centre + DoubleDouble3::from(node.centre),
             profile.azimuth,
         )
     });
@@ -64,10 +64,10 @@ fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
         let tilt = axis.advance / distance;
         let allowed = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
         for [r, z, angle] in places {
-            let zeta = z - Double::from(axis.advance) * angle;
-            let f = Double::from(n.x) * r + Double::from(n.y) * zeta;
-            let high = Double::from(profile.high[k]) - Double::from(allowed);
-            let low = Double::from(profile.low[k]) + Double::from(allowed);
+            let zeta = z - DoubleDouble::from(axis.advance) * angle;
+            let f = DoubleDouble::from(n.x) * r + DoubleDouble::from(n.y) * zeta;
+            let high = DoubleDouble::from(profile.high[k]) - DoubleDouble::from(allowed);
+            let low = DoubleDouble::from(profile.low[k]) + DoubleDouble::from(allowed);
             let lost = greater((f - high).get(), (low - f).get());
             worst = greater(worst, share(lost, allowed));
         }
@@ -85,14 +85,14 @@ fn axis(tape: &mut RandomCase, advance: f64) -> Option<ScrewAxis> {
 #[test]
 fn worst_of_an_arm() {
     let found = WorstCaseSearch::of("profile_rounding, an arm", 20_000).search(|tape| {
-        let advance = tape.any(-10..=6);
+        let advance = tape.any_number(-10..=6);
         let axis = axis(tape, advance)?;
         let at = DVec3::from(tape.vector(-10..=10));
         let small = tape.size(-100..=-60);
         let corners = [0; 3].map(|_| at + DVec3::from(tape.vector(-10..=0)) * small);
-        worst_share(&axis, corners)
+        worst_error_share(&axis, corners)
     });
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }
 
 /// Tests the rounding of profiles of triangles in a plane through the axis, which are much longer than their distance
@@ -101,13 +101,13 @@ fn worst_of_an_arm() {
 fn worst_of_a_radius() {
     let found = WorstCaseSearch::of("profile_rounding, a radius", 20_000).search(|tape| {
         let axis = axis(tape, 0.0)?;
-        let out = axis.unit.cross(tape.vector(-40..=0).into());
+        let out = axis.direction.cross(tape.vector(-40..=0).into());
         let out = unit(out)?;
         let long = tape.size(0..=20);
         let corners = [-1.0, 1.0, 0.0].map(|along| {
-            axis.origin + axis.unit * (along * long) + out * (1.0 + 0.25 * tape.fraction())
+            axis.origin + axis.direction * (along * long) + out * (1.0 + 0.25 * tape.fraction())
         });
-        worst_share(&axis, corners)
+        worst_error_share(&axis, corners)
     });
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }

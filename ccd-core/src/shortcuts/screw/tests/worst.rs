@@ -4,8 +4,8 @@ use crate::math::vector::length;
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
-use crate::rounding::ADVANCE_ERROR_F64;
-use crate::tests::double::{Double, Double3};
+use crate::rounding::SCREW_VELOCITY_ERROR_F64;
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
@@ -13,7 +13,7 @@ use glam::DVec3;
 fn worst_advance() {
     let found = WorstCaseSearch::of("ADVANCE_F64", 40_000).search(|tape| {
         let spin = DVec3::from(tape.vector(-10..=6));
-        let advance = tape.any(-10..=4);
+        let advance = tape.any_number(-10..=4);
         let velocity = spin * advance + DVec3::from(tape.vector(-70..=-5));
         let motion = Motion::new(Pose::IDENTITY, velocity, spin).ok()?;
         let path = Path::new(&motion, DVec3::ZERO, 1.0);
@@ -24,10 +24,13 @@ fn worst_advance() {
         let along = path.velocity.dot(path.axis);
         let drift = length(path.velocity - along * path.axis);
         let per_radian = along / path.rate;
-        let [v, w] = [velocity, spin].map(Double3::from);
-        let exact = v - w.scale(Double::from(per_radian));
-        let lost = exact.length() - Double::from(drift);
-        Some(share(lost.get(), ADVANCE_ERROR_F64 * length(velocity)))
+        let [v, w] = [velocity, spin].map(DoubleDouble3::from);
+        let exact = v - w.scale(DoubleDouble::from(per_radian));
+        let lost = exact.length() - DoubleDouble::from(drift);
+        Some(share(
+            lost.get(),
+            SCREW_VELOCITY_ERROR_F64 * length(velocity),
+        ))
     });
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }

@@ -11,7 +11,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::rounding::turning_axis_rounding;
 use crate::settings::Settings;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
@@ -34,7 +34,7 @@ struct Setting<'s> {
 
 impl Setting<'_> {
     /// Returns the computed height of the point above the plane after a time, and the rate of the height.
-    fn found(&self, tau: f64) -> [Double; 2] {
+    fn found(&self, tau: f64) -> [DoubleDouble; 2] {
         let HeightTerms {
             height,
             axis,
@@ -42,61 +42,73 @@ impl Setting<'_> {
             rate_axis: closing,
         } = self.sweep.turned(tau);
         let arm = self.point - self.sweep.reference_point;
-        [height + axis.dot(arm), rate + closing.dot(arm)].map(Double::from)
+        [height + axis.dot(arm), rate + closing.dot(arm)].map(DoubleDouble::from)
     }
 
-    fn exact(&self, tau: f64) -> [Double; 2] {
-        let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
-        let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
-        let turned = |v: Double3, spin: Double3| {
+    fn exact(&self, tau: f64) -> [DoubleDouble; 2] {
+        let [spin, own] = self
+            .motions
+            .map(|motion| DoubleDouble3::from(motion.spin()));
+        let [away, velocity] = self
+            .motions
+            .map(|motion| DoubleDouble3::from(motion.velocity()));
+        let turned = |v: DoubleDouble3, spin: DoubleDouble3| {
             if spin.length().get() > 0.0 {
-                v.turned(spin.unit(), spin.length() * Double::from(tau))
+                v.turned(spin.unit(), spin.length() * DoubleDouble::from(tau))
             } else {
                 v
             }
         };
-        let normal = turned(Double3::from(self.normal), spin);
-        let local = Double3::from(self.point) - Double3::from(self.sweep.reference_point);
+        let normal = turned(DoubleDouble3::from(self.normal), spin);
+        let local =
+            DoubleDouble3::from(self.point) - DoubleDouble3::from(self.sweep.reference_point);
         let rotation = self.sweep.frame.rotation;
-        let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(Double3::from);
+        let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(DoubleDouble3::from);
         let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
         let arm = turned(x + y + z, own);
         let passing = velocity - away;
-        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau)) + arm;
+        let way =
+            DoubleDouble3::from(self.sweep.offset) + passing.scale(DoubleDouble::from(tau)) + arm;
         let rate = spin.cross(normal).dot(way) + normal.dot(passing + own.cross(arm));
         [normal.dot(way), rate]
     }
 
     /// Returns the bound of the second derivative twice: in double-double arithmetic, and in f64 without the allowances
     /// for rounding.
-    fn second_derivatives(&self, tau: f64) -> [Double; 2] {
-        let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
-        let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
+    fn second_derivative_bounds(&self, tau: f64) -> [DoubleDouble; 2] {
+        let [spin, own] = self
+            .motions
+            .map(|motion| DoubleDouble3::from(motion.spin()));
+        let [away, velocity] = self
+            .motions
+            .map(|motion| DoubleDouble3::from(motion.velocity()));
         let (passing, time) = (
             velocity - away,
-            Double::from(f64::from(MAX_TURNING_PLANE_TIME)),
+            DoubleDouble::from(f64::from(MAX_TURNING_PLANE_TIME)),
         );
-        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau));
+        let way = DoubleDouble3::from(self.sweep.offset) + passing.scale(DoubleDouble::from(tau));
         let arm = spin.unit().cross(way).length() + passing.length() * time;
-        let across = spin.cross(Double3::from(self.normal)).length();
-        let two = Double::from(2.0);
+        let across = spin.cross(DoubleDouble3::from(self.normal)).length();
+        let two = DoubleDouble::from(2.0);
         let exact = across * (spin.length() * arm + two * passing.length())
-            + (spin - own).length() * (across + own.length()) * Double::from(self.sweep.radius);
+            + (spin - own).length()
+                * (across + own.length())
+                * DoubleDouble::from(self.sweep.radius);
         let sweep = self.sweep;
         let arm = sweep
-            .unit
+            .rotation_axis
             .cross(sweep.offset + sweep.velocity * tau)
             .length()
             + sweep.speed * f64::from(MAX_TURNING_PLANE_TIME);
         let across = sweep.angular_speed * sweep.normal.derivative_length();
         let plain = across * (sweep.angular_speed * arm + 2.0 * sweep.speed)
-            + sweep.relative.length() * (across + sweep.own_angular_speed) * sweep.radius;
-        [exact, Double::from(plain)]
+            + sweep.relative_spin.length() * (across + sweep.own_angular_speed) * sweep.radius;
+        [exact, DoubleDouble::from(plain)]
     }
 }
 
 /// Returns the errors of a height change, a rate and a second derivative, as shares of their allowances.
-fn shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
+fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
     let bodies = triangles.map(|triangle| body(&[triangle]));
     let motions = [motion(tape)?, motion(tape)?];
@@ -127,8 +139,8 @@ fn shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let rate = (end[1] - to[1]).get().abs();
     let fastest =
         sweep.angular_speed * sweep.reach + sweep.speed + sweep.own_angular_speed * sweep.radius;
-    let [exact, plain] = setting.second_derivatives(tau);
-    let allowed = (Double::from(sweep.second_derivative(tau)) - plain).get();
+    let [exact, plain] = setting.second_derivative_bounds(tau);
+    let allowed = (DoubleDouble::from(sweep.second_derivative(tau)) - plain).get();
     Some([
         share(height, rounding * sweep.reach),
         share(rate, rounding * fastest),
@@ -139,20 +151,20 @@ fn shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
 #[test]
 fn worst_height() {
     let found = WorstCaseSearch::of("attached_rounding, heights", 10_000)
-        .search(|tape| Some(shares(tape)?[0]));
-    found.assert_within(60.0);
+        .search(|tape| Some(error_shares(tape)?[0]));
+    found.assert_tight_bound(60.0);
 }
 
 #[test]
 fn worst_rate() {
     let found = WorstCaseSearch::of("attached_rounding, rates", 10_000)
-        .search(|tape| Some(shares(tape)?[1]));
-    found.assert_within(60.0);
+        .search(|tape| Some(error_shares(tape)?[1]));
+    found.assert_tight_bound(60.0);
 }
 
 #[test]
 fn worst_bend() {
     let found = WorstCaseSearch::of("RATE_F64, bends past a turning plane", 10_000)
-        .search(|tape| Some(shares(tape)?[2]));
-    found.assert_within(40.0);
+        .search(|tape| Some(error_shares(tape)?[2]));
+    found.assert_tight_bound(40.0);
 }

@@ -9,7 +9,7 @@ fn triangle() -> Polygons {
     Polygons {
         vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
         corners: vec![0, 1, 2],
-        ends: vec![3],
+        corner_ends: vec![3],
         ..Polygons::default()
     }
 }

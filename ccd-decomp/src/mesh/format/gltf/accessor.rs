@@ -12,7 +12,7 @@ use ccd_core::order::greater;
 pub(super) struct AccessorReader<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
-    pub(super) allowance: ExpansionBudget,
+    pub(super) expansion_budget: ExpansionBudget,
 }
 
 /// The component types of glTF accessors.
@@ -35,13 +35,13 @@ impl<'a> AccessorReader<'a> {
 
     /// Spends the cost of `count` face corners from the expansion budget.
     pub(super) fn spend_corners(&mut self, count: usize) -> Result<(), MeshFault> {
-        self.allowance.spend(expansion_cost(0, count as u64))
+        self.expansion_budget.spend(expansion_cost(0, count as u64))
     }
 
     /// Reads the points of a `VEC3` accessor as f64.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
         self.read_accessor(accessor, |accessors, about| {
-            check_kind(about, "VEC3")?;
+            check_accessor_type(about, "VEC3")?;
             let component = ComponentType::from_code(about.component_type)?;
             let size = component.size();
             let point = |row: &[u8]| {
@@ -57,7 +57,7 @@ impl<'a> AccessorReader<'a> {
     /// Reads the indices of a `SCALAR` accessor.
     pub(super) fn indices(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
         self.read_accessor(accessor, |accessors, about| {
-            check_kind(about, "SCALAR")?;
+            check_accessor_type(about, "SCALAR")?;
             let component = ComponentType::index_type_from_code(about.component_type)?;
             let whole = |row: &[u8]| component.read_f64(row) as u32;
             accessors.read_elements(
@@ -77,7 +77,8 @@ impl<'a> AccessorReader<'a> {
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
     ) -> Result<T, MeshFault> {
         let about = element(&self.root.accessors, "accessor", accessor)?;
-        read(self, about).map_err(|fault| fault.at(element_name("accessor", accessor, None)))
+        read(self, about)
+            .map_err(|fault| fault.at_element(element_name("accessor", accessor, None)))
     }
 
     /// Reads all elements of an accessor, including those that its sparse part replaces.
@@ -98,7 +99,7 @@ impl<'a> AccessorReader<'a> {
             None if about.sparse.is_some() => None,
             None => return Err(MeshFault::malformed_content("has no buffer view")),
         };
-        self.allowance.spend(price)?;
+        self.expansion_budget.spend(price)?;
         let mut elements: Vec<T> = match rows {
             Some(rows) => rows.map(&read).collect(),
             // All except the sparse elements are zero. The allowance bounds the number.
@@ -147,7 +148,8 @@ impl<'a> AccessorReader<'a> {
         let component = ComponentType::index_type_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
         let rows = self.rows(about.buffer_view, about.byte_offset, layout, None)?;
-        self.allowance.spend(expansion_cost(0, sparse.count))?;
+        self.expansion_budget
+            .spend(expansion_cost(0, sparse.count))?;
         let checked = |row| match component.read_f64(row) as usize {
             number if number < length => Ok(number),
             number => Err(MeshFault::malformed_content(format!(
@@ -158,7 +160,7 @@ impl<'a> AccessorReader<'a> {
     }
 }
 
-fn check_kind(about: &schema::Accessor, kind: &str) -> Result<(), MeshFault> {
+fn check_accessor_type(about: &schema::Accessor, kind: &str) -> Result<(), MeshFault> {
     if about.kind == kind {
         Ok(())
     } else {

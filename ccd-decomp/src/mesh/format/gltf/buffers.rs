@@ -2,8 +2,8 @@
 
 use super::schema::{Buffer, Root};
 use super::{element, extensions};
-use crate::mesh::error::{MeshFault, Quote, element_name};
-use crate::mesh::format::{LinkedFiles, Reference};
+use crate::mesh::error::{MeshFault, QuotedName, element_name};
+use crate::mesh::format::{FileReference, LinkedFiles};
 use base64::Engine;
 use base64::engine::general_purpose::GeneralPurpose;
 use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
@@ -23,8 +23,8 @@ impl<'a> Buffers<'a> {
     ) -> Result<Self, MeshFault> {
         let found = |(k, buffer)| {
             let binary = binary.filter(|_| k == 0);
-            content(buffer, binary, linked)
-                .map_err(|fault| fault.at(element_name("buffer", k, None)))
+            buffer_bytes(buffer, binary, linked)
+                .map_err(|fault| fault.at_element(element_name("buffer", k, None)))
         };
         let bytes: Result<_, _> = root.buffers.iter().enumerate().map(found).collect();
         Ok(Buffers {
@@ -59,7 +59,8 @@ impl<'a> Buffers<'a> {
                 ))
             })
         };
-        found().map_err(|fault: MeshFault| fault.at(element_name("buffer view", view, None)))
+        found()
+            .map_err(|fault: MeshFault| fault.at_element(element_name("buffer view", view, None)))
     }
 
     /// Returns the stride of a buffer view in bytes, if the view states one.
@@ -68,7 +69,7 @@ impl<'a> Buffers<'a> {
     }
 }
 
-fn content<'a>(
+fn buffer_bytes<'a>(
     buffer: &'a Buffer,
     binary: Option<&'a [u8]>,
     linked: &'a LinkedFiles,
@@ -104,11 +105,11 @@ fn linked_file_fault(name: String) -> MeshFault {
 }
 
 /// Returns the reference to the file of a buffer; `None` for an embedded buffer.
-pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault> {
+pub(super) fn file_reference(buffer: &Buffer) -> Result<Option<FileReference>, MeshFault> {
     match &buffer.uri {
-        Some(uri) if data_uri_payload(uri).is_none() => Ok(Some(Reference {
+        Some(uri) if data_uri_payload(uri).is_none() => Ok(Some(FileReference {
             name: percent_decoded(uri)?,
-            bytes: buffer.byte_length,
+            needed_bytes: buffer.byte_length,
         })),
         _ => Ok(None),
     }
@@ -141,7 +142,7 @@ fn decode_base64(data: &str) -> Result<Vec<u8>, MeshFault> {
 /// Decodes the percent escapes of a URI to a path: `%20` is a space, and so on.
 fn percent_decoded(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
-        let problem = format!("its URI {:?} {what}", Quote(uri));
+        let problem = format!("its URI {:?} {what}", QuotedName(uri));
         Err(MeshFault::malformed_content(problem))
     };
     // This also refuses drive letters.

@@ -17,7 +17,7 @@ pub(super) struct Container<'a> {
     pub(super) binary_chunk: Option<&'a [u8]>,
 }
 
-const VERSION: u32 = 2;
+const GLTF_VERSION: u32 = 2;
 
 impl<'a> Container<'a> {
     pub(super) fn read(bytes: &'a [u8]) -> Result<Self, MeshFault> {
@@ -28,7 +28,7 @@ impl<'a> Container<'a> {
             });
         };
         let version = read_u32(&mut rest)?;
-        if version != VERSION {
+        if version != GLTF_VERSION {
             return Err(MeshFault::unsupported(
                 format!("binary glTF of version {version}"),
                 "glTF 2.0",

@@ -63,10 +63,10 @@ impl SceneTraversal<'_> {
             if std::mem::replace(&mut self.visited_nodes[number], true) {
                 return Err(
                     MeshFault::malformed_content("is below itself, or below two others")
-                        .at(place()),
+                        .at_element(place()),
                 );
             }
-            let own = transform::node_transform(node).map_err(|fault| fault.at(place()))?;
+            let own = transform::node_transform(node).map_err(|fault| fault.at_element(place()))?;
             let map = above.compose_after(&own);
             if own.collapses_to_point() {
                 continue;
@@ -79,7 +79,7 @@ impl SceneTraversal<'_> {
                     )),
                     None => self.place(mesh, node.name.clone(), map),
                 };
-                placed.map_err(|fault| fault.at(place()))?;
+                placed.map_err(|fault| fault.at_element(place()))?;
             }
             waiting.extend(node.children.iter().rev().map(|&child| (child, map)));
         }
@@ -97,9 +97,8 @@ impl SceneTraversal<'_> {
             .filter(|&node| !is_below[node])
             .collect();
         if tops.is_empty() {
-            return Err(
-                MeshFault::malformed_content("is below itself").at(element_name("node", 0, None))
-            );
+            return Err(MeshFault::malformed_content("is below itself")
+                .at_element(element_name("node", 0, None)));
         }
         self.visit_descendants(&tops)
     }
@@ -150,7 +149,7 @@ impl SceneTraversal<'_> {
             None => {
                 let place = || element_name("mesh", mesh, about.name.as_deref());
                 let shape = primitive::shape(about, &mut self.accessors)
-                    .map_err(|fault| fault.at(place()))?;
+                    .map_err(|fault| fault.at_element(place()))?;
                 self.scene.shapes.push(shape);
                 *self
                     .shape_of_mesh

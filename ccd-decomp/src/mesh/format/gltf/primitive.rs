@@ -4,7 +4,7 @@ use super::accessor::AccessorReader;
 use super::extensions;
 use super::schema::{Mesh, Primitive};
 use crate::mesh::error::{MeshFault, element_name};
-use crate::mesh::polygons::{Polygons, check_count};
+use crate::mesh::polygons::{Polygons, check_count_fits_indices};
 use ccd_core::glam::DVec3;
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ pub(super) fn shape(
     let mut known = HashMap::new();
     for (k, primitive) in mesh.primitives.iter().enumerate() {
         add(primitive, &mut shape, &mut known, accessors)
-            .map_err(|fault| fault.at(element_name("primitive", k, None)))?;
+            .map_err(|fault| fault.at_element(element_name("primitive", k, None)))?;
     }
     Ok(shape)
 }
@@ -52,7 +52,7 @@ fn add(
         Some(&vertices) => vertices,
         None => {
             let points = accessors.points(position)?;
-            check_count("vertices", points.len())?;
+            check_count_fits_indices("vertices", points.len())?;
             check_finite(&points)?;
             let vertices = VertexRange {
                 first: shape.vertices.len(),

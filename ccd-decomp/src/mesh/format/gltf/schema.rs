@@ -12,7 +12,7 @@ pub(super) struct Root {
     asset: Asset,
     #[serde(default)]
     pub(super) extensions_required: Vec<String>,
-    #[serde(default, deserialize_with = "whole::optional_number")]
+    #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) scene: Option<usize>,
     #[serde(default)]
     pub(super) scenes: Vec<SceneNodes>,
@@ -35,16 +35,16 @@ struct Asset {
 
 #[derive(Deserialize)]
 pub(super) struct SceneNodes {
-    #[serde(default, deserialize_with = "whole::number_list")]
+    #[serde(default, deserialize_with = "whole::whole_number_list")]
     pub(super) nodes: Vec<usize>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Node {
     pub(super) name: Option<String>,
-    #[serde(default, deserialize_with = "whole::number_list")]
+    #[serde(default, deserialize_with = "whole::whole_number_list")]
     pub(super) children: Vec<usize>,
-    #[serde(default, deserialize_with = "whole::optional_number")]
+    #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<IgnoredAny>,
     pub(super) matrix: Option<[f64; 16]>,
@@ -71,9 +71,9 @@ pub(super) struct Mesh {
 #[derive(Deserialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
-    #[serde(default, deserialize_with = "whole::optional_number")]
+    #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) indices: Option<usize>,
-    #[serde(default, deserialize_with = "whole::optional_number")]
+    #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) mode: Option<u32>,
     #[serde(default)]
     pub(super) targets: Vec<IgnoredAny>,
@@ -84,7 +84,7 @@ pub(super) struct Primitive {
 #[derive(Deserialize)]
 pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
-    #[serde(default, deserialize_with = "whole::optional_number")]
+    #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) position: Option<usize>,
 }
 
@@ -97,15 +97,15 @@ pub(super) struct PrimitiveExtensions {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
-    #[serde(default, deserialize_with = "whole::optional_number")]
+    #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) buffer_view: Option<usize>,
-    #[serde(default, deserialize_with = "whole::required_number")]
+    #[serde(default, deserialize_with = "whole::required_whole_number")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) component_type: u32,
     #[serde(default)]
     pub(super) normalized: bool,
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) count: u64,
     #[serde(rename = "type")]
     pub(super) kind: String,
@@ -114,7 +114,7 @@ pub(super) struct Accessor {
 
 #[derive(Deserialize)]
 pub(super) struct Sparse {
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) count: u64,
     pub(super) indices: SparseIndices,
     pub(super) values: SparseValues,
@@ -123,33 +123,33 @@ pub(super) struct Sparse {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseIndices {
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) buffer_view: usize,
-    #[serde(default, deserialize_with = "whole::required_number")]
+    #[serde(default, deserialize_with = "whole::required_whole_number")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) component_type: u32,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseValues {
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) buffer_view: usize,
-    #[serde(default, deserialize_with = "whole::required_number")]
+    #[serde(default, deserialize_with = "whole::required_whole_number")]
     pub(super) byte_offset: u64,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct BufferView {
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) buffer: usize,
-    #[serde(default, deserialize_with = "whole::required_number")]
+    #[serde(default, deserialize_with = "whole::required_whole_number")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) byte_length: u64,
-    #[serde(default, deserialize_with = "whole::optional_number")]
+    #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) byte_stride: Option<u64>,
     #[serde(default)]
     pub(super) extensions: ViewExtensions,
@@ -165,7 +165,7 @@ pub(super) struct ViewExtensions {
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
     pub(super) uri: Option<String>,
-    #[serde(deserialize_with = "whole::required_number")]
+    #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) byte_length: u64,
 }
 

@@ -43,8 +43,8 @@ fn text_and_binary_are_the_same() {
     let gltf = Gltf::triangle();
     for bytes in [
         gltf.glb(),
-        gltf.text(),
-        [b"\xef\xbb\xbf", &gltf.text()[..]].concat(),
+        gltf.text_with_embedded_buffer(),
+        [b"\xef\xbb\xbf", &gltf.text_with_embedded_buffer()[..]].concat(),
     ] {
         let mesh = TriangleMesh::from_reader(Format::Gltf, &bytes[..]).unwrap();
         assert_eq!(mesh.vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);

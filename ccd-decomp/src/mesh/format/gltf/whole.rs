@@ -4,31 +4,34 @@ use serde::de::{Deserialize, Deserializer, Error, Unexpected};
 use serde_json::Value;
 
 /// Deserializes a required whole number, which may be written like 1.0 or 1e0.
-pub(super) fn required_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+pub(super) fn required_whole_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<T, D::Error> {
-    whole(&Value::deserialize(from)?)
+    to_whole_number(&Value::deserialize(from)?)
 }
 
 /// Deserializes an optional whole number, which may be written like 1.0 or 1e0.
-pub(super) fn optional_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+pub(super) fn optional_whole_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Option<T>, D::Error> {
     let number = Option::<Value>::deserialize(from)?;
-    number.as_ref().map(whole).transpose()
+    number.as_ref().map(to_whole_number).transpose()
 }
 
 /// Deserializes a list of whole numbers, which may be written like 1.0 or 1e0.
-pub(super) fn number_list<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+pub(super) fn whole_number_list<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {
-    Vec::<Value>::deserialize(from)?.iter().map(whole).collect()
+    Vec::<Value>::deserialize(from)?
+        .iter()
+        .map(to_whole_number)
+        .collect()
 }
 
 /// The number 2⁵³, from which on f64 does not represent every whole number.
 const EXACT_INTEGER_LIMIT: f64 = (1_u64 << 53) as f64;
 
-fn whole<T: TryFrom<u64>, E: Error>(value: &Value) -> Result<T, E> {
+fn to_whole_number<T: TryFrom<u64>, E: Error>(value: &Value) -> Result<T, E> {
     let is_whole =
         |number: &f64| number.fract() == 0.0 && (0.0..EXACT_INTEGER_LIMIT).contains(number);
     let of_float = || value.as_f64().filter(is_whole).map(|number| number as u64);

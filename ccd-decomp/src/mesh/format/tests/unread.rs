@@ -1,8 +1,8 @@
 //! Tests that unsupported content is an error if it defines faces, and a remark otherwise.
 
 use super::{
-    Format, RICH_OBJ, TETRAHEDRON_OBJ, TETRAHEDRON_OFF, TETRAHEDRON_PLY, TETRAHEDRON_STL,
-    binary_ply, binary_stl, corners, read,
+    Format, OBJ_WITH_OPTIONAL_CONTENT, TETRAHEDRON_OBJ, TETRAHEDRON_OFF, TETRAHEDRON_PLY,
+    TETRAHEDRON_STL, binary_ply, binary_stl, corners, read,
 };
 use crate::TriangleMesh;
 use rstest::rstest;
@@ -81,7 +81,7 @@ fn kinds_of_statements_are_counted_to_a_limit() {
 fn an_element_that_is_passed_over_is_named() {
     let mesh = read(Format::Ply, TETRAHEDRON_PLY.as_bytes()).unwrap();
     assert_eq!(remarks(&mesh), "elements \"edge\" passed over: 1");
-    let mesh = read(Format::Obj, RICH_OBJ).unwrap();
+    let mesh = read(Format::Obj, OBJ_WITH_OPTIONAL_CONTENT).unwrap();
     let expected =
         "lines passed over: 1 (line 12); vertices divided by their fourth number: 1 (line 13)";
     assert_eq!(remarks(&mesh), expected);
@@ -103,25 +103,29 @@ fn ply_text(faces: &str, lines: &str) -> String {
 }
 
 const FACES: &str = "element face 1\nproperty list uchar int vertex_indices\n";
-const STRIPS: &str = "element tristrips 1\nproperty list int int vertex_indices\n";
+const STRIPS_HEADER_LINES: &str = "element tristrips 1\nproperty list int int vertex_indices\n";
 
 #[test]
 fn strips_are_triangles_turned_alike() {
     for (elements, lines, expected) in [
         (
-            STRIPS.to_owned(),
+            STRIPS_HEADER_LINES.to_owned(),
             "5 0 1 2 3 4\n",
             &[[0, 1, 2], [2, 1, 3], [2, 3, 4]][..],
         ),
         // −1 begins another strip, whose first triangle is not reversed.
         (
-            STRIPS.to_owned(),
+            STRIPS_HEADER_LINES.to_owned(),
             "8 0 1 2 3 -1 2 3 4\n",
             &[[0, 1, 2], [2, 1, 3], [2, 3, 4]],
         ),
-        (STRIPS.to_owned(), "9 -1 0 1 -1 -1 0 1 2 -1\n", &[[0, 1, 2]]),
         (
-            [FACES, STRIPS].concat(),
+            STRIPS_HEADER_LINES.to_owned(),
+            "9 -1 0 1 -1 -1 0 1 2 -1\n",
+            &[[0, 1, 2]],
+        ),
+        (
+            [FACES, STRIPS_HEADER_LINES].concat(),
             "3 2 3 4\n4 0 1 2 3\n",
             &[[2, 3, 4], [0, 1, 2], [2, 1, 3]],
         ),
@@ -130,7 +134,7 @@ fn strips_are_triangles_turned_alike() {
         assert_eq!(mesh.faces(), expected, "{lines}");
         assert!(mesh.repairs().remarks.is_empty());
     }
-    let text = ply_text(STRIPS, "3 0 1 7\n");
+    let text = ply_text(STRIPS_HEADER_LINES, "3 0 1 7\n");
     let message = read(Format::Ply, text.as_bytes()).unwrap_err().to_string();
     assert!(message.contains("names vertex 7"), "{message}");
 }
@@ -181,7 +185,7 @@ fn what_follows_the_end_is_an_error() {
 /// Tests that texts are read with byte order marks, in UTF-16, and with any line endings.
 #[test]
 fn texts_are_read_however_they_are_written() {
-    let rich = String::from_utf8_lossy(RICH_OBJ).into_owned();
+    let rich = String::from_utf8_lossy(OBJ_WITH_OPTIONAL_CONTENT).into_owned();
     for (format, text) in [
         (Format::Obj, TETRAHEDRON_OBJ),
         (Format::Obj, &rich),

@@ -10,7 +10,7 @@ fn worst_normal() {
     let found = WorstCaseSearch::of("MIN_CORNER_SINE, a normal", 20_000).search(|tape| {
         let along = DVec3::from(tape.vector(-20..=0));
         let aside = DVec3::from(tape.vector(-8..=0)) * (2.0 * MIN_CORNER_SINE * tape.size(0..=20));
-        let corners = [DVec3::ZERO, along, along * tape.any(-3..=0) + aside];
+        let corners = [DVec3::ZERO, along, along * tape.any_number(-3..=0) + aside];
         let far = DVec3::from(tape.vector(-20..=0));
         let [a, b, c] = corners.map(|p| p + far);
         let (u, v) = (b - a, c - a);
@@ -25,5 +25,5 @@ fn worst_normal() {
         let exact = unit(DVec3::from_array(exact))?;
         Some(share(exact.distance(found), NEAREST_DISTANCE_ERROR))
     });
-    found.assert_within(60.0);
+    found.assert_tight_bound(60.0);
 }

@@ -42,7 +42,7 @@ fn cut(tape: &mut RandomCase, polygon: &mut Vec<DVec3>) -> Option<()> {
     more.then_some(())
 }
 
-fn largest_coordinate(of: [DVec3; 2]) -> f64 {
+fn largest_absolute_coordinate(of: [DVec3; 2]) -> f64 {
     greater(of[0].abs().max_element(), of[1].abs().max_element())
 }
 
@@ -59,8 +59,8 @@ fn worst_cuts() {
             }
         }
         let off = polygon.iter().map(|&x| distance_from_line(x, edge));
-        let bound = excess_rounding(0.0, largest_coordinate(edge));
+        let bound = excess_rounding(0.0, largest_absolute_coordinate(edge));
         Some(share(off.fold(0.0, greater), bound))
     });
-    found.assert_within(4_000.0);
+    found.assert_tight_bound(4_000.0);
 }

@@ -16,19 +16,19 @@ fn is_separated_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32;
         .any(|plane| obstacle.separates(plane, triangle))
 }
 
-fn grid_point() -> impl Strategy<Value = DVec3> {
+fn any_grid_point() -> impl Strategy<Value = DVec3> {
     [0..5i32, 0..5i32, 0..5i32].prop_map(|x| DVec3::from_array(x.map(f64::from)))
 }
 
 proptest! {
     #[test]
     fn agrees_with_all_planes(
-        hull in prop::collection::vec(grid_point(), 4..9),
-        triangle in [grid_point(), grid_point(), grid_point()],
+        hull in prop::collection::vec(any_grid_point(), 4..9),
+        triangle in [any_grid_point(), any_grid_point(), any_grid_point()],
     ) {
         let mut points = hull;
         let facets = ExactHull::facets_of(&points);
-        let Some(hull) = facets.map(ExactHull::with_facets) else { return Ok(()) };
+        let Some(hull) = facets.map(ExactHull::from_facets) else { return Ok(()) };
         let first = points.len() as u32;
         points.extend(triangle);
         let triangle = [first, first + 1, first + 2];
@@ -40,13 +40,13 @@ proptest! {
     /// coordinates make the point exact.
     #[test]
     fn triangles_inside_are_not_apart(
-        hull in prop::collection::vec(grid_point(), 4..9),
-        triangle in [grid_point(), grid_point(), grid_point()],
+        hull in prop::collection::vec(any_grid_point(), 4..9),
+        triangle in [any_grid_point(), any_grid_point(), any_grid_point()],
         weights in [1..8i32, 1..8i32],
     ) {
         let mut points = hull;
         let facets = ExactHull::facets_of(&points);
-        let Some(hull) = facets.map(ExactHull::with_facets) else { return Ok(()) };
+        let Some(hull) = facets.map(ExactHull::from_facets) else { return Ok(()) };
         let [s, t] = weights.map(|w| f64::from(w) / 16.0);
         let p = (1.0 - s - t) * triangle[0] + s * triangle[1] + t * triangle[2];
         let at = |v: u32| points[v as usize];

@@ -53,14 +53,14 @@ fn whoever_meets_is_reported() {
         let mut reported = Vec::new();
         for face in 0..faces {
             let region = Region::triangle(manifold.triangle(face));
-            plates.all_meeting(face, &region, &Work::unbounded(), |other| {
+            plates.all_meeting_faces_satisfy(face, &region, &Work::unbounded(), |other| {
                 reported.push((face.min(other), face.max(other)));
                 true
             });
         }
         reported.sort_unstable();
         assert!(reported.windows(2).all(|pair| pair[0] != pair[1]));
-        let on_plate = |face: u32| plates.plate_of_face[face as usize] != NONE;
+        let on_plate = |face: u32| plates.plate_of_face[face as usize] != NO_PLATE;
         for (f, g) in (0..faces).flat_map(|f| (f + 1..faces).map(move |g| (f, g))) {
             let is_reported = reported.binary_search(&(f, g)).is_ok();
             if on_plate(f) || on_plate(g) {
@@ -92,8 +92,8 @@ fn a_comb_is_next_to_its_plates() {
     assert!(plates.plates.iter().all(|plate| plate.faces.len() == 80));
     for face in 0..mesh.faces().len() as u32 {
         let region = Region::triangle(manifold.triangle(face));
-        plates.all_meeting(face, &region, &Work::unbounded(), |other| {
-            assert_eq!(plates.plate_of_face[other as usize], NONE);
+        plates.all_meeting_faces_satisfy(face, &region, &Work::unbounded(), |other| {
+            assert_eq!(plates.plate_of_face[other as usize], NO_PLATE);
             true
         });
     }

@@ -1,5 +1,5 @@
 use super::super::agglomerate::agglomerate;
-use super::super::nodes::{AabbF32, Below, Node};
+use super::super::nodes::{AabbF32, Node, NodeContent};
 use super::{Tree, reinsert_subtrees};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
@@ -30,10 +30,13 @@ fn check(nodes: &[Node]) -> Vec<u32> {
     let mut seen = 0;
     while let Some(node) = stack.pop() {
         seen += 1;
-        let Node { cuboid, below } = nodes[node as usize];
+        let Node {
+            cuboid,
+            content: below,
+        } = nodes[node as usize];
         match below {
-            Below::Piece(piece) => pieces.push(piece),
-            Below::Children(first) => {
+            NodeContent::Piece(piece) => pieces.push(piece),
+            NodeContent::Children(first) => {
                 let [left, right] = [first, first + 1].map(|k| nodes[k as usize].cuboid);
                 assert_eq!(cuboid, left.union(right));
                 stack.extend([first, first + 1]);
@@ -46,7 +49,7 @@ fn check(nodes: &[Node]) -> Vec<u32> {
 }
 
 /// Returns half the total area of all boxes after the subtree `from` becomes the sibling of `to`.
-fn total_area_after_move(nodes: &[Node], from: u32, to: u32) -> f64 {
+fn total_half_area_after_move(nodes: &[Node], from: u32, to: u32) -> f64 {
     let mut copy = nodes.to_vec();
     Tree::new(&mut copy).apply(from, to);
     check(&copy);
@@ -79,9 +82,9 @@ proptest! {
             let beside = super::sibling(from);
             let targets = (1..all.len() as u32)
                 .filter(|&to| to != beside && !is_above(from, to) && !is_above(to, from));
-            let gains = targets.map(|to| before - total_area_after_move(&all, from, to));
+            let gains = targets.map(|to| before - total_half_area_after_move(&all, from, to));
             let best = gains.fold(0.0, ccd_core::order::greater);
-            let found = tree.best_move(from, &mut Vec::new()).map_or(0.0, |best| f64::from(best.area_reduction));
+            let found = tree.best_reinsertion(from, &mut Vec::new()).map_or(0.0, |best| f64::from(best.area_reduction));
             prop_assert!((found - best).abs() <= 1e-4, "{from}: {found} instead of {best}");
         }
     }

@@ -10,7 +10,7 @@ fn sum<'t>(answers: impl IntoIterator<Item = &'t TimedAnswer>, tolerance: f64) -
     summary
 }
 
-fn timed(micros: f64, tolerance: f64) -> TimedAnswer {
+fn sample_timed_answer(micros: f64, tolerance: f64) -> TimedAnswer {
     TimedAnswer {
         answer: Answer {
             outcome: Outcome::Free { proven_gap: 1.0 },
@@ -34,7 +34,7 @@ fn timed(micros: f64, tolerance: f64) -> TimedAnswer {
 fn times_and_visits_are_summed() {
     let answers: Vec<TimedAnswer> = (1..=100)
         .rev()
-        .map(|micros| timed(f64::from(micros), 1e-3))
+        .map(|micros| sample_timed_answer(f64::from(micros), 1e-3))
         .collect();
     let summary = sum(&answers, 1e-3);
     let counts: Vec<(Status, usize)> = summary.counts.nonzero_counts().collect();
@@ -59,7 +59,11 @@ fn the_median_of_an_odd_number_is_the_middle_one() {
 
 #[test]
 fn raised_tolerances_are_counted() {
-    let answers = [timed(1.0, 1e-9), timed(1.0, 4e-8), timed(1.0, 3e-8)];
+    let answers = [
+        sample_timed_answer(1.0, 1e-9),
+        sample_timed_answer(1.0, 4e-8),
+        sample_timed_answer(1.0, 3e-8),
+    ];
     let summary = sum(&answers, 1e-9);
     assert_eq!(
         (summary.raised_tolerance_count, summary.largest_tolerance),
@@ -74,7 +78,10 @@ fn raised_tolerances_are_counted() {
 
 #[test]
 fn means_are_per_row() {
-    let answers = [timed(1.0, 1e-3), timed(2.0, 1e-3)];
+    let answers = [
+        sample_timed_answer(1.0, 1e-3),
+        sample_timed_answer(2.0, 1e-3),
+    ];
     assert_eq!(
         sum(&answers, 1e-3).describe_means().as_deref(),
         Some("means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps")
@@ -90,7 +97,10 @@ fn a_summary_without_rows_has_no_times() {
 #[test]
 fn the_median_of_many_times_has_a_relative_error_below_a_thousandth() {
     let mut times: Vec<f64> = (0..9999).map(|k| 0.37 * 1.003_f64.powi(k % 4001)).collect();
-    let answers: Vec<TimedAnswer> = times.iter().map(|&micros| timed(micros, 1e-3)).collect();
+    let answers: Vec<TimedAnswer> = times
+        .iter()
+        .map(|&micros| sample_timed_answer(micros, 1e-3))
+        .collect();
     let exact = median(&mut times);
     let reported = sum(&answers, 1e-3).median_micros();
     assert!(
@@ -101,7 +111,7 @@ fn the_median_of_many_times_has_a_relative_error_below_a_thousandth() {
 
 #[test]
 fn rows_of_earlier_runs_are_counted_separately() {
-    let mut earlier = sum(&[timed(3.0, 1e-3)], 1e-3);
+    let mut earlier = sum(&[sample_timed_answer(3.0, 1e-3)], 1e-3);
     earlier.add_error();
     let mut summary = Summary::new(1e-3).with_earlier_counts(earlier.counts);
     assert_eq!(
@@ -109,7 +119,7 @@ fn rows_of_earlier_runs_are_counted_separately() {
         "2 rows: 1 free, 1 error; 0 in this run"
     );
     assert_eq!(summary.describe_means(), None);
-    summary.add(Status::Free, &timed(5.0, 1e-3));
+    summary.add(Status::Free, &sample_timed_answer(5.0, 1e-3));
     assert_eq!((summary.counts.rows(), summary.median_micros()), (3, 5.0));
     let text = summary.to_string();
     let begin = "3 rows: 2 free, 1 error; 1 in this run; median 5.0";
@@ -120,7 +130,7 @@ fn rows_of_earlier_runs_are_counted_separately() {
 
 #[test]
 fn invalid_rows_take_no_time() {
-    let mut summary = sum(&[timed(3.0, 1e-3)], 1e-3);
+    let mut summary = sum(&[sample_timed_answer(3.0, 1e-3)], 1e-3);
     summary.add_error();
     assert_eq!((summary.counts.rows(), summary.median_micros()), (2, 3.0));
     let text = summary.to_string();

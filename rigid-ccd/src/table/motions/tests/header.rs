@@ -13,7 +13,7 @@ fn repeated_columns_and_empty_tables_are_refused() {
     assert_eq!(read("id,a_px\n"), MotionTable::default());
 }
 
-fn refusal(bytes: &[u8]) -> String {
+fn refusal_message(bytes: &[u8]) -> String {
     MotionTable::read(bytes).unwrap_err().to_string()
 }
 
@@ -26,13 +26,13 @@ fn the_most_similar_column_is_named() {
         ("durration", "duration"),
         ("a_xv", "a_vx"),
     ] {
-        let message = refusal(format!("{column}\n").as_bytes());
+        let message = refusal_message(format!("{column}\n").as_bytes());
         assert!(
             message.contains(&format!("did you mean `{meant}`?")),
             "{message}"
         );
     }
-    let message = refusal(b"id,colour\n");
+    let message = refusal_message(b"id,colour\n");
     assert!(
         message.contains("`colour`") && message.contains("end_qz"),
         "{message}"
@@ -51,27 +51,31 @@ fn other_formats_are_recognised() {
         (b"id;a_px\n1;2\n", "separated by ';'"),
         (b"id\ta_px\n1\t2\n", "separated by '\\t'"),
     ] {
-        assert!(refusal(bytes).contains(message), "{}", refusal(bytes));
+        assert!(
+            refusal_message(bytes).contains(message),
+            "{}",
+            refusal_message(bytes)
+        );
     }
 }
 
 #[test]
 fn a_first_line_of_numbers_is_not_a_header() {
     for text in ["1,2,3\n", "drop,4,-4\n", " 1e-3\n", "-.5,x\n"] {
-        let message = refusal(text.as_bytes());
+        let message = refusal_message(text.as_bytes());
         assert!(
             message.contains("the first line must name the columns"),
             "{message}"
         );
     }
     // With a known name, it is a header with a wrong column.
-    let message = refusal(b"id,4\n");
+    let message = refusal_message(b"id,4\n");
     assert!(message.contains("unknown column `4`"), "{message}");
 }
 
 #[test]
 fn a_git_lfs_pointer_is_not_a_table() {
-    let message = refusal(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+    let message = refusal_message(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
     assert!(message.contains("git lfs pull"), "{message}");
 }
 

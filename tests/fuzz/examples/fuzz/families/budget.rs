@@ -16,7 +16,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     }
     if draw.bool_with_probability(0.4) {
         let near = draw.log_uniform(1e-3..1.0);
-        for course in &mut case.courses {
+        for course in &mut case.motions {
             course.start.position = scale_array(course.start.position, near);
         }
     }

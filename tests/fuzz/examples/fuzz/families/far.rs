@@ -3,7 +3,7 @@
 use super::passing_case;
 use crate::case::Case;
 use crate::draw::{RandomSource, add_arrays, scale_array};
-use crate::raw_motion::{Goal, RawMotion, RawPose};
+use crate::raw_motion::{MotionSpec, RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::Settings;
 
@@ -25,7 +25,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     } else {
         draw.log_uniform(1e-6..1e6)
     };
-    for course in &mut case.courses {
+    for course in &mut case.motions {
         *course = far_motion(draw, course, far, case.duration);
         if whole {
             course.start.position = course.start.position.map(f64::round);
@@ -42,7 +42,7 @@ fn far_motion(
     far: [f64; 3],
     duration: f64,
 ) -> RawMotion {
-    let Goal::Velocities { linear, .. } = course.goal else {
+    let MotionSpec::Velocities { linear, .. } = course.spec else {
         return *course;
     };
     let start = RawPose {
@@ -56,13 +56,13 @@ fn far_motion(
     };
     if draw.bool_with_probability(0.15) {
         let slow = |v: [f64; 3]| scale_array(v, 1.0 / duration);
-        let goal = Goal::Velocities {
+        let goal = MotionSpec::Velocities {
             linear: slow(linear),
             spin: slow(draw.point()),
         };
         return RawMotion {
             start,
-            goal,
+            spec: goal,
             centre,
         };
     }
@@ -81,7 +81,7 @@ fn far_motion(
     };
     RawMotion {
         start,
-        goal: Goal::End(end),
+        spec: MotionSpec::EndPose(end),
         centre,
     }
 }

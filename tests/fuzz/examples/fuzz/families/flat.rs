@@ -49,10 +49,10 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     }
     Case {
         shapes: bodies,
-        courses,
+        motions: courses,
         duration: 1.0,
         config,
-        expected: Expectation::Nothing,
+        expected: Expectation::Unknown,
     }
 }
 

@@ -41,7 +41,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
         draw.uniform(-1.0..1.0),
         half_height + gap,
     ];
-    let (velocity, spin, expect) = released_motion(draw, gap, config.margin);
+    let (velocity, spin, expect) = motion_from_contact(draw, gap, config.margin);
     let mut courses = [
         motion_at_rest(),
         RawMotion::velocities(RawPose::at(at), velocity, spin),
@@ -60,7 +60,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     }
     Case {
         shapes,
-        courses,
+        motions: courses,
         duration: 1.0,
         config,
         expected: expect,
@@ -77,7 +77,7 @@ fn put_on_floor(shape: Shape) -> (Shape, f64) {
 }
 
 /// Returns a random velocity and angular velocity of a body in contact at the start, and the expected result.
-fn released_motion(
+fn motion_from_contact(
     draw: &mut RandomSource,
     gap: f64,
     margin: f64,
@@ -95,7 +95,7 @@ fn released_motion(
             [0.0; 3],
             Expectation::Free,
         ),
-        2 => ([along[0], along[1], 0.0], [0.0; 3], Expectation::Nothing),
+        2 => ([along[0], along[1], 0.0], [0.0; 3], Expectation::Unknown),
         3 => {
             let down = draw.log_uniform(1e-3..3.0);
             // All of the gap is closed by then.
@@ -103,14 +103,14 @@ fn released_motion(
             let expect = if by < 1.0 {
                 Expectation::ContactBy(by)
             } else {
-                Expectation::Nothing
+                Expectation::Unknown
             };
             ([along[0], along[1], -down], [0.0; 3], expect)
         }
         _ => (
             along,
             scale_array(draw.direction(), draw.log_uniform(1e-3..6.0)),
-            Expectation::Nothing,
+            Expectation::Unknown,
         ),
     }
 }

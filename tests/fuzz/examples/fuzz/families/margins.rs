@@ -18,7 +18,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     if draw.bool_with_probability(0.3) {
         // The start is inside the margin.
         let near = draw.uniform(0.0..1.0);
-        for course in &mut case.courses {
+        for course in &mut case.motions {
             course.start.position = scale_array(course.start.position, near);
         }
     }

@@ -3,7 +3,7 @@
 use super::{motion_at_rest, passing_case, settings_with_random_tolerance};
 use crate::case::{Case, Shape};
 use crate::draw::{RandomSource, add_arrays, scale_array};
-use crate::raw_motion::Goal;
+use crate::raw_motion::MotionSpec;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut RandomSource) -> Case {
@@ -29,18 +29,18 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     };
     let mut case = passing_case(draw, shapes, turn, config.clone());
     if draw.bool_with_probability(0.3) {
-        for course in &mut case.courses {
+        for course in &mut case.motions {
             course.start.quaternion = [1.0, 0.0, 0.0, 0.0];
         }
     }
     if draw.bool_with_probability(0.3) {
         // The body moves straight at the other one, across a plane that holds needles.
         let reach = case.shapes[0].radius() + case.shapes[1].radius() + config.margin;
-        let way = lattice_direction(draw);
-        case.courses = [motion_at_rest(), motion_at_rest()];
-        case.courses[0].start.position = scale_array(way, -1.5 * reach);
+        let way = lattice_or_unit_direction(draw);
+        case.motions = [motion_at_rest(), motion_at_rest()];
+        case.motions[0].start.position = scale_array(way, -1.5 * reach);
         let linear = scale_array(way, reach * draw.uniform(0.5..2.0));
-        case.courses[0].goal = Goal::Velocities {
+        case.motions[0].spec = MotionSpec::Velocities {
             linear,
             spin: [0.0; 3],
         };
@@ -59,13 +59,13 @@ fn thin_triangles(draw: &mut RandomSource) -> Shape {
     let count = draw.log_uniform(1.0..9.0) as usize;
     let common = draw
         .bool_with_probability(0.5)
-        .then(|| lattice_direction(draw));
+        .then(|| lattice_or_unit_direction(draw));
     let about = draw.bool_with_probability(0.5).then_some([0.0; 3]);
     let mut shape = Shape::default();
     for _ in 0..count {
         let at = about.unwrap_or_else(|| scale_array(draw.point(), 0.5));
-        let along = common.unwrap_or_else(|| lattice_direction(draw));
-        let aside = scale_array(lattice_direction(draw), width);
+        let along = common.unwrap_or_else(|| lattice_or_unit_direction(draw));
+        let aside = scale_array(lattice_or_unit_direction(draw), width);
         let share = draw.pick(&[0.0, 0.5, 1.0, 0.3, -0.7]);
         let third = match draw.count(0..5) {
             // The area is zero.
@@ -87,7 +87,7 @@ fn thin_triangles(draw: &mut RandomSource) -> Shape {
 }
 
 /// Returns a vector with whole components from −2 to 2, or a random unit vector.
-fn lattice_direction(draw: &mut RandomSource) -> [f64; 3] {
+fn lattice_or_unit_direction(draw: &mut RandomSource) -> [f64; 3] {
     if draw.bool_with_probability(0.3) {
         return draw.direction();
     }

@@ -3,7 +3,7 @@
 use super::{passing_case, settings_with_random_tolerance};
 use crate::case::Case;
 use crate::draw::{RandomSource, add_arrays, scale_array};
-use crate::raw_motion::Goal;
+use crate::raw_motion::MotionSpec;
 use crate::shapes;
 use ccd_core::order::{greater, lesser};
 
@@ -26,19 +26,19 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let mut case = passing_case(draw, bodies, turn, config);
     if draw.bool_with_probability(0.5) && turn == 0.0 {
         // A corner of one flies straight at the other, since small ones would never be hit otherwise.
-        case.courses[0].start.quaternion = [1.0, 0.0, 0.0, 0.0];
+        case.motions[0].start.quaternion = [1.0, 0.0, 0.0, 0.0];
         let start = add_arrays(
-            case.courses[1].start.position,
+            case.motions[1].start.position,
             scale_array(draw.direction(), 2.0 * large),
         );
-        case.courses[0].start.position = add_arrays(start, scale_array(target, -1.0));
-        let way = add_arrays(case.courses[1].start.position, scale_array(start, -1.0));
+        case.motions[0].start.position = add_arrays(start, scale_array(target, -1.0));
+        let way = add_arrays(case.motions[1].start.position, scale_array(start, -1.0));
         let linear = scale_array(way, draw.uniform(0.7..1.5));
-        case.courses[0].goal = Goal::Velocities {
+        case.motions[0].spec = MotionSpec::Velocities {
             linear,
             spin: [0.0; 3],
         };
-        case.courses[1].goal = Goal::Velocities {
+        case.motions[1].spec = MotionSpec::Velocities {
             linear: [0.0; 3],
             spin: [0.0; 3],
         };

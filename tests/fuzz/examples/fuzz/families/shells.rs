@@ -1,7 +1,7 @@
 //! Draws queries of closed parts next to each other and nested, oriented outward or inward.
 
 use super::{motion_at_rest, passing_case, settings_with_random_tolerance};
-use crate::case::{Case, Expectation, Form, Shape};
+use crate::case::{Case, Expectation, MeshClass, Shape};
 use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::RawMotion;
 use crate::shapes;
@@ -39,10 +39,10 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     ];
     Case {
         shapes: [several, other],
-        courses,
+        motions: courses,
         duration: 1.0,
         config,
-        expected: Expectation::Nothing,
+        expected: Expectation::Unknown,
     }
 }
 
@@ -77,6 +77,6 @@ fn closed_parts(draw: &mut RandomSource) -> Shape {
             _ => at[draw.count(0..3)] += size,
         }
     }
-    all.form = Form::TriangleSoup;
+    all.mesh_class = MeshClass::TriangleSoup;
     all
 }

@@ -13,7 +13,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     }
     let turn = draw.log_uniform(0.1..1000.0);
     let mut case = passing_case(draw, bodies, turn, config);
-    for course in &mut case.courses {
+    for course in &mut case.motions {
         if draw.bool_with_probability(0.3) {
             course.centre = scale_array(draw.direction(), draw.log_uniform(0.1..10.0));
         }

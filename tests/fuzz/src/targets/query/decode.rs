@@ -1,10 +1,10 @@
 //! Decodes bytes as a query of two small bodies.
 
 use super::Question;
-use super::source::Source;
-use crate::case::{Case, Expectation, Form, Shape};
+use super::source::NumberReader;
+use crate::case::{Case, Expectation, MeshClass, Shape};
 use crate::engine::{Kind, Method};
-use crate::raw_motion::{Goal, RawMotion, RawPose};
+use crate::raw_motion::{MotionSpec, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
 
@@ -14,7 +14,7 @@ const BUDGET: u64 = 20_000;
 const MAX_ROTATION: f64 = 40.0;
 
 /// The mask of the bits that give the kind of a shape, in the byte before the shape.
-pub(super) const KIND_MASK: u8 = 7;
+pub(super) const SHAPE_KIND_MASK: u8 = 7;
 pub(super) const FLIPPED_BIT: u8 = 64;
 pub(super) const SCALED_BIT: u8 = 128;
 /// The bit that marks a rotated start pose, in the byte before a motion.
@@ -28,15 +28,15 @@ pub(super) const MARGIN_BIT: u8 = 1;
 pub(super) const LEAVE_BIT: u8 = 2;
 pub(super) const DURATION_BIT: u8 = 4;
 pub(super) const BUDGET_BIT: u8 = 8;
-pub(super) const TOLERANCE: u8 = 16;
+pub(super) const TOLERANCE_BIT: u8 = 16;
 pub(super) const AIMED_BIT: u8 = 32;
 pub(super) const EXTRA_CHECKS_BIT: u8 = 64;
 
 /// The number of the kind of shape with arbitrary vertices and faces.
-pub(super) const MESH_KIND: u8 = 0;
+pub(super) const MESH_SHAPE_KIND: u8 = 0;
 
 pub(super) fn decode_question(bytes: &[u8]) -> Question {
-    let mut source = Source::new(bytes);
+    let mut source = NumberReader::new(bytes);
     let flags = source.read_byte();
     let config = config(&mut source, flags);
     let [duration] = source.read_numbers_if(flags & DURATION_BIT > 0, [1.0]);
@@ -47,10 +47,10 @@ pub(super) fn decode_question(bytes: &[u8]) -> Question {
     courses.iter_mut().for_each(|c| limit_rotation(c, duration));
     let mut case = Case {
         shapes,
-        courses,
+        motions: courses,
         duration,
         config,
-        expected: Expectation::Nothing,
+        expected: Expectation::Unknown,
     };
     if flags & AIMED_BIT > 0 {
         aim_at_corner(&mut source, &mut case);
@@ -58,13 +58,13 @@ pub(super) fn decode_question(bytes: &[u8]) -> Question {
     Question {
         case,
         asked,
-        extra_checks: flags & EXTRA_CHECKS_BIT > 0,
+        has_extra_checks: flags & EXTRA_CHECKS_BIT > 0,
     }
 }
 
-fn config(source: &mut Source<'_>, flags: u8) -> Settings {
-    let tolerance = if flags & TOLERANCE > 0 {
-        source.number().abs()
+fn config(source: &mut NumberReader<'_>, flags: u8) -> Settings {
+    let tolerance = if flags & TOLERANCE_BIT > 0 {
+        source.read_number().abs()
     } else {
         1e-3
     };
@@ -88,7 +88,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Settings {
 }
 
 /// Returns the methods that answer the query: always the default, and in most cases another one.
-fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
+fn methods(source: &mut NumberReader<'_>) -> Vec<(Kind, Method)> {
     const METHODS: [Method; 5] = [
         Method::Direct,
         Method::Gjk,
@@ -104,20 +104,20 @@ fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
     asked
 }
 
-fn shape(source: &mut Source<'_>) -> Shape {
+fn shape(source: &mut NumberReader<'_>) -> Shape {
     let kind = source.read_byte();
-    let mut shape = match kind & KIND_MASK {
-        MESH_KIND => mesh(source),
+    let mut shape = match kind & SHAPE_KIND_MASK {
+        MESH_SHAPE_KIND => mesh(source),
         1 => soup(source, 1),
         2 => {
-            let triangles = source.count(1, 5);
+            let triangles = source.read_count(1, 5);
             soup(source, triangles)
         }
-        3 => Shape::cuboid(source.numbers().map(f64::abs)),
+        3 => Shape::cuboid(source.read_numbers().map(f64::abs)),
         4 => {
-            let inner = Shape::cuboid(source.numbers());
-            let at = Vector(source.numbers());
-            let outer = Shape::cuboid(source.numbers());
+            let inner = Shape::cuboid(source.read_numbers());
+            let at = Vector(source.read_numbers());
+            let outer = Shape::cuboid(source.read_numbers());
             outer.joined_with(&inner.map(|v| (Vector(v) + at).0))
         }
         5 => tetrahedron(source),
@@ -125,55 +125,55 @@ fn shape(source: &mut Source<'_>) -> Shape {
         _ => height_field(source),
     };
     // The kinds of pieces to try; the decomposition finds out whether they are possible.
-    shape.form = match kind >> 3 & 3 {
-        0 => Form::Convex,
-        1 => Form::Solid,
-        _ => Form::TriangleSoup,
+    shape.mesh_class = match kind >> 3 & 3 {
+        0 => MeshClass::Convex,
+        1 => MeshClass::Solid,
+        _ => MeshClass::TriangleSoup,
     };
     if kind & FLIPPED_BIT > 0 {
         shape = shape.flipped();
     }
     if kind & SCALED_BIT > 0 {
-        let scale = source.number();
+        let scale = source.read_number();
         shape = shape.map(|v| (Vector(v) * scale).0);
     }
     shape
 }
 
-fn mesh(source: &mut Source<'_>) -> Shape {
-    let (vertices, faces) = (source.count(1, 33), source.count(1, 49));
+fn mesh(source: &mut NumberReader<'_>) -> Shape {
+    let (vertices, faces) = (source.read_count(1, 33), source.read_count(1, 49));
     Shape {
-        vertices: (0..vertices).map(|_| source.numbers()).collect(),
+        vertices: (0..vertices).map(|_| source.read_numbers()).collect(),
         faces: (0..faces)
-            .map(|_| [(); 3].map(|()| u32::from(source.count(0, vertices))))
+            .map(|_| [(); 3].map(|()| u32::from(source.read_count(0, vertices))))
             .collect(),
-        form: Form::TriangleSoup,
+        mesh_class: MeshClass::TriangleSoup,
     }
 }
 
-fn soup(source: &mut Source<'_>, triangles: u8) -> Shape {
+fn soup(source: &mut NumberReader<'_>, triangles: u8) -> Shape {
     let triangles = u32::from(triangles);
     Shape {
-        vertices: (0..3 * triangles).map(|_| source.numbers()).collect(),
+        vertices: (0..3 * triangles).map(|_| source.read_numbers()).collect(),
         faces: (0..triangles)
             .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
             .collect(),
-        form: Form::TriangleSoup,
+        mesh_class: MeshClass::TriangleSoup,
     }
 }
 
-fn tetrahedron(source: &mut Source<'_>) -> Shape {
+fn tetrahedron(source: &mut NumberReader<'_>) -> Shape {
     Shape {
-        vertices: (0..4).map(|_| source.numbers()).collect(),
+        vertices: (0..4).map(|_| source.read_numbers()).collect(),
         faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
-        form: Form::TriangleSoup,
+        mesh_class: MeshClass::TriangleSoup,
     }
 }
 
 /// Returns a bipyramid: corners around an axis, alternately on two circles, and two poles.
-fn bipyramid(source: &mut Source<'_>) -> Shape {
-    let corners = u32::from(source.count(3, 9));
-    let [top, bottom, even, odd] = source.numbers();
+fn bipyramid(source: &mut NumberReader<'_>) -> Shape {
+    let corners = u32::from(source.read_count(3, 9));
+    let [top, bottom, even, odd] = source.read_numbers();
     let mut vertices = vec![[0.0, 0.0, top], [0.0, 0.0, bottom]];
     let mut faces = Vec::new();
     for k in 0..corners {
@@ -186,18 +186,18 @@ fn bipyramid(source: &mut Source<'_>) -> Shape {
     Shape {
         vertices,
         faces,
-        form: Form::TriangleSoup,
+        mesh_class: MeshClass::TriangleSoup,
     }
 }
 
 /// Returns a height field of triangles over a grid of squares.
-fn height_field(source: &mut Source<'_>) -> Shape {
-    let side = u32::from(source.count(1, 5));
+fn height_field(source: &mut NumberReader<'_>) -> Shape {
+    let side = u32::from(source.read_count(1, 5));
     let at = |i: u32, j: u32| i * (side + 1) + j;
     let mut shape = Shape::default();
     for i in 0..=side {
         for j in 0..=side {
-            let height = source.number();
+            let height = source.read_number();
             shape.vertices.push([f64::from(i), f64::from(j), height]);
         }
     }
@@ -210,35 +210,35 @@ fn height_field(source: &mut Source<'_>) -> Shape {
     shape
 }
 
-fn course(source: &mut Source<'_>) -> RawMotion {
+fn course(source: &mut NumberReader<'_>) -> RawMotion {
     let flags = source.read_byte();
     let has = |bit: u8| flags & bit > 0;
     let none = [0.0; 3];
     let start = RawPose {
-        position: source.numbers(),
+        position: source.read_numbers(),
         quaternion: source.read_numbers_if(has(ROTATED_BIT), RawPose::at(none).quaternion),
     };
     let centre = source.read_numbers_if(has(CENTRE_BIT), none);
     let goal = if has(END_POSE_BIT) {
-        Goal::End(RawPose {
-            position: source.numbers(),
+        MotionSpec::EndPose(RawPose {
+            position: source.read_numbers(),
             quaternion: source.read_numbers_if(has(SPIN_BIT), start.quaternion),
         })
     } else {
-        Goal::Velocities {
+        MotionSpec::Velocities {
             linear: source.read_numbers_if(has(VELOCITY_BIT), none),
             spin: source.read_numbers_if(has(SPIN_BIT), none),
         }
     };
     RawMotion {
         start,
-        goal,
+        spec: goal,
         centre,
     }
 }
 
 fn limit_rotation(course: &mut RawMotion, duration: f64) {
-    if let Goal::Velocities { spin, .. } = &mut course.goal {
+    if let MotionSpec::Velocities { spin, .. } = &mut course.spec {
         let turn = Vector(*spin).length() * duration;
         if turn > MAX_ROTATION {
             *spin = (Vector(*spin) * (MAX_ROTATION / turn)).0;
@@ -248,26 +248,26 @@ fn limit_rotation(course: &mut RawMotion, duration: f64) {
 
 /// Moves A so that a corner of A meets a corner of B at some time, up to an offset. Bodies at random places rarely
 /// meet.
-fn aim_at_corner(source: &mut Source<'_>, case: &mut Case) {
+fn aim_at_corner(source: &mut NumberReader<'_>, case: &mut Case) {
     let share = f64::from(source.read_byte()) / 255.0;
     let time = share * case.duration;
     let mut corner = |k: usize| {
         let vertices = &case.shapes[k].vertices;
         let corner = vertices[usize::from(source.read_byte()) % vertices.len()];
-        let track = case.courses[k].track(case.duration);
+        let track = case.motions[k].track(case.duration);
         let placed = track.at(time);
         let arm = placed.arm_of(Vector::from_array(corner) - track.centre);
         arm + placed.centre
     };
     let [from, to] = [corner(0), corner(1)];
-    let way = (to - from).rounded() + Vector(source.numbers());
-    let course = &mut case.courses[0];
+    let way = (to - from).rounded() + Vector(source.read_numbers());
+    let course = &mut case.motions[0];
     let shifted = |pose: RawPose| RawPose {
         position: (Vector(pose.position) + way).0,
         ..pose
     };
     course.start = shifted(course.start);
-    if let Goal::End(end) = course.goal {
-        course.goal = Goal::End(shifted(end));
+    if let MotionSpec::EndPose(end) = course.spec {
+        course.spec = MotionSpec::EndPose(shifted(end));
     }
 }

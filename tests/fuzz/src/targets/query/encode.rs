@@ -1,20 +1,20 @@
 //! Encodes a query as bytes, to turn cases into seeds.
 
 use super::decode::{
-    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN_BIT, MESH_KIND,
-    ROTATED_BIT, SPIN_BIT, TOLERANCE, VELOCITY_BIT,
+    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN_BIT, MESH_SHAPE_KIND,
+    ROTATED_BIT, SPIN_BIT, TOLERANCE_BIT, VELOCITY_BIT,
 };
-use super::source::{RAW_NUMBER_TAG, SIXTEENTH_TAGS};
-use crate::case::{Case, Form, Shape};
-use crate::raw_motion::{Goal, RawMotion};
+use super::source::{RAW_NUMBER_TAG, SIXTEENTH_TAG_COUNT};
+use crate::case::{Case, MeshClass, Shape};
+use crate::raw_motion::{MotionSpec, RawMotion};
 use ccd_core::StartPolicy;
 
 /// Returns bytes that decode to the case and to the `method`, a number from 0 to 14. The budget is kept only if it is
 /// small, and meshes must have fewer than 33 vertices and 49 faces.
 pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
-    let mut out = Writer(Vec::new());
+    let mut out = CaseWriter(Vec::new());
     let config = &case.config;
-    let mut flags = MARGIN_BIT | DURATION_BIT | TOLERANCE;
+    let mut flags = MARGIN_BIT | DURATION_BIT | TOLERANCE_BIT;
     if config.start == StartPolicy::Leave {
         flags |= LEAVE_BIT;
     }
@@ -23,27 +23,27 @@ pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
         flags |= BUDGET_BIT;
     }
     out.0.push(flags);
-    out.numbers(&[config.tolerance, config.margin]);
+    out.write_numbers(&[config.tolerance, config.margin]);
     out.0.extend(budget);
-    out.numbers(&[case.duration]);
+    out.write_numbers(&[case.duration]);
     out.0.push(method);
     for shape in &case.shapes {
-        out.shape(shape)?;
+        out.write_shape(shape)?;
     }
-    for course in &case.courses {
-        out.course(course);
+    for course in &case.motions {
+        out.write_motion(course);
     }
     Some(out.0)
 }
 
-struct Writer(Vec<u8>);
+struct CaseWriter(Vec<u8>);
 
-impl Writer {
-    fn numbers(&mut self, numbers: &[f64]) {
+impl CaseWriter {
+    fn write_numbers(&mut self, numbers: &[f64]) {
         for &x in numbers {
             let tag = 16.0 * x + 64.0;
             if tag >= 0.0
-                && tag < f64::from(SIXTEENTH_TAGS)
+                && tag < f64::from(SIXTEENTH_TAG_COUNT)
                 && tag.fract() == 0.0
                 && x.to_bits() != (-0.0f64).to_bits()
             {
@@ -55,41 +55,41 @@ impl Writer {
         }
     }
 
-    fn shape(&mut self, shape: &Shape) -> Option<()> {
-        let form = match shape.form {
-            Form::Convex => 0,
-            Form::Solid => 1,
-            Form::TriangleSoup | Form::Points => 2,
+    fn write_shape(&mut self, shape: &Shape) -> Option<()> {
+        let form = match shape.mesh_class {
+            MeshClass::Convex => 0,
+            MeshClass::Solid => 1,
+            MeshClass::TriangleSoup | MeshClass::Points => 2,
         };
-        self.0.push(MESH_KIND | form << 3);
+        self.0.push(MESH_SHAPE_KIND | form << 3);
         let (vertices, faces) = (shape.vertices.len(), shape.faces.len());
         if !((1..33).contains(&vertices) && (1..49).contains(&faces)) {
             return None;
         }
         self.0.extend([vertices as u8 - 1, faces as u8 - 1]);
-        self.numbers(shape.vertices.as_flattened());
+        self.write_numbers(shape.vertices.as_flattened());
         self.0
             .extend(shape.faces.iter().flatten().map(|&v| v as u8));
         Some(())
     }
 
-    fn course(&mut self, course: &RawMotion) {
-        let goal = match course.goal {
-            Goal::Velocities { .. } => VELOCITY_BIT | SPIN_BIT,
-            Goal::End(_) => END_POSE_BIT | SPIN_BIT,
+    fn write_motion(&mut self, course: &RawMotion) {
+        let goal = match course.spec {
+            MotionSpec::Velocities { .. } => VELOCITY_BIT | SPIN_BIT,
+            MotionSpec::EndPose(_) => END_POSE_BIT | SPIN_BIT,
         };
         self.0.push(ROTATED_BIT | CENTRE_BIT | goal);
-        self.numbers(&course.start.position);
-        self.numbers(&course.start.quaternion);
-        self.numbers(&course.centre);
-        match course.goal {
-            Goal::Velocities { linear, spin } => {
-                self.numbers(&linear);
-                self.numbers(&spin);
+        self.write_numbers(&course.start.position);
+        self.write_numbers(&course.start.quaternion);
+        self.write_numbers(&course.centre);
+        match course.spec {
+            MotionSpec::Velocities { linear, spin } => {
+                self.write_numbers(&linear);
+                self.write_numbers(&spin);
             }
-            Goal::End(end) => {
-                self.numbers(&end.position);
-                self.numbers(&end.quaternion);
+            MotionSpec::EndPose(end) => {
+                self.write_numbers(&end.position);
+                self.write_numbers(&end.quaternion);
             }
         }
     }

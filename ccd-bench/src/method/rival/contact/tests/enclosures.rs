@@ -1,10 +1,10 @@
 //! Tests enclosures of motions, separated boxes, and first touches of triangles against samples of the motions.
 
-use crate::method::rival::contact::boxes::{BoxRelation, relate_boxes};
+use crate::method::rival::contact::boxes::{BoxSeparation, box_separation};
 use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
-use crate::method::rival::contact::elementary::{TestTriangle, TrianglePair};
+use crate::method::rival::contact::elementary::{TrianglePair, TriangleWithNormals};
 use crate::method::rival::contact::leaf::{FirstTouch, first_touch};
-use crate::method::rival::contact::relative::{Enclosure, RelativeMotion, Span};
+use crate::method::rival::contact::relative::{MotionEnclosure, RelativeMotion, TimeSpan};
 use crate::method::rival::obb_tree::Obb;
 use crate::method::rival::tests::samples::{RandomSource, distance};
 use crate::method::rival::triangles_cross::triangles_cross;
@@ -19,7 +19,7 @@ fn random_relative_motion(samples: &mut RandomSource, speed: f64, spin: f64) -> 
 }
 
 /// Returns the distance by which a placement, or a rate, lies outside an enclosure.
-fn distance_outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f64 {
+fn distance_outside(enclosure: &MotionEnclosure, rotation: DMat3, offset: DVec3) -> f64 {
     let column = |k: usize| {
         let off = (rotation.col(k) - enclosure.rotation.middle.col(k)).abs();
         (off - enclosure.rotation.radius.col(k)).max_element()
@@ -28,16 +28,16 @@ fn distance_outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f6
     (0..3).map(column).fold(off.max_element(), greater)
 }
 
-fn span(samples: &mut RandomSource) -> Span {
+fn span(samples: &mut RandomSource) -> TimeSpan {
     let start = samples.uniform_number(0.0, 1.0);
     let width = samples.uniform_number(0.0, 1.0).powi(3);
-    Span {
+    TimeSpan {
         start,
         end: start + width,
     }
 }
 
-fn sample_times(span: Span, count: u32) -> impl Iterator<Item = f64> {
+fn sample_times(span: TimeSpan, count: u32) -> impl Iterator<Item = f64> {
     (0..=count).map(move |k| span.start + span.width() * f64::from(k) / f64::from(count))
 }
 
@@ -71,7 +71,10 @@ fn enclosures_contain_all_placements_and_rates_between() {
             relative = RelativeMotion::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
         }
         let span = span(&mut samples);
-        let (placements, rates) = (relative.enclosure_over(span), relative.rates_over(span));
+        let (placements, rates) = (
+            relative.enclosure_over(span),
+            relative.rate_enclosure_over(span),
+        );
         for time in sample_times(span, 20) {
             let at = relative.placement_at(time);
             assert!(distance_outside(&placements, at.rotation, at.translation) < 1e-12);
@@ -94,7 +97,7 @@ fn enclosures_shrink_with_the_interval() {
         let relative = random_relative_motion(&mut samples, 3.0, 3.0);
         let start = samples.uniform_number(0.0, 1.0);
         let width = |width: f64| {
-            let over = relative.enclosure_over(Span {
+            let over = relative.enclosure_over(TimeSpan {
                 start,
                 end: start + width,
             });
@@ -116,7 +119,7 @@ fn random_box(samples: &mut RandomSource) -> Obb {
 }
 
 /// Returns true if a point of a grid over either box lies in the other box.
-fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
+fn boxes_share_grid_point(a: &Obb, b: &Obb, at: &Placement) -> bool {
     const GRID_COORDINATES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
     let grid = |o: &Obb| {
         let o = *o;
@@ -142,19 +145,19 @@ fn separated_boxes_never_meet() {
         let relative = random_relative_motion(&mut samples, 2.0, 3.0);
         let (a, b) = (random_box(&mut samples), random_box(&mut samples));
         let start = samples.uniform_number(0.0, 1.0);
-        let span = Span {
+        let span = TimeSpan {
             start,
             end: start + samples.uniform_number(0.0, 0.2),
         };
-        let meet =
-            sample_times(span, 8).any(|time| boxes_meet(&a, &b, &relative.placement_at(time)));
+        let meet = sample_times(span, 8)
+            .any(|time| boxes_share_grid_point(&a, &b, &relative.placement_at(time)));
         met += usize::from(meet);
-        match relate_boxes(&a, &b, &relative.enclosure_over(span)) {
-            BoxRelation::Separated => {
+        match box_separation(&a, &b, &relative.enclosure_over(span)) {
+            BoxSeparation::Separated => {
                 assert!(!meet);
                 apart += 1;
             }
-            BoxRelation::NotSeparated { spread } => {
+            BoxSeparation::NotSeparated { spread } => {
                 assert!(spread >= 0.0);
                 near += 1;
             }
@@ -179,7 +182,7 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
         let course = RivalMotion::new(&still);
         let relative = RelativeMotion::new((&course, -offset), (&course, DVec3::ZERO));
         assert_eq!(relative.placement_at(0.3).rotation, at.rotation);
-        relative.enclosure_over(Span {
+        relative.enclosure_over(TimeSpan {
             start: 0.0,
             end: 1.0,
         })
@@ -191,10 +194,10 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     };
     let spread = 0.0;
     for axis in DVec3::AXES {
-        let ask = |offset: f64| relate_boxes(&cube, &cube, &enclosure(offset * axis));
-        assert_eq!(ask(1.0 + 1e-9), BoxRelation::Separated);
-        assert_eq!(ask(-1.0 - 1e-9), BoxRelation::Separated);
-        assert_eq!(ask(1.0 - 1e-9), BoxRelation::NotSeparated { spread });
+        let ask = |offset: f64| box_separation(&cube, &cube, &enclosure(offset * axis));
+        assert_eq!(ask(1.0 + 1e-9), BoxSeparation::Separated);
+        assert_eq!(ask(-1.0 - 1e-9), BoxSeparation::Separated);
+        assert_eq!(ask(1.0 - 1e-9), BoxSeparation::NotSeparated { spread });
     }
 }
 
@@ -223,12 +226,12 @@ fn triangles_touch_when_samples_first_cross() {
         }
         let tolerance = [1e-2, 1e-4, 1e-8][k % 3];
         let triangles = TrianglePair {
-            a: TestTriangle::new(&a),
-            b: TestTriangle::new(&b),
+            a: TriangleWithNormals::new(&a),
+            b: TriangleWithNormals::new(&b),
         };
         let mut clock = MotionEncloser::new(relative, tolerance / MAX_SPEED, 1 << 20);
         let touch = first_touch(&triangles, HalvedInterval::whole_duration(1.0), &mut clock);
-        let span = Span {
+        let span = TimeSpan {
             start: 0.0,
             end: 1.0,
         };
@@ -240,11 +243,11 @@ fn triangles_touch_when_samples_first_cross() {
                 assert!(gap <= tolerance, "{gap} at {time}, tolerance {tolerance}");
                 hits += 1;
             }
-            FirstTouch::Never => {
+            FirstTouch::NotInInterval => {
                 assert_eq!(crossing, None);
                 free += 1;
             }
-            FirstTouch::Unknown => panic!("the work ran out"),
+            FirstTouch::LimitReached => panic!("the work ran out"),
         }
     }
     assert!(hits > 200 && free > 200, "{hits} hits, {free} free");

@@ -4,7 +4,7 @@ use super::super::*;
 use crate::method::rival::Placement;
 use crate::method::rival::tests::samples::{RandomSource, distance};
 use crate::scene::model::Model;
-use crate::scene::tests::shots::Shots;
+use crate::scene::tests::shots::ShotGenerator;
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -13,12 +13,12 @@ use ccd_core::order::lesser;
 const SAMPLE_COUNT: u32 = 1000;
 
 fn placement(query: &Motions, time: f64) -> Placement {
-    let [a, b] = [query.a, query.b].map(|motion| RivalMotion::new(&motion).at(time));
+    let [a, b] = [query.a, query.b].map(|motion| RivalMotion::new(&motion).placement_at(time));
     a.relative_to(&b)
 }
 
 /// Returns the time of the first sample at which the two meshes touch or cross.
-fn first_crossing(tree: &ObbTree, query: &Motions) -> Option<f64> {
+fn first_crossing_time(tree: &ObbTree, query: &Motions) -> Option<f64> {
     let mut stack = Vec::new();
     (0..=SAMPLE_COUNT)
         .map(|k| query.duration * f64::from(k) / f64::from(SAMPLE_COUNT))
@@ -39,7 +39,7 @@ fn mesh_distance(mesh: &TriangleMesh, at: &Placement) -> f64 {
 
 /// Asserts that the method's contacts are neither missed nor late nor farther apart than the tolerance, as samples of
 /// the motions show. Returns the number of hits.
-fn check_against_samples(queries: &[Motions], tolerance: f64) -> usize {
+fn assert_contacts_fit_samples(queries: &[Motions], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
     let mut contact = Contact::new(&mesh, &mesh);
@@ -47,15 +47,15 @@ fn check_against_samples(queries: &[Motions], tolerance: f64) -> usize {
     for query in queries {
         let reply = contact.answer(query, tolerance);
         let moved = to_screw_motions(query).unwrap();
-        let crossing = first_crossing(&tree, &moved);
+        let crossing = first_crossing_time(&tree, &moved);
         match reply.claim {
-            Claim::Contact { time } => {
+            ContactClaim::Contact { time } => {
                 assert!(crossing.is_none_or(|crossing| time <= crossing), "late");
                 let gap = mesh_distance(&mesh, &placement(&moved, time));
                 assert!(gap <= tolerance, "{gap} at {time}, tolerance {tolerance}");
                 hits += 1;
             }
-            Claim::NoContact => assert_eq!(crossing, None, "missed"),
+            ContactClaim::NoContact => assert_eq!(crossing, None, "missed"),
             claim => panic!("{claim:?}"),
         }
     }
@@ -63,10 +63,10 @@ fn check_against_samples(queries: &[Motions], tolerance: f64) -> usize {
 }
 
 fn shot_queries(count: usize) -> Vec<Motions> {
-    let shots = Shots {
+    let shots = ShotGenerator {
         count,
         translation_count: count / 3,
-        distance: 3.0..3.8,
+        start_distances: 3.0..3.8,
         max_offset: 2.3,
         seed: 7,
     };
@@ -77,7 +77,7 @@ fn shot_queries(count: usize) -> Vec<Motions> {
 fn shots_are_answered_never_late_and_within_the_tolerance() {
     let queries = shot_queries(45);
     for (tolerance, part) in [(1e-2, 0..15), (1e-4, 15..30), (1e-8, 30..45)] {
-        let hits = check_against_samples(&queries[part], tolerance);
+        let hits = assert_contacts_fit_samples(&queries[part], tolerance);
         assert!((4..15).contains(&hits), "{hits} of 15 hit");
     }
 }
@@ -97,7 +97,7 @@ fn both_bodies_may_move_and_turn_far() {
             }
         })
         .collect();
-    let hits = check_against_samples(&queries, 1e-4);
+    let hits = assert_contacts_fit_samples(&queries, 1e-4);
     assert!((6..20).contains(&hits), "{hits} of 20 hit");
 }
 

@@ -13,7 +13,7 @@ const ROD_HALF_LENGTH: f64 = 2.0;
 /// The half width of this rod.
 const ROD_HALF_WIDTH: f64 = 0.05;
 
-fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Motions) -> Claim {
+fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Motions) -> ContactClaim {
     Contact::new(a, b).answer(query, tolerance).claim
 }
 
@@ -31,7 +31,7 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Motions, exact: f64, speed
             ask(meshes[1], meshes[0], tolerance, &swapped),
         ];
         for claim in claims {
-            let Claim::Contact { time } = claim else {
+            let ContactClaim::Contact { time } = claim else {
                 panic!("{claim:?} instead of {exact}")
             };
             let early = exact - time;
@@ -117,13 +117,13 @@ fn a_rod_turns_past_a_wall() {
         let query = query(a, resting_motion((radius * share + 0.5) * DVec3::X));
         let exact = (lesser(1.0, share).asin() - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / PI;
         match ask(&rod, &wall, 1e-7, &query) {
-            Claim::Contact { time } => {
+            ContactClaim::Contact { time } => {
                 assert!(
                     hits && time <= exact + 1e-9 && time > exact - 1e-3,
                     "{time} {exact}"
                 );
             }
-            claim => assert_eq!((claim, hits), (Claim::NoContact, false)),
+            claim => assert_eq!((claim, hits), (ContactClaim::NoContact, false)),
         }
     }
 }
@@ -174,7 +174,7 @@ fn surfaces_that_cross_at_the_start_touch_there() {
     let cube = cuboid(0.5, 0.5, 0.5);
     let a = constant_velocity_motion(0.9 * DVec3::Z, DQuat::IDENTITY, DVec3::Z, DVec3::Y);
     let claim = ask(&cube, &cube, 1e-3, &query(a, resting_motion(DVec3::ZERO)));
-    assert_eq!(claim, Claim::Contact { time: 0.0 });
+    assert_eq!(claim, ContactClaim::Contact { time: 0.0 });
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn bodies_at_rest_are_free() {
         resting_motion(1.001 * DVec3::Z),
         resting_motion(DVec3::ZERO),
     );
-    assert_eq!(ask(&cube, &cube, 1e-3, &apart), Claim::NoContact);
+    assert_eq!(ask(&cube, &cube, 1e-3, &apart), ContactClaim::NoContact);
 }
 
 #[test]
@@ -204,16 +204,19 @@ fn work_is_limited() {
         DVec3::ZERO,
     );
     let fall = query(fall, resting_motion(-0.5 * DVec3::Z));
-    let halvings = Limits {
+    let halvings = SearchLimits {
         max_halvings: 1000,
-        ..LIMITS
+        ..SEARCH_LIMITS
     };
-    let pairs = Limits { pairs: 5, ..LIMITS };
+    let pairs = SearchLimits {
+        max_pairs: 5,
+        ..SEARCH_LIMITS
+    };
     for (limits, slab, query, end) in [(halvings, tilted, slide, 1.0), (pairs, slab, fall, 0.625)] {
         let mut contact = Contact::new(&cube, &slab);
         contact.limits = limits;
         let reply = contact.answer(&query, 1e-9);
-        let Claim::Unresolved { safe_until } = reply.claim else {
+        let ContactClaim::Unresolved { safe_until } = reply.claim else {
             panic!("{reply:?}")
         };
         assert!((0.0..=end).contains(&safe_until), "{safe_until}");
@@ -227,8 +230,8 @@ fn invalid_tolerances_are_never_late() {
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(3.0, 3.0, 0.5));
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         match ask(&cube, &slab, tolerance, &query) {
-            Claim::Contact { time } => assert!(time <= 0.625 + 1e-12),
-            Claim::Unresolved { safe_until } => assert!(safe_until <= 0.625 + 1e-12),
+            ContactClaim::Contact { time } => assert!(time <= 0.625 + 1e-12),
+            ContactClaim::Unresolved { safe_until } => assert!(safe_until <= 0.625 + 1e-12),
             claim => panic!("{claim:?} at tolerance {tolerance}"),
         }
     }

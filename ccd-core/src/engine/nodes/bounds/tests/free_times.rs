@@ -1,7 +1,7 @@
 //! Tests that `FreeTimes` returns its lanes in the order of a sorted list.
 
 use crate::body::tree::LANES;
-use crate::engine::nodes::bounds::{FreeTimes, LANE_MASK};
+use crate::engine::nodes::bounds::{FreeTimes, LANE_INDEX_MASK};
 use crate::math::simd::load;
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
@@ -31,7 +31,7 @@ fn times_come_out_in_order_each_lane_once() {
         let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
         let rounded = |lane: usize| {
             if free[lane] > 0.0 {
-                f32::from_bits(free[lane].to_bits() & !LANE_MASK)
+                f32::from_bits(free[lane].to_bits() & !LANE_INDEX_MASK)
             } else {
                 0.0
             }

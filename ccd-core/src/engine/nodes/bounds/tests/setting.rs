@@ -10,7 +10,7 @@ use crate::engine::nodes::eight_pairs::RelativeMotionF32;
 use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::math::order::greater;
 use crate::rounding::{
-    ARM_DISTANCE_SHARE, GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32, LEAST_GAP_F32,
+    ARM_INCREASE_PER_DISTANCE, GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32, LEAST_GAP_F32,
     RATE_ERROR_F32,
 };
 use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rotation};
@@ -92,20 +92,20 @@ impl Shape {
 }
 
 /// The pose of the other node, and the motions of both bodies.
-pub(super) struct Setting {
+pub(super) struct PairConfiguration {
     /// The rotation from the other body's frame to the split body's.
     rotation: DMat3,
-    place: DVec3,
+    other_position: DVec3,
     /// The scale of the children's sizes, and of their distances from the group's origin.
     size: f64,
     origin: DVec3,
     velocity: DVec3,
     acceleration: Option<DVec3>,
     angular_velocities: [DVec3; 2],
-    centres: [DVec3; 2],
+    rotation_centres: [DVec3; 2],
 }
 
-impl Setting {
+impl PairConfiguration {
     pub(super) fn new(rng: &mut impl RngExt, other: &Shape) -> Self {
         let radius = f64::from(other.node.radius);
         let size = radius * magnitude(rng, -3.0, 3.0);
@@ -118,9 +118,9 @@ impl Setting {
         let place = direction(rng) * far;
         let fast = far * magnitude(rng, -3.0, 2.0);
         let offset = size * magnitude(rng, 0.0, 6.0);
-        Setting {
+        PairConfiguration {
             rotation: DMat3::from_quat(rotation(rng)),
-            place,
+            other_position: place,
             size,
             origin: point_in_ball(rng, offset),
             velocity: if rng.random_bool(0.8) {
@@ -132,7 +132,7 @@ impl Setting {
                 .random_bool(0.4)
                 .then(|| direction(rng) * far * magnitude(rng, -3.0, 2.0)),
             angular_velocities: [spin(rng), spin(rng)],
-            centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
+            rotation_centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
         }
     }
 
@@ -144,18 +144,18 @@ impl Setting {
     /// Moves the other node to the distance `far`, in units of the sum of both sizes.
     pub(super) fn with_distance(self, far: f64, other: &Shape) -> Self {
         let far = far * (f64::from(other.node.radius) + self.size);
-        Setting {
-            place: self.place / self.place.length() * far,
+        PairConfiguration {
+            other_position: self.other_position / self.other_position.length() * far,
             ..self
         }
     }
 
     /// Makes only the other node turn, about a point at `arm` from its middle.
-    pub(super) fn turning_in_place(self, spin: DVec3, arm: DVec3) -> Self {
-        Setting {
+    pub(super) fn with_only_other_turning(self, spin: DVec3, arm: DVec3) -> Self {
+        PairConfiguration {
             velocity: DVec3::ZERO,
             angular_velocities: [DVec3::ZERO, spin],
-            centres: [DVec3::ZERO, self.place + arm],
+            rotation_centres: [DVec3::ZERO, self.other_position + arm],
             ..self
         }
     }
@@ -163,7 +163,7 @@ impl Setting {
     fn child(&self, points: &[DVec3]) -> Solid {
         Solid {
             points: points.iter().map(|&p| p - self.origin).collect(),
-            centre: self.centres[0],
+            centre: self.rotation_centres[0],
             spin: self.angular_velocities[0],
         }
     }
@@ -173,21 +173,21 @@ impl Setting {
             points: other
                 .points
                 .iter()
-                .map(|&p| self.rotation * p + self.place)
+                .map(|&p| self.rotation * p + self.other_position)
                 .collect(),
-            centre: self.centres[1],
+            centre: self.rotation_centres[1],
             spin: self.angular_velocities[1],
         }
     }
 
-    fn child_shape(&self, rng: &mut impl RngExt) -> Shape {
+    fn random_child_shape(&self, rng: &mut impl RngExt) -> Shape {
         let size = self.size * magnitude(rng, -2.0, 0.0);
         let centre = self.origin + point_in_ball(rng, self.size);
         Shape::random_box(rng, size, centre)
     }
 
     pub(super) fn boxes(&self, rng: &mut impl RngExt, other: &Shape) -> Sample<BoxGroup, OtherBox> {
-        let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();
+        let shapes: Vec<Shape> = (0..LANES).map(|_| self.random_child_shape(rng)).collect();
         let nodes: Vec<Node> = shapes.iter().map(|s| s.node.clone()).collect();
         let group = BoxGroup::new(&nodes, 0, self.origin);
         let children = shapes.iter().map(|s| self.child(&s.points)).collect();
@@ -199,7 +199,7 @@ impl Setting {
         .map(DVec3::as_vec3);
         let node = &other.node;
         let boxed = OtherBox {
-            centre: (self.rotation * node.centre + self.place).as_vec3(),
+            centre: (self.rotation * node.centre + self.other_position).as_vec3(),
             axes: node.axes.map(|u| x * u.x + y * u.y + z * u.z),
             half: node.half,
             rounding: node.rounding,
@@ -215,7 +215,7 @@ impl Setting {
         rng: &mut impl RngExt,
         other: &Shape,
     ) -> Sample<TriangleGroup, OtherTriangle> {
-        let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();
+        let shapes: Vec<Shape> = (0..LANES).map(|_| self.random_child_shape(rng)).collect();
         let corners: Vec<[DVec3; 3]> = shapes
             .iter()
             .map(|s| [s.points[0], s.points[1], s.points[6]])
@@ -234,7 +234,7 @@ impl Setting {
             radius: round_up_to_f32(arms.map(DVec3::length).into_iter().fold(0.0, greater))
                 .next_up(),
         };
-        let reach = group.members.reach;
+        let reach = group.header.reach;
         self.sample(group, triangle, reach, children, far)
     }
 
@@ -251,7 +251,7 @@ impl Setting {
             is_turning: true,
             spin: self.angular_velocities[k].as_vec3(),
             rate: round_up_to_f32(self.angular_velocities[k].length()),
-            centre: self.centres[k].as_vec3(),
+            centre: self.rotation_centres[k].as_vec3(),
         };
         let (split, turning_far) = (turning(0), turning(1));
         let velocity = self.velocity.as_vec3();
@@ -259,8 +259,8 @@ impl Setting {
         let allowed = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
             + GAP_ERROR_PER_RADIUS_F32 * (other.radius() + reach);
         let places = other.centre().length() + turning_far.distance_from_centre(Vec3::ZERO);
-        let far_arm =
-            turning_far.distance_from_centre(other.centre()) + ARM_DISTANCE_SHARE as f32 * places;
+        let far_arm = turning_far.distance_from_centre(other.centre())
+            + ARM_INCREASE_PER_DISTANCE as f32 * places;
         let change = self.acceleration.unwrap_or(DVec3::ZERO).as_vec3();
         let speed = velocity.length()
             + change.length()
@@ -271,12 +271,12 @@ impl Setting {
             motion: RelativeMotionF32 {
                 velocity,
                 acceleration: self.acceleration.map(|change| change.as_vec3()),
-                split,
-                other: turning_far,
+                split_rotation: split,
+                other_rotation: turning_far,
                 horizon: 1.0,
                 slack: (kept + allowed).next_up(),
                 closed_gap: LEAST_GAP_F32,
-                rate_slack: RATE_ERROR_F32 * speed,
+                rate_allowance: RATE_ERROR_F32 * speed,
                 larger_body: None,
             },
             group,

@@ -15,7 +15,7 @@ use crate::tests::worst::share;
 pub(super) struct AxisFreeTimes {
     pub(super) gap_excess: [f32; LANES],
     pub(super) second_derivative: [f32; LANES],
-    pub(super) free: [f32; LANES],
+    pub(super) free_times: [f32; LANES],
 }
 
 /// The errors of one pair along one axis, as shares of their allowances.
@@ -23,7 +23,7 @@ pub(super) struct AxisFreeTimes {
 pub(super) struct ErrorShares {
     pub(super) support: f64,
     pub(super) rate: f64,
-    pub(super) across: f64,
+    pub(super) cross_product: f64,
     pub(super) clock: f64,
 }
 
@@ -53,7 +53,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let closed = self.motion.closed_gap;
         let level = Instructions::Best.level();
         AxisFreeTimes {
-            free: free_times(level, &apart, &found.rate, &second_derivative, closed),
+            free_times: free_times(level, &apart, &found.rate, &second_derivative, closed),
             gap_excess: apart,
             second_derivative,
         }
@@ -72,14 +72,17 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             + child.max_rotational_rate(n)
             + self.other_solid.max_rotational_rate(-n);
         let below = exact - f64::from(rate);
-        let gap = -self.other_solid.highest(-n, 0.0) - child.highest(n, 0.0);
+        let gap = -self.other_solid.max_height(-n, 0.0) - child.max_height(n, 0.0);
         let above = f64::from(found.gap[lane]) - gap;
         let mut shares = ErrorShares {
             support: share(above, self.allowed_gap_error.into()),
-            rate: share(below, motion.rate_slack.into()),
+            rate: share(below, motion.rate_allowance.into()),
             ..ErrorShares::default()
         };
-        let turning = [(motion.split, child), (motion.other, &self.other_solid)];
+        let turning = [
+            (motion.split_rotation, child),
+            (motion.other_rotation, &self.other_solid),
+        ];
         for ((turning, body), length) in turning.iter().zip(found.cross_product_lengths) {
             let across = n.cross(body.spin).length();
             let found = length[lane] * SECOND_DERIVATIVE_FACTOR_F32;
@@ -87,9 +90,9 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 across - f64::from(found),
                 (CROSS_PRODUCT_ERROR_F32 * turning.rate).into(),
             );
-            shares.across = greater(shares.across, of);
+            shares.cross_product = greater(shares.cross_product, of);
         }
-        let free = clocks.free[lane];
+        let free = clocks.free_times[lane];
         if free > 0.0 && free < 1e30 {
             shares.clock = free_time_error_share([
                 free,

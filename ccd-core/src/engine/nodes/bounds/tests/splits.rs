@@ -1,15 +1,17 @@
 //! Tests which pairs the bounds choose to visit again, and which nodes to split, against choices computed in f64.
 
-use super::setting::{Setting, Shape};
-use super::{Sample, axis_values, widest_axis};
+use super::setting::{PairConfiguration, Shape};
+use super::{Sample, axis_values, widest_gap_axis};
 use crate::body::tree::LANES;
-use crate::engine::nodes::bounds::{EightPairBounds, bound};
+use crate::engine::nodes::bounds::{EightPairBounds, bound_eight_pairs};
 use crate::engine::nodes::eight_pairs::LargerBody;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
-use crate::tuning::{ADDED_THICKNESS, MIN_SWEEP, MUCH_LARGER_RATIO, REVISIT_DISTANCE};
+use crate::tuning::{
+    MIN_REVISIT_SWEEP, MIN_TURNING_PLANE_RADIUS_RATIO, REVISIT_DISTANCE, THICKNESS_PER_RADIUS,
+};
 use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
@@ -23,14 +25,14 @@ struct PairValues {
     other_extent: [f32; LANES],
     gap: [f32; LANES],
     /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
-    free: [[f32; LANES]; 4],
+    free_times: [[f32; LANES]; 4],
     pieces: u8,
     found: EightPairBounds,
 }
 
 #[inline(never)]
 fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -> EightPairBounds {
-    bound(
+    bound_eight_pairs(
         level,
         &sample.group,
         &sample.other_node,
@@ -44,14 +46,14 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let level = Instructions::Best.level();
         let [along, passing, _] = vectorize!(level, level => axis_values(level, self, Vec3::X));
         vectorize!(level, level => {
-            let axis = widest_axis(&self.pairs(level));
+            let axis = widest_gap_axis(&self.pairs(level));
             PairValues {
                 radius: *self.group.radius(level),
-                arms: *self.motion.other.distances_from_centre(self.group.centre(level)),
+                arms: *self.motion.other_rotation.distances_from_centre(self.group.centre(level)),
                 split_extent: *axis.split_extent,
                 other_extent: *axis.other_extent,
                 gap: along.gap,
-                free: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
+                free_times: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
                 pieces: self.group.pieces(level).to_bitmask() as u8,
                 found: bounds(level, self),
             }
@@ -59,14 +61,14 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Sets `motion.larger` to the body whose nodes are much larger, or to `None` if neither body's nodes are.
-    fn with_larger_side(mut self) -> Self {
+    fn with_larger_body(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
         let reach = radii.into_iter().fold(0.0, greater);
         let other = self.other_node.radius();
         self.motion.larger_body = match (
-            reach > MUCH_LARGER_RATIO * other,
-            other > MUCH_LARGER_RATIO * reach,
+            reach > MIN_TURNING_PLANE_RADIUS_RATIO * other,
+            other > MIN_TURNING_PLANE_RADIUS_RATIO * reach,
         ) {
             (true, _) => Some(LargerBody::SplitBody),
             (_, true) => Some(LargerBody::OtherBody),
@@ -85,9 +87,9 @@ fn exceeds(one: f64, other: f64) -> Option<bool> {
 /// For each option, the number of pairs for which it was not chosen, and for which it was chosen.
 #[derive(Debug, Default)]
 struct ChoiceCounts {
-    revisit: [usize; 2],
-    swept_counts: [usize; 2],
-    split_child: [usize; 2],
+    revisit_counts: [usize; 2],
+    passing_revisit_counts: [usize; 2],
+    split_child_counts: [usize; 2],
 }
 
 impl ChoiceCounts {
@@ -99,13 +101,13 @@ impl ChoiceCounts {
             if let Some(expected) = rows.revisit(lane, sample) {
                 assert_eq!(revisit, expected, "{:?} of {:?}", rows.found, sample.motion);
                 match sample.motion.larger_body {
-                    Some(_) => self.swept_counts[usize::from(revisit)] += 1,
-                    None => self.revisit[usize::from(revisit)] += 1,
+                    Some(_) => self.passing_revisit_counts[usize::from(revisit)] += 1,
+                    None => self.revisit_counts[usize::from(revisit)] += 1,
                 }
             }
             if let Some(expected) = rows.split_child(lane, sample) {
                 assert_eq!(split_child, expected, "{:?}", rows.found);
-                self.split_child[usize::from(split_child)] += 1;
+                self.split_child_counts[usize::from(split_child)] += 1;
             }
         }
     }
@@ -121,23 +123,28 @@ impl PairValues {
         let apart = f64::from(self.gap[lane]) - f64::from(motion.slack);
         let clear_of = |size: f64| exceeds(apart, size * f64::from(REVISIT_DISTANCE));
         let far = clear_of(radius + other);
-        let free = |row: usize| f64::from(self.free[row][lane]);
+        let free = |row: usize| f64::from(self.free_times[row][lane]);
         let fixed = greater(free(0), free(1));
         let swept = |free: f64, rate: f32, arm: f32, large: f64| {
             exceeds(
                 free * f64::from(rate) * f64::from(arm),
-                large * f64::from(MIN_SWEEP),
+                large * f64::from(MIN_REVISIT_SWEEP),
             )
         };
         let (swept, past) = match motion.larger_body {
             None => (Some(false), Some(false)),
             Some(LargerBody::SplitBody) => {
                 let arm = motion
-                    .split
+                    .split_rotation
                     .distance_from_centre(sample.other_node.centre());
                 let other_is_piece = self.pieces >> lane & 1 == 1;
                 (
-                    swept(greater(fixed, free(2)), motion.split.rate, arm, radius),
+                    swept(
+                        greater(fixed, free(2)),
+                        motion.split_rotation.rate,
+                        arm,
+                        radius,
+                    ),
                     if other_is_piece {
                         clear_of(other)
                     } else {
@@ -146,7 +153,8 @@ impl PairValues {
                 )
             }
             Some(LargerBody::OtherBody) => {
-                let (rate, other_is_piece) = (motion.other.rate, sample.other_node.is_piece());
+                let (rate, other_is_piece) =
+                    (motion.other_rotation.rate, sample.other_node.is_piece());
                 (
                     swept(greater(fixed, free(3)), rate, self.arms[lane], other),
                     if other_is_piece {
@@ -167,7 +175,7 @@ impl PairValues {
 
     fn split_child<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
         let thick =
-            |reach: f32, radius: f32| f64::from(reach) + f64::from(ADDED_THICKNESS * radius);
+            |reach: f32, radius: f32| f64::from(reach) + f64::from(THICKNESS_PER_RADIUS * radius);
         let split = thick(self.split_extent[lane], self.radius[lane]);
         let other = thick(self.other_extent[lane], sample.other_node.radius());
         match (self.pieces >> lane & 1 == 1, sample.other_node.is_piece()) {
@@ -183,22 +191,22 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
     let (mut rng, mut decisions) = (rng(3), ChoiceCounts::default());
     let mut check = |rng: &mut Pcg64| {
         let other = Shape::new(rng);
-        let mut boxes = Setting::new(rng, &other).boxes(rng, &other);
+        let mut boxes = PairConfiguration::new(rng, &other).boxes(rng, &other);
         boxes.other_node.piece = rng.random_bool(0.3);
         decisions.check(&boxes);
-        decisions.check(&boxes.with_larger_side());
+        decisions.check(&boxes.with_larger_body());
         let other = Shape::new(rng).triangle();
-        let triangles = Setting::new(rng, &other).triangles(rng, &other);
+        let triangles = PairConfiguration::new(rng, &other).triangles(rng, &other);
         decisions.check(&triangles);
-        decisions.check(&triangles.with_larger_side());
+        decisions.check(&triangles.with_larger_body());
     };
     for _ in 0..1_000 {
         check(&mut rng);
     }
     let ChoiceCounts {
-        revisit,
-        swept_counts: swept,
-        split_child,
+        revisit_counts: revisit,
+        passing_revisit_counts: swept,
+        split_child_counts: split_child,
     } = decisions;
     let each = [revisit, swept, split_child].concat();
     assert!(each.iter().all(|&count| count > 500), "{each:?}");

@@ -2,7 +2,7 @@
 //!
 //! References are in f64, whose own error is a five hundred millionth of that of f32.
 
-use super::setting::{Setting, Shape};
+use super::setting::{PairConfiguration, Shape};
 use super::shares::{ErrorShares, free_time_error_share};
 use super::{AxisValues, Sample, free_times};
 use crate::body::tree::LANES;
@@ -10,7 +10,7 @@ use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::math::simd::Vec3x8;
 use crate::rounding::{
-    CROSS_PRODUCT_ERROR_F32, FREE_TIME_FACTOR_F32, LEAST_AXIS_F32, LEAST_GAP_F32,
+    CROSS_PRODUCT_ERROR_F32, FREE_TIME_FACTOR_F32, LEAST_AXIS_LENGTH_F32, LEAST_GAP_F32,
     LEAST_SECOND_DERIVATIVE_F32, SECOND_DERIVATIVE_FACTOR_F32, UNIT_ROUNDOFF_F32,
 };
 use crate::settings::Instructions;
@@ -23,9 +23,9 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Copy)]
 struct Search {
     name: [&'static str; 2],
-    setting: fn(&mut RandomCase, &Shape) -> Setting,
-    share: fn(&ErrorShares) -> f64,
-    looseness: f64,
+    draw_configuration: fn(&mut RandomCase, &Shape) -> PairConfiguration,
+    select_share: fn(&ErrorShares) -> f64,
+    max_looseness: f64,
 }
 
 impl Search {
@@ -33,16 +33,16 @@ impl Search {
     fn run(self) {
         let boxes = WorstCaseSearch::of(self.name[0], 3_000).search(|tape| {
             let other = Shape::new(tape);
-            let sample = (self.setting)(tape, &other).boxes(tape, &other);
+            let sample = (self.draw_configuration)(tape, &other).boxes(tape, &other);
             Some(self.max_error_share(tape, &sample))
         });
-        boxes.assert_within(self.looseness);
+        boxes.assert_tight_bound(self.max_looseness);
         let triangles = WorstCaseSearch::of(self.name[1], 3_000).search(|tape| {
             let other = Shape::new(tape).triangle();
-            let sample = (self.setting)(tape, &other).triangles(tape, &other);
+            let sample = (self.draw_configuration)(tape, &other).triangles(tape, &other);
             Some(self.max_error_share(tape, &sample))
         });
-        triangles.assert_within(self.looseness);
+        triangles.assert_tight_bound(self.max_looseness);
     }
 
     /// Returns the largest share of the allowance among eight pairs and three axes.
@@ -53,7 +53,7 @@ impl Search {
     ) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
         let of = |found: &AxisValues, lane: usize| {
-            (self.share)(&sample.error_shares(found, &sample.axis_free_times(found), lane))
+            (self.select_share)(&sample.error_shares(found, &sample.axis_free_times(found), lane))
         };
         let found = sample.axis_values_on_all_levels(some);
         let all = found
@@ -72,12 +72,12 @@ fn way_f32() {
             "GAP_PER_DISTANCE_F32, boxes",
             "GAP_PER_DISTANCE_F32, triangles",
         ],
-        setting: |tape, other| {
+        draw_configuration: |tape, other| {
             let far = magnitude(tape, 3.0, 5.0);
-            Setting::new(tape, other).with_distance(far, other)
+            PairConfiguration::new(tape, other).with_distance(far, other)
         },
-        share: |of| of.support,
-        looseness: 12.0,
+        select_share: |of| of.support,
+        max_looseness: 12.0,
     }
     .run();
 }
@@ -88,12 +88,12 @@ fn way_f32() {
 fn reach_f32() {
     Search {
         name: ["GAP_PER_RADIUS_F32, boxes", "GAP_PER_RADIUS_F32, triangles"],
-        setting: |tape, other| {
+        draw_configuration: |tape, other| {
             let far = magnitude(tape, -5.0, -2.0);
-            Setting::new(tape, other).with_distance(far, other)
+            PairConfiguration::new(tape, other).with_distance(far, other)
         },
-        share: |of| of.support,
-        looseness: 40.0,
+        select_share: |of| of.support,
+        max_looseness: 40.0,
     }
     .run();
 }
@@ -102,9 +102,9 @@ fn reach_f32() {
 fn rate_f32() {
     Search {
         name: ["RATE_F32, boxes", "RATE_F32, triangles"],
-        setting: Setting::new,
-        share: |of| of.rate,
-        looseness: 40.0,
+        draw_configuration: PairConfiguration::new,
+        select_share: |of| of.rate,
+        max_looseness: 40.0,
     }
     .run();
 }
@@ -118,20 +118,20 @@ fn places() {
             "ARM_DISTANCE_SHARE of RATE_F32, boxes",
             "ARM_DISTANCE_SHARE of RATE_F32, triangles",
         ],
-        setting: |tape, other| {
+        draw_configuration: |tape, other| {
             let (far, spin) = (magnitude(tape, 3.0, 5.0), direction(tape));
-            let setting = Setting::new(tape, other).with_distance(far, other);
+            let setting = PairConfiguration::new(tape, other).with_distance(far, other);
             let arm = direction(tape) * setting.size();
-            setting.turning_in_place(spin * magnitude(tape, -3.0, 1.6), arm)
+            setting.with_only_other_turning(spin * magnitude(tape, -3.0, 1.6), arm)
         },
-        share: |of| of.rate,
-        looseness: 40.0,
+        select_share: |of| of.rate,
+        max_looseness: 40.0,
     }
     .run();
 }
 
 /// Computes a value with every set of vector instructions, and checks that all results are equal.
-fn on_all_instruction_sets<T: PartialEq + std::fmt::Debug>(
+fn compute_on_all_instruction_sets<T: PartialEq + std::fmt::Debug>(
     of: impl Fn(fearless_simd::Level) -> T,
 ) -> T {
     let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(|set| of(set.level()));
@@ -142,7 +142,7 @@ fn on_all_instruction_sets<T: PartialEq + std::fmt::Debug>(
 /// Returns the lengths of the cross products of `n` and `spin`.
 fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     let rows = [0, 1, 2].map(|k| n.map(|n| n[k]));
-    on_all_instruction_sets(|level| {
+    compute_on_all_instruction_sets(|level| {
         vectorize!(level, level => {
             *Vec3x8::load(level, &rows).cross(Vec3x8::splat(level, spin)).length()
         })
@@ -150,7 +150,7 @@ fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
 }
 
 /// Draws eight unit axes and an angular velocity, to which some of the axes are nearly parallel.
-fn turned(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
+fn random_axes_and_spin(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
     let spin = DVec3::from(tape.vector(-20..=5));
     let aside = tape.size(-30..=0);
     let axes = [(); LANES].map(|()| match tape.index_below(2) {
@@ -164,21 +164,21 @@ fn turned(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
 #[test]
 fn across_f32() {
     let found = WorstCaseSearch::of("CROSS_PRODUCT_F32", 40_000).search(|tape| {
-        let (axes, spin) = turned(tape)?;
+        let (axes, spin) = random_axes_and_spin(tape)?;
         let lengths = across(axes.map(DVec3::as_vec3), spin.as_vec3());
         let allowed = f64::from(CROSS_PRODUCT_ERROR_F32) * spin.length();
         let error = |k: usize| axes[k].cross(spin).length() - f64::from(lengths[k]);
         let errors = (0..LANES).map(|k| share(error(k), allowed));
         Some(errors.fold(f64::NEG_INFINITY, greater))
     });
-    found.assert_within(8.0);
+    found.assert_tight_bound(8.0);
 }
 
 /// Measures the relative error of products of two lengths `|n × ω|`, each above half of its upper bound.
 #[test]
 fn bend_f32() {
     let found = WorstCaseSearch::of("SECOND_DERIVATIVE_FACTOR_F32", 40_000).search(|tape| {
-        let (axes, spin) = turned(tape)?;
+        let (axes, spin) = random_axes_and_spin(tape)?;
         let arms = [(); LANES].map(|()| direction(tape));
         let [one, other] = [axes, arms].map(|of| across(of.map(DVec3::as_vec3), spin.as_vec3()));
         let share = |k: usize| {
@@ -191,7 +191,7 @@ fn bend_f32() {
         let all = (0..LANES).filter_map(share);
         Some(all.fold(f64::NEG_INFINITY, greater)).filter(|share| share.is_finite() || *share > 0.0)
     });
-    found.assert_within(40.0);
+    found.assert_tight_bound(40.0);
 }
 
 #[test]
@@ -201,16 +201,16 @@ fn clock_f32() {
             [(); LANES].map(|()| of(tape) as f32)
         };
         let apart = row(tape, |tape| tape.size(-30..=30));
-        let rate = row(tape, |tape| tape.any(-30..=30));
+        let rate = row(tape, |tape| tape.any_number(-30..=30));
         let second_derivative = row(tape, |tape| tape.size(-30..=30));
-        let free = on_all_instruction_sets(|level| {
+        let free = compute_on_all_instruction_sets(|level| {
             free_times(level, &apart, &rate, &second_derivative, LEAST_GAP_F32)
         });
         let shares = (0..LANES)
             .map(|k| free_time_error_share([free[k], apart[k], rate[k], second_derivative[k]]));
         Some(shares.fold(f64::NEG_INFINITY, greater))
     });
-    found.assert_within(16.0);
+    found.assert_tight_bound(16.0);
 }
 
 /// Measures by how much a free time uses up more than the whole gap, for gaps just above the least gap. The excess is
@@ -224,11 +224,11 @@ fn least_gap_f32() {
         let apart = row(tape, |tape| {
             f64::from(LEAST_GAP_F32.next_up()) * tape.size(0..=40) + tape.size(-120..=-90)
         });
-        let rate = row(tape, |tape| tape.any(-120..=-30));
+        let rate = row(tape, |tape| tape.any_number(-120..=-30));
         let second_derivative = row(tape, |tape| {
             tape.size(-120..=-30) + f64::from(LEAST_SECOND_DERIVATIVE_F32)
         });
-        let free = on_all_instruction_sets(|level| {
+        let free = compute_on_all_instruction_sets(|level| {
             free_times(level, &apart, &rate, &second_derivative, LEAST_GAP_F32)
         });
         let share = |k: usize| {
@@ -244,7 +244,7 @@ fn least_gap_f32() {
         };
         Some((0..LANES).map(share).fold(f64::NEG_INFINITY, greater))
     });
-    found.assert_within(16.0);
+    found.assert_tight_bound(16.0);
 }
 
 /// Tests that the lengths of the shortest vectors that give an axis are as accurate as those of longer vectors.
@@ -253,7 +253,7 @@ fn least_axis_f32() {
     let found = WorstCaseSearch::of("LEAST_AXIS_F32", 40_000).search(|tape| {
         let v = [(); LANES].map(|()| DVec3::from(tape.vector(-79..=-58)).as_vec3());
         let rows = [0, 1, 2].map(|k| v.map(|v| v[k]));
-        let inverse = on_all_instruction_sets(
+        let inverse = compute_on_all_instruction_sets(
             |level| vectorize!(level, level => *Vec3x8::load(level, &rows).reciprocal_length()),
         );
         let share = |k: usize| {
@@ -262,8 +262,8 @@ fn least_axis_f32() {
             share(off(inverse[k].into()), 4.0 * f64::from(UNIT_ROUNDOFF_F32))
         };
         let used = (0..LANES).filter(|&k| inverse[k] > 0.0);
-        assert!(used.clone().all(|k| v[k].length() > LEAST_AXIS_F32));
+        assert!(used.clone().all(|k| v[k].length() > LEAST_AXIS_LENGTH_F32));
         Some(used.map(share).fold(0.0, greater))
     });
-    found.assert_within(4.0);
+    found.assert_tight_bound(4.0);
 }

@@ -10,11 +10,11 @@ use crate::math::order::greater;
 use crate::math::vector::{distance, length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
-use crate::motion::track::{Angle, RotatingVector};
+use crate::motion::track::{AngleSinCos, RotatingVector};
 use crate::problem::Problem;
 use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use crate::settings::Settings;
-use crate::tests::double::{Double, Double3};
+use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::DVec3;
@@ -22,18 +22,18 @@ use glam::DVec3;
 /// The rotation of a body about a centre from a given frame, in double-double arithmetic.
 struct ExactRotation {
     frame: Frame,
-    spin: Double3,
-    centre: Double3,
+    spin: DoubleDouble3,
+    centre: DoubleDouble3,
 }
 
 impl ExactRotation {
     /// Returns the vector from the centre to a point after a rotation by an angle.
-    fn arm(&self, point: DVec3, angle: f64) -> Double3 {
-        let local = Double3::from(point) - self.centre;
+    fn arm(&self, point: DVec3, angle: f64) -> DoubleDouble3 {
+        let local = DoubleDouble3::from(point) - self.centre;
         let rotation = self.frame.rotation;
-        let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(Double3::from);
+        let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(DoubleDouble3::from);
         let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
-        (x + y + z).turned(self.spin.unit(), Double::from(angle))
+        (x + y + z).turned(self.spin.unit(), DoubleDouble::from(angle))
     }
 }
 
@@ -56,22 +56,22 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     let [clock, tau] = [0; 2].map(|_| tape.fraction());
     let turning = ExactRotation {
         frame: side.path.frame(clock),
-        spin: Double3::from(motion.spin()),
-        centre: Double3::from(motion.centre()),
+        spin: DoubleDouble3::from(motion.spin()),
+        centre: DoubleDouble3::from(motion.centre()),
     };
     let piece = body.piece(0);
     let heights = Heights::new(side, &piece, &turning.frame, normal, clock);
     let share_of = |(point, found): (&DVec3, PointHeight)| {
         let arm = turning.arm(*point, side.path.rate * tau);
-        let velocity = Double3::from(motion.velocity()) + turning.spin.cross(arm);
-        let exact = Double3::from(normal).dot(velocity);
-        let off = (Double::from(found.rate) - exact).get().abs();
+        let velocity = DoubleDouble3::from(motion.velocity()) + turning.spin.cross(arm);
+        let exact = DoubleDouble3::from(normal).dot(velocity);
+        let off = (DoubleDouble::from(found.rate) - exact).get().abs();
         share(off, RATE_ERROR_F64 * heights.speed())
     };
     let shares = piece
         .points
         .iter()
-        .zip(heights.points_at(tau))
+        .zip(heights.point_heights_at(tau))
         .map(share_of);
     Some(shares.fold(f64::NEG_INFINITY, greater))
 }
@@ -79,7 +79,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
 #[test]
 fn worst_rate() {
     let found = WorstCaseSearch::of("RATE_F64, rates of points", 10_000).search(rate_error_share);
-    found.assert_within(10.0);
+    found.assert_tight_bound(10.0);
 }
 
 /// Measures the rounding error of the upper bound of the distances to all points in a ball.
@@ -88,14 +88,15 @@ fn worst_farthest() {
     let found = WorstCaseSearch::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
         let [middle, from] = [(); 2].map(|()| DVec3::from(tape.vector(-20..=20)));
         let radius = tape.size(-20..=20);
-        let exact = (Double3::from(middle) - Double3::from(from)).length() + Double::from(radius);
-        let found = Double::from(distance(middle, from) + radius);
+        let exact = (DoubleDouble3::from(middle) - DoubleDouble3::from(from)).length()
+            + DoubleDouble::from(radius);
+        let found = DoubleDouble::from(distance(middle, from) + radius);
         Some(share(
-            (exact / found - Double::from(1.0)).get(),
+            (exact / found - DoubleDouble::from(1.0)).get(),
             RATE_ERROR_F64,
         ))
     });
-    found.assert_within(16.0);
+    found.assert_tight_bound(16.0);
 }
 
 /// Returns the errors of the lowest height and of the least rate of many points, as shares of [`TURNED_SUPPORT_ERROR`].
@@ -109,7 +110,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let clock = tape.fraction();
     let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
     let turn = path.rate * tau;
-    let angle = (Angle::new(turn), turn);
+    let angle = (AngleSinCos::new(turn), turn);
     let seen = RotatingVector::new(-path.axis, normal);
     let along = match tape.index_below(2) {
         0 => seen.at(angle.0),
@@ -119,15 +120,15 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let (east, north) = level.any_orthonormal_pair();
     let (middle, wide) = (DVec3::from(tape.vector(-20..=4)), tape.size(-10..=4));
     let fixed = tape.index_below(4);
-    let points = (0..COUNT).map(|k| {
+    let points = (0..POINT_COUNT).map(|k| {
         // A few points are drawn, and the others are between them.
         let [x, y] = if k < 4 {
-            [tape.any(-3..=0), tape.any(-3..=0)]
+            [tape.any_number(-3..=0), tape.any_number(-3..=0)]
         } else {
             [0.5 * ((k * fixed) as f64 / 64.0).sin(), 0.25]
         };
         let up = if k < 4 {
-            tape.any(-56..=-48).abs()
+            tape.any_number(-56..=-48).abs()
         } else {
             1e-3
         };
@@ -142,22 +143,22 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let (piece, side) = (body.piece(0), &problem.a);
     let turning = ExactRotation {
         frame,
-        spin: Double3::from(motion.spin()),
-        centre: Double3::from(motion.centre()),
+        spin: DoubleDouble3::from(motion.spin()),
+        centre: DoubleDouble3::from(motion.centre()),
     };
     let heights = Heights::new(side, &piece, &frame, normal, clock);
     let (middle, radius) = piece.bounding_ball()?;
     let farthest = length(frame.rotation * (middle - path.centre)) + radius;
     let allowed = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
-    let n = Double3::from(normal);
-    let arms: Vec<Double3> = piece
+    let n = DoubleDouble3::from(normal);
+    let arms: Vec<DoubleDouble3> = piece
         .points
         .iter()
         .map(|&p| turning.arm(p, angle.1))
         .collect();
-    let miss = |direction: DVec3, of: &dyn Fn(&Double3) -> Double| {
+    let miss = |direction: DVec3, of: &dyn Fn(&DoubleDouble3) -> DoubleDouble| {
         let chosen = piece.extremal_point(frame.inverse_vector(-direction));
-        let least = arms.iter().map(of).reduce(Double::min)?;
+        let least = arms.iter().map(of).reduce(DoubleDouble::min)?;
         Some((of(&arms[chosen as usize]) - least).get())
     };
     let height = miss(seen.at(angle.0), &|arm| n.dot(*arm))?;
@@ -169,18 +170,18 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
 }
 
 /// The number of points of each tested piece, so many that extremal points are searched and not scanned.
-const COUNT: usize = 36;
+const POINT_COUNT: usize = 36;
 
 #[test]
 fn worst_lowest_of_many() {
     let found = WorstCaseSearch::of("TURNED_SUPPORT, heights", 6_000)
         .search(|tape| Some(support_error_shares(tape)?[0]));
-    found.assert_within(100.0);
+    found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_fastest_of_many() {
     let found = WorstCaseSearch::of("TURNED_SUPPORT, rates", 6_000)
         .search(|tape| Some(support_error_shares(tape)?[1]));
-    found.assert_within(100.0);
+    found.assert_tight_bound(100.0);
 }

@@ -2,7 +2,7 @@
 
 use super::super::*;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{Kind, RngExt, rng, scene};
+use crate::tests::scene::{RngExt, SceneKind, rng, scene};
 
 /// Returns the sum of both bodies' velocity bounds along a normal from A to B.
 fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: VelocityBound, reaches: [f64; 2]) -> f64 {
@@ -46,7 +46,11 @@ fn a_directed_time_is_the_gap_over_both_advances() {
     let mut rng = rng(7);
     let mut counts = [[0; 2]; 2];
     for number in 0..3_000 {
-        let kind = [Kind::Any, Kind::NearRim, Kind::Sliding][number % 3];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::NearRim,
+            SceneKind::Sliding,
+        ][number % 3];
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));

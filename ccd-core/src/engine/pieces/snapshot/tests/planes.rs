@@ -10,7 +10,7 @@ use crate::motion::pose::Pose;
 use crate::settings::Settings;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{
-    Kind, Pcg64, RngExt, body, direction, magnitude, point_in_ball, rng, rotation, scene,
+    Pcg64, RngExt, SceneKind, body, direction, magnitude, point_in_ball, rng, rotation, scene,
 };
 use glam::DQuat;
 
@@ -48,7 +48,7 @@ impl DistanceOracle for FailingOracle {
 
 #[test]
 fn looks_of_an_oracle_are_its_steps_or_else_points() {
-    let scene = scene(&mut rng(4), Kind::Any, 1);
+    let scene = scene(&mut rng(4), SceneKind::RandomMotion, 1);
     let problem = scene.problem();
     let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
     let mut meter = Meter::new(&problem);
@@ -88,8 +88,12 @@ fn the_plane_of_the_longest_time_counts() {
     let mut rng = rng(5);
     let (mut turning, mut passes, mut at_once) = (0, 0, [0; 2]);
     for number in 0..6_000 {
-        let kind = [Kind::Any, Kind::NearRim, Kind::Sliding][number % 3];
-        let scene = scene(&mut rng, kind, 2).with_random_accelerations(&mut rng);
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::NearRim,
+            SceneKind::Sliding,
+        ][number % 3];
+        let scene = scene(&mut rng, kind, 2).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
@@ -108,8 +112,9 @@ fn the_plane_of_the_longest_time_counts() {
         let passing = snapshot.plane_of_closest_approach(&checked, kept);
         check_closest_approach_plane(&snapshot, &checked, kept, passing.as_ref());
         let planes: Vec<&SeparatingPlane> = iter::once(&direct).chain(&passing).collect();
-        let along =
-            |plane: &&SeparatingPlane| time(snapshot.fixed_axis_time(plane.normal, plane.slack));
+        let along = |plane: &&SeparatingPlane| {
+            time(snapshot.fixed_plane_free_time(plane.normal, plane.slack))
+        };
         let members = snapshot.moving_pieces();
         let attached = |plane: &&SeparatingPlane| {
             time(snapshot.turning_plane_time(&members, plane, f64::INFINITY))
@@ -179,7 +184,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let rate = -away.dot(chased - velocity);
         let slack = 0.1 * rate;
-        let free = snapshot.fixed_axis_time(-away, slack).unwrap();
+        let free = snapshot.fixed_plane_free_time(-away, slack).unwrap();
         let speed = chased.length() + velocity.length();
         let allowed = (slack / free - rate) / (RATE_ERROR_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
@@ -194,7 +199,11 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
     let mut rng = rng(13);
     let mut counts = [0; 3];
     for number in 0..3_000 {
-        let kind = [Kind::Any, Kind::NearRim, Kind::Sliding][number % 3];
+        let kind = [
+            SceneKind::RandomMotion,
+            SceneKind::NearRim,
+            SceneKind::Sliding,
+        ][number % 3];
         let mut scene = scene(&mut rng, kind, 2);
         if number % 2 == 0 {
             let (start, velocity) = (scene.motions[0].start(), scene.motions[0].velocity());
@@ -379,7 +388,7 @@ fn depth_is_measured_between_the_middles_of_many_points() {
             .map(|&p| heights(placed(p)))
             .fold(f64::INFINITY, lesser);
         let expected = (top - foot + 0.075) / lesser(large, small);
-        let depth = snapshot.depth_between_middles().unwrap();
+        let depth = snapshot.relative_overlap_along_centre_line().unwrap();
         assert!((depth - expected).abs() < 1e-9, "{depth} {expected}");
         inside += usize::from(depth > 0.0);
     }

@@ -13,12 +13,12 @@ use crate::tests::scene::{RngExt, pieces, rng, rotation};
 use glam::DQuat;
 
 /// A body with a triangle, or an edge, in the plane z = 0.
-struct Resting {
+struct RestingBody {
     body: Body,
     piece: u32,
 }
 
-impl Resting {
+impl RestingBody {
     fn new(triangles: &[Triangle], volume: Volume) -> Self {
         let body = Body::new(&pieces(triangles), volume).unwrap();
         let in_plane = |k: &usize| {
@@ -27,7 +27,7 @@ impl Resting {
         };
         // Of several pieces, the first is taken.
         let piece = (0..body.pieces().len()).rev().max_by_key(in_plane);
-        Resting {
+        RestingBody {
             piece: piece.unwrap() as u32,
             body,
         }
@@ -35,7 +35,7 @@ impl Resting {
 
     /// Creates a cube on top of the plane if `side` is positive, and below the plane otherwise.
     fn solid(side: f64) -> Self {
-        Resting::new(
+        RestingBody::new(
             &translated_triangles(&cube(0.5, 1), 0.5 * side * DVec3::Z),
             Volume::Solid,
         )
@@ -50,12 +50,12 @@ impl Resting {
             DVec3::new(p.x, p.y, z)
         };
         let cube: Vec<Triangle> = cube(0.5, 1).iter().map(|t| t.map(level)).collect();
-        Resting::new(&cube, Volume::Solid)
+        RestingBody::new(&cube, Volume::Solid)
     }
 
     fn sheet() -> Self {
         let triangle = [DVec3::ZERO, 0.4 * DVec3::X, 0.4 * DVec3::Y];
-        Resting::new(&[triangle], Volume::Surface)
+        RestingBody::new(&[triangle], Volume::Surface)
     }
 
     /// Creates a shell with a figure of eight as cross section: the solid is above one half of a face, and below the
@@ -71,13 +71,13 @@ impl Resting {
         let caps = [[0, 2, 1], [0, 3, 2]].map(|t| t.map(|k| at(k, 0.0)));
         shell.extend(caps);
         shell.extend(caps.map(|[a, b, c]| [a, c, b].map(|p| p + DVec3::Y)));
-        Resting::new(&shell, Volume::Solid)
+        RestingBody::new(&shell, Volume::Solid)
     }
 }
 
 /// Returns the free time of B's triangle on A's for a required gap of minus `k` roundings, in units in which B moves by
 /// one rounding. B moves away along z by `speed` in the whole duration. Both are rotated together by `whole`.
-fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
+fn time([a, b]: [&RestingBody; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
     let pose = Pose::new(DVec3::ZERO, whole).unwrap();
     // B's own frame differs from A's.
     let tilted = Pose::new(DVec3::ZERO, whole * DQuat::from_rotation_z(0.3)).unwrap();
@@ -93,7 +93,7 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
         .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
         .unwrap();
     let checked = improve_axis(&snapshot.pieces, &checked, problem.rounding);
-    let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
+    let free = snapshot.resting_free_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
     free.map(|free| free * speed.abs() / problem.rounding)
 }
@@ -110,7 +110,11 @@ fn check(free: f64, k: f64) {
 #[test]
 fn solids_keep_to_their_sides_of_the_plane() {
     let mut rng = rng(8);
-    let (below, above, sheet) = (Resting::solid(-1.0), Resting::solid(1.0), Resting::sheet());
+    let (below, above, sheet) = (
+        RestingBody::solid(-1.0),
+        RestingBody::solid(1.0),
+        RestingBody::sheet(),
+    );
     for _ in 0..200 {
         let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
         let ask = |a, b, speed: f64| time([a, b], whole, speed, k);
@@ -143,8 +147,8 @@ fn of_two_planes_the_one_of_the_longer_time_counts() {
 
 #[test]
 fn crossed_edges_rest_on_the_plane_between_them() {
-    let below = Resting::cube_on_edge(-1.0, DVec3::X);
-    let above = Resting::cube_on_edge(1.0, DVec3::Y);
+    let below = RestingBody::cube_on_edge(-1.0, DVec3::X);
+    let above = RestingBody::cube_on_edge(1.0, DVec3::Y);
     let mut rng = rng(14);
     for _ in 0..100 {
         let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
@@ -157,7 +161,11 @@ fn crossed_edges_rest_on_the_plane_between_them() {
 #[test]
 fn what_is_left_of_the_rounding_is_no_time() {
     let mut rng = rng(9);
-    let (below, above, sheet) = (Resting::solid(-1.0), Resting::solid(1.0), Resting::sheet());
+    let (below, above, sheet) = (
+        RestingBody::solid(-1.0),
+        RestingBody::solid(1.0),
+        RestingBody::sheet(),
+    );
     for _ in 0..100 {
         let whole = rotation(&mut rng);
         for (pair, speeds) in [
@@ -182,7 +190,7 @@ fn what_is_left_of_the_rounding_is_no_time() {
 
 #[test]
 fn surfaces_in_one_plane_are_kept_apart_by_it_on_either_side() {
-    let sheet = Resting::sheet();
+    let sheet = RestingBody::sheet();
     let (mut rng, mut parted) = (rng(10), 0);
     for _ in 0..100 {
         let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
@@ -199,7 +207,7 @@ fn surfaces_in_one_plane_are_kept_apart_by_it_on_either_side() {
 
 #[test]
 fn a_piece_of_unknown_side_is_not_let_go() {
-    let (unclear, sheet) = (Resting::figure_eight_shell(), Resting::sheet());
+    let (unclear, sheet) = (RestingBody::figure_eight_shell(), RestingBody::sheet());
     assert_eq!(unclear.body.facing(unclear.piece), Facing::Unclear);
     for pair in [[&unclear, &sheet], [&sheet, &unclear]] {
         for speed in [-0.5, 0.5] {

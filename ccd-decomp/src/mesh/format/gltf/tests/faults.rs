@@ -7,7 +7,7 @@ use rstest::rstest;
 use serde_json::{Value, json};
 
 /// Returns a valid triangle as glTF, with the JSON value at `path` replaced.
-fn triangle_with(path: &str, value: Value) -> Gltf {
+fn triangle_with_value_at(path: &str, value: Value) -> Gltf {
     let mut gltf = Gltf::triangle();
     gltf.json["buffers"] = json!([{"byteLength": 36}]);
     let (parent, key) = path.rsplit_once('/').expect("a path");
@@ -59,13 +59,13 @@ fn triangle_with(path: &str, value: Value) -> Gltf {
 #[case::unknown("/extensionsRequired", json!(["ACME_fractal"]), "what the extension \"ACME_fractal\" says, which is not supported")]
 #[case::instances("/nodes/0/extensions", json!({"EXT_mesh_gpu_instancing": {}}), "node 0: holds instances in a buffer")]
 fn faults_name_the_bad_value(#[case] path: &str, #[case] value: Value, #[case] expected: &str) {
-    let message = error(&triangle_with(path, value)).to_string();
+    let message = error(&triangle_with_value_at(path, value)).to_string();
     assert!(message.contains(expected), "{message}");
 }
 
 #[test]
 fn compressed_data_alone_is_refused() {
-    let mut gltf = triangle_with(
+    let mut gltf = triangle_with_value_at(
         "/accessors/0",
         json!({"componentType": 5126, "count": 3, "type": "VEC3"}),
     );
@@ -76,7 +76,8 @@ fn compressed_data_alone_is_refused() {
         draco.contains("primitive 0: holds meshes compressed by Draco"),
         "{draco}"
     );
-    let mut gltf = triangle_with("/buffers", json!([{"byteLength": 36}, {"byteLength": 36}]));
+    let mut gltf =
+        triangle_with_value_at("/buffers", json!([{"byteLength": 36}, {"byteLength": 36}]));
     gltf.json["bufferViews"][0] =
         json!({"buffer": 1, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {}}});
     let meshopt = error(&gltf).to_string();
@@ -91,7 +92,7 @@ fn compressed_data_alone_is_refused() {
 
 #[test]
 fn names_of_nodes_and_meshes_are_in_messages() {
-    let mut gltf = triangle_with("/accessors/0/type", json!("VEC4"));
+    let mut gltf = triangle_with_value_at("/accessors/0/type", json!("VEC4"));
     gltf.json["nodes"][0]["name"] = json!("lid\n");
     gltf.json["meshes"][0]["name"] = json!("x".repeat(1000));
     let message = error(&gltf).to_string();
@@ -158,7 +159,7 @@ fn coordinates_must_be_finite() {
 #[test]
 fn sparse_accessors_stay_within_their_list() {
     let mut gltf = Gltf::triangle();
-    let places = gltf.add_view(&[2, 3]);
+    let places = gltf.add_buffer_view(&[2, 3]);
     gltf.json["bufferViews"][places]["byteLength"] = json!(1);
     gltf.json["accessors"][0]["sparse"] = json!({
         "count": 1, "indices": {"bufferView": places, "componentType": 5121}, "values": {"bufferView": 0},
@@ -236,7 +237,7 @@ fn nodes_may_be_deep() {
 #[test]
 fn deep_json_is_no_deep_call() {
     let deep = |count| format!("{}{}", "[".repeat(count), "]".repeat(count));
-    let text = String::from_utf8(Gltf::triangle().text()).unwrap();
+    let text = String::from_utf8(Gltf::triangle().text_with_embedded_buffer()).unwrap();
     let with = |key: &str| text.replacen('{', &format!("{{\"{key}\":{},", deep(1_000_000)), 1);
     let read = |text: &str| TriangleMesh::from_reader(Format::Gltf, text.as_bytes());
     assert!(read(&with("extras")).is_ok());

@@ -44,7 +44,7 @@ proptest! {
         let expected: f64 = text.parse().unwrap();
         prop_assume!(expected.abs() <= 1e12);
         let gltf = Gltf::triangle().set("nodes", json!([{"mesh": 0, "translation": [0, 0, 777]}]));
-        let bytes = String::from_utf8(gltf.text()).unwrap().replace("777", &text);
+        let bytes = String::from_utf8(gltf.text_with_embedded_buffer()).unwrap().replace("777", &text);
         let mesh = TriangleMesh::from_reader(Format::Gltf, bytes.as_bytes()).unwrap();
         prop_assert_eq!(mesh.vertices()[0].z, expected);
     }

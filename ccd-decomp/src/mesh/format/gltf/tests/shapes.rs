@@ -88,7 +88,7 @@ fn indices_are_of_any_size() {
         (5125, vec![0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]),
     ] {
         let mut gltf = square_gltf();
-        let view = gltf.add_view(&bytes);
+        let view = gltf.add_buffer_view(&bytes);
         let indices = gltf.push(
             "accessors",
             json!({"bufferView": view, "componentType": kind, "count": 3, "type": "SCALAR"}),
@@ -107,7 +107,7 @@ fn vertices_may_be_interleaved_with_other_data() {
         .collect();
     // The last row ends with its position.
     let bytes: Vec<u8> = rows[..14].iter().flat_map(|x| x.to_le_bytes()).collect();
-    let view = gltf.add_view(&bytes);
+    let view = gltf.add_buffer_view(&bytes);
     gltf.json["bufferViews"][view]["byteStride"] = json!(20);
     let about = json!({"bufferView": view, "byteOffset": 4, "componentType": 5126, "count": 3, "type": "VEC3"});
     gltf.push("accessors", about);
@@ -136,7 +136,7 @@ fn quantized_positions_are_read(
     let mut rows = vec![0; 3 * stride];
     rows[stride..][..bytes.len()].copy_from_slice(bytes);
     rows[2 * stride] = 9;
-    let view = gltf.add_view(&rows);
+    let view = gltf.add_buffer_view(&rows);
     gltf.json["bufferViews"][view]["byteStride"] = json!(stride);
     let about = json!({"bufferView": view, "componentType": kind, "normalized": normalized, "count": 3, "type": "VEC3"});
     gltf.push("accessors", about);
@@ -149,12 +149,12 @@ fn sparse_accessors_replace_elements() {
     for with_base in [true, false] {
         let mut gltf = Gltf::new();
         let base = gltf.add_vec3_accessor(&[[7., 7., 7.], [0., 0., 0.], [0., 1., 0.]]);
-        let places = gltf.add_view(&[0, 1]);
+        let places = gltf.add_buffer_view(&[0, 1]);
         let bytes: Vec<u8> = [0., 0., 3., 1., 0., 0.]
             .iter()
             .flat_map(|x: &f32| x.to_le_bytes())
             .collect();
-        let values = gltf.add_view(&bytes);
+        let values = gltf.add_buffer_view(&bytes);
         let about = &mut gltf.json["accessors"][base];
         about["sparse"] = json!({
             "count": 2,
@@ -174,8 +174,8 @@ fn sparse_accessors_replace_elements() {
 fn indices_may_be_sparse() {
     let mut gltf = square_gltf();
     let indices = gltf.indices(&[0, 1, 1]);
-    let places = gltf.add_view(&[2, 0, 0, 0]);
-    let values = gltf.add_view(&[2, 0]);
+    let places = gltf.add_buffer_view(&[2, 0, 0, 0]);
+    let values = gltf.add_buffer_view(&[2, 0]);
     gltf.json["accessors"][indices]["sparse"] = json!({
         "count": 1,
         "indices": {"bufferView": places, "componentType": 5125},
