@@ -1,4 +1,5 @@
-//! Searches the features around a tied pair for a nearer pair, which rounding may have hidden from the march.
+//! Searches the features around the pair at which the march ended for a nearer pair. It does so if rounding hides the
+//! direction in which the distance decreases.
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};

@@ -116,7 +116,7 @@ impl ShapeGeometry {
         self.parts.push(Part { polytope, number });
     }
 
-    /// Adds the hull of a few points without facets, grown by a radius, as a part with the sub-shape index `number`.
+    /// Adds the hull of points, grown by a radius, as a part with the sub-shape index `number`; it lists no facets.
     pub(crate) fn push_hull_of_points<const N: usize>(
         &mut self,
         points: [DVec3; N],

@@ -50,7 +50,7 @@ fn sixty_million_pairs_touching_at_once() {
     }
 }
 
-/// Tests that two combs of many teeth, T19, are in contact at the right time, although thousands of pairs of teeth are
+/// Tests that two combs of many teeth are in contact at the right time, although thousands of pairs of teeth are
 /// in the queue.
 #[test]
 fn combs_of_many_teeth() {

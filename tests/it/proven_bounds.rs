@@ -76,8 +76,8 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks that the proven gap of free bodies is a lower bound of the distance, at least half the tolerance beyond
-    /// the margin.
+    /// Checks that the proven gap of free bodies is a lower bound of their distance, and exceeds the margin by at least
+    /// half the tolerance.
     fn check_proven_gap(&self, proven_gap: f64) -> CheckResult {
         let Settings {
             margin, tolerance, ..

@@ -11,7 +11,7 @@ use glam::DVec3;
 /// A checked claim with proven bounds of the distance, in A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CheckedClaim {
-    /// The claim; combinations with invalid point indices are replaced.
+    /// The oracle's claim. A point of it that refers to no corner of its piece is replaced by the piece's first corner.
     pub(crate) claim: Claim,
     /// A lower bound of the distance, minus rounding; negative if no axis separates the pieces.
     pub(crate) lower: f64,

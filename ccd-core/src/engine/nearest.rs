@@ -47,7 +47,7 @@ pub(crate) enum EarlyEndReason {
 }
 
 impl<'p> NearestSearch<'p> {
-    /// Creates the search for the nearest pieces at a clock.
+    /// Creates the search for the nearest pieces of both bodies, in their poses at the time `clock`.
     pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut SearchBuffers) -> Self {
         NearestSearch {
             problem,

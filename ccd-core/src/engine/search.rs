@@ -55,7 +55,7 @@ pub(crate) trait Question<O: DistanceOracle> {
     fn on_end(&mut self, problem: &Problem<'_>) -> Self::Conclusion;
 }
 
-/// The result of advancing a pair of pieces at a clock.
+/// The result of looking at a pair of pieces at its clock, the time until which it is proven apart.
 pub(crate) struct AdvanceResult {
     /// The indices of the pieces in the problem.
     pub(crate) pieces: [u32; 2],

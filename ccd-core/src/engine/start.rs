@@ -39,7 +39,8 @@ pub(crate) fn outcome_at_start<O: DistanceOracle>(
     measure_at_start(problem, beyond, oracle, meter, |nearest| nearest.nearest())
 }
 
-/// Measures the bodies at the start, and returns the outcome if they overlap, or if `contact` gives their contact.
+/// Searches for the nearest pieces at the start, and returns the outcome if the bodies overlap, if a limit ends the
+/// search, or if the function `contact` finds a contact in its result.
 /// Pieces at least as far apart as `beyond` are not measured.
 fn measure_at_start<O: DistanceOracle>(
     problem: &Problem<'_>,

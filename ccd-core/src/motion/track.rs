@@ -174,7 +174,8 @@ pub(crate) struct RotatingVector {
 }
 
 impl RotatingVector {
-    /// Creates the vector from its value at the start; `unit` is the direction of the axis, or zero without rotation.
+    /// Creates a rotating vector from its value at the start; `unit` is the direction of the axis of rotation, or zero if
+    /// nothing rotates.
     #[inline]
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
         RotatingVector {

@@ -34,8 +34,8 @@ pub(crate) struct LargestError {
     is_thorough: bool,
 }
 
-/// The number of cases in a row without a larger error after which a search restarts: a base, and an addition for each
-/// word of the case.
+/// Two numbers of cases: a search restarts after the first, plus the second for each random word of a case, without a
+/// larger error.
 const RESTART_CASE_COUNTS: [u64; 2] = [200, 10];
 
 /// The number of random cases that are drawn when a search restarts; it continues from the worst of them.

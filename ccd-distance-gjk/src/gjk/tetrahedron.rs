@@ -65,7 +65,7 @@ fn weights_of_origin(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<N
     })
 }
 
-/// The heights of the origin and of the opposite corner above a face, both times the length of the face's normal.
+/// The heights of the origin and of the opposite corner above a face, each multiplied by the length of the face's normal.
 #[derive(Clone, Copy)]
 struct FaceHeights {
     normal: DVec3,

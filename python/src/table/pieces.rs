@@ -155,7 +155,7 @@ impl Iterator for RowChunks<'_> {
 }
 
 impl RowSource {
-    /// Returns the next piece, or `None` at the end; a piece has no rows only for an empty batch.
+    /// Returns the next piece, or `None` at the end. A piece is empty only if its batch is.
     fn next(&mut self, size: &ChunkSize) -> Result<Option<RowChunk>, TableError> {
         match self {
             RowSource::Motions {

@@ -114,7 +114,7 @@ fn random_chain(rng: &mut Rng, count: usize, axes: AxisChoice) -> Chain {
     Chain::new(Pose::IDENTITY, joints.unwrap())
 }
 
-/// Tests that the deviation of a body in free fall, which is due to rounding alone, is within its bound.
+/// Tests that the motions of a body in free fall deviate from its trajectory by rounding alone, within their bound.
 #[test]
 fn thrown() {
     check("ballistic", 0.0, random_ballistic);

@@ -1,4 +1,4 @@
-//! Improves the axis of a checked claim by the edges and face normals at the nearest points.
+//! Raises the lower bound of a checked claim: tries axes from the faces and edges at the nearest points.
 
 use super::{CheckedClaim, support_gap};
 use crate::body::piece::ConvexCombination;

@@ -22,7 +22,7 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) other_rotation: BodyRotation,
     /// The time left to the end of the duration.
     pub(crate) horizon: f32,
-    /// The gap to keep, plus the rounding of a gap.
+    /// The gap to keep, plus a bound of the rounding error of a computed gap.
     pub(crate) slack: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.
     pub(crate) closed_gap: f32,

@@ -263,8 +263,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns the plane perpendicular to the vector between the nearest points at their time of closest approach, for
-    /// constant velocities; `None` if it does not keep the pieces apart now.
+    /// Moves the nearest points on at constant velocities to the time when they are closest, and returns the plane
+    /// perpendicular to the vector between them; `None` if that plane does not separate the pieces at present.
     fn plane_of_closest_approach(
         &self,
         checked: &CheckedClaim,

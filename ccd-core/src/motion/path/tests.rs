@@ -92,7 +92,8 @@ fn exact_position(path: &Path, s: DoubleDouble, x: DVec3) -> DoubleDouble3 {
     DoubleDouble3::from(path.start) + change.scale(s) + turned + rotated(&path.constant_part)
 }
 
-/// Compares positions on a part of a path with those on the whole path.
+/// Tests that positions on a part of a path differ from those on the whole path by at most `position_rounding`, in the
+/// worst case that a search finds.
 #[test]
 fn worst_part() {
     let found = WorstCaseSearch::of("place_rounding, part of a path", 4_000).search(

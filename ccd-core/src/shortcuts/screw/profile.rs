@@ -21,7 +21,7 @@ use std::f64::consts::{PI, TAU};
 /// width, for the flanks of a thread at any slope.
 const SURFACE_COUNT: usize = 16;
 
-/// The axis of a screw motion in its position at the start, with the surfaces that are tried to separate nodes.
+/// The axis of a screw motion at the start, with the surfaces about it that may separate nodes.
 #[derive(Debug)]
 pub(crate) struct ScrewAxis {
     origin: DVec3,

@@ -1,4 +1,4 @@
-//! Splits the pieces of a hull tree node in two.
+//! Divides the pieces of a hull tree node into two sets.
 
 use crate::hull::exact_hull::ExactHull;
 use crate::tolerance::{MAX_EIGEN_ITERATIONS, MAX_SPREAD_SAMPLES, MIN_CHILD_SHARE};

@@ -172,8 +172,8 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     }
 }
 
-/// Tests that a clearance is not reported as violated when a ball keeps it from a slotted block whose hull fills the
-/// slot.
+/// Tests that no clearance is reported as violated for a ball in a slot that is so far from the mesh, but not from its
+/// hull, which fills the slot.
 #[cfg(feature = "meshes")]
 #[test]
 fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {

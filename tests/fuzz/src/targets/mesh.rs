@@ -10,7 +10,7 @@ const MAX_FILE_BYTES: usize = 1 << 14;
 /// The constant part of a reader's memory limit, in bytes. The limit grows with the file's size.
 const BASE_MEMORY_LIMIT: usize = 1 << 20;
 const MEMORY_LIMIT_PER_INPUT_BYTE: usize = 1 << 10;
-/// The memory limit in bytes of a reader of scenes, in which a few bytes may use the same mesh many times.
+/// The memory limit of a reader of scenes, in bytes. It is high because a few bytes may use the same mesh many times.
 const SCENE_MEMORY_LIMIT: usize = 1 << 28;
 /// The memory limit of making bodies, in bytes. The bound of an outer hull's excess uses up to half a million boxes.
 const BODY_MEMORY_LIMIT: usize = 1 << 28;

@@ -93,7 +93,8 @@ fn assert_shares_are_substantial(tally: &Tally) {
     );
 }
 
-/// Checks lanes of random scenes until enough of them have a free time.
+/// Checks expansions of random scenes until `lanes` pairs of a child and another node have been proven free for some
+/// time.
 fn audit_random_scenes(kind: SceneKind, seed: u64, lanes: usize) -> Tally {
     let mut rng = rng(seed);
     let mut tally = Tally::default();

@@ -43,7 +43,8 @@ impl Query<'_> {
     }
 }
 
-/// The bounds of the least distance of a stretch's motions, and the time at which the motions are nearest.
+/// Bounds of the least distance of both bodies in one stretch of time, as they move by its motions, and the time at which
+/// they are nearest.
 #[derive(Default)]
 pub(super) struct StretchDistance {
     pub(super) lower: f64,

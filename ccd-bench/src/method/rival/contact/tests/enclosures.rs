@@ -1,4 +1,5 @@
-//! Tests enclosures of motions, separated boxes, and first touches of triangles against samples of the motions.
+//! Tests against sampled poses that enclosures contain the motions, that separated boxes never meet, and that first
+//! touches of triangles are not late.
 
 use crate::method::rival::contact::boxes::{BoxSeparation, box_separation};
 use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
