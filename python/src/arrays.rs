@@ -139,7 +139,10 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
 }
 
 /// Makes an array of float64 elements.
-fn float64_array<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn float64_array<'py>(
+    values: &Bound<'py, PyAny>,
+    what: &str,
+) -> PyResult<Bound<'py, PyAny>> {
     let given = numpy_array(values, what)?;
     match kind(&given)? {
         // Arrays of objects contain other kinds of numbers, such as fractions.

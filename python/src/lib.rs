@@ -3,14 +3,19 @@
 mod answers;
 mod arrays;
 mod body;
+mod cell;
+mod cell_rows;
+mod cell_solver;
 mod chain;
 mod errors;
 mod interruptible;
 mod motion;
 mod movement;
 mod path;
+mod path_array;
 mod pickle;
 mod queries;
+mod robot;
 mod settings;
 mod table;
 mod table_queries;
@@ -26,6 +31,8 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<chain::PyJoint>()?;
     module.add_class::<chain::PyChain>()?;
     module.add_class::<chain::PyLink>()?;
+    module.add_class::<robot::PyRobot>()?;
+    module.add_class::<cell::PyCell>()?;
     module.add_class::<table::PyTable>()?;
     errors::add_exceptions(module)?;
     module.add_function(wrap_pyfunction!(queries::first_contact, module)?)?;

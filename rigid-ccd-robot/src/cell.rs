@@ -1,30 +1,64 @@
 //! A robot among obstacles.
 
+mod margins;
 pub(crate) mod part;
 
-use crate::edge::kinematics::Kinematics;
 use crate::error::RobotError;
 use crate::pairs::LinkPairs;
 use crate::robot::Robot;
+use crate::solver::kinematics::Kinematics;
 use crate::tuning::{MAX_LINK_PARTS, MAX_OBSTACLE_PARTS};
+use margins::Margins;
 use part::{Part, PlacedBody};
 use rigid_ccd::{Body, Pose};
 use std::sync::Arc;
 
 /// A robot among obstacles that rest in the frame of its base.
+///
+/// Obstacles go by their names, and so do bodies that are attached to links.
 #[derive(Clone, Debug)]
 pub struct Cell {
     robot: Robot,
     pairs: LinkPairs,
     kinematics: Kinematics,
-    /// The bodies of the robot's links, then the obstacles.
+    /// The bodies of the robot's links, then those attached to links, then the obstacles.
     bodies: Vec<PlacedBody>,
     /// The convex parts of all bodies, in the order of the bodies.
     parts: Vec<Part>,
     robot_part_count: usize,
-    /// For each body of the robot, the numbers of its link and of the body in the link.
-    places: Vec<[usize; 2]>,
+    /// Where the robot holds each of its bodies, in the order of the bodies.
+    held: Vec<Held>,
     obstacle_names: Vec<String>,
+    margins: Margins,
+}
+
+/// Where a robot holds a body.
+#[derive(Clone, Debug)]
+struct Held {
+    /// The number of the link.
+    link: usize,
+    /// The pose of the body in the link's frame.
+    pose: Pose,
+    /// How the body is attached; `None` for a body of the link itself.
+    attachment: Option<Attachment>,
+}
+
+#[derive(Clone, Debug)]
+struct Attachment {
+    name: String,
+    /// The numbers of the links that the body may touch.
+    may_touch: Vec<usize>,
+}
+
+/// A link of the robot, a body attached to a link, or an obstacle, by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Item<'c> {
+    /// A link.
+    Link(&'c str),
+    /// A body that is attached to a link.
+    Attached(&'c str),
+    /// An obstacle.
+    Obstacle(&'c str),
 }
 
 impl Cell {
@@ -32,29 +66,21 @@ impl Cell {
     pub fn new(robot: Robot, pairs: LinkPairs) -> Self {
         let kinematics = Kinematics::of_robot(&robot);
         let mut cell = Cell {
+            margins: Margins::default(),
             robot,
             pairs,
             kinematics,
             bodies: Vec::new(),
             parts: Vec::new(),
             robot_part_count: 0,
-            places: Vec::new(),
+            held: Vec::new(),
             obstacle_names: Vec::new(),
         };
-        for (number, link) in cell.robot.links().iter().enumerate() {
-            let (frame, link_pose) = cell.kinematics.link(number);
-            for (k, held) in link.bodies.iter().enumerate() {
-                let pose = link_pose.compose(&held.pose);
-                cell.bodies
-                    .push(PlacedBody::new(Arc::clone(&held.body), pose, frame));
-                cell.places.push([number, k]);
+        for link in 0..cell.robot.links().len() {
+            for body in cell.robot.links()[link].bodies.clone() {
+                cell.hold(body.body, Held::by_link(link, body.pose));
             }
         }
-        for (owner, placed) in cell.bodies.iter().enumerate() {
-            cell.parts
-                .extend(Part::of_body(placed, owner, MAX_LINK_PARTS));
-        }
-        cell.robot_part_count = cell.parts.len();
         cell
     }
 
@@ -73,10 +99,74 @@ impl Cell {
             return Err(RobotError::ObstacleNameTaken { name });
         }
         self.obstacle_names.push(name);
-        let placed = PlacedBody::new(body.into(), pose, 0);
-        let parts = Part::of_body(&placed, self.bodies.len(), MAX_OBSTACLE_PARTS);
-        self.parts.extend(parts);
-        self.bodies.push(placed);
+        let placed = PlacedBody::new(body.into(), pose, 0, MAX_OBSTACLE_PARTS);
+        self.insert(self.bodies.len(), placed);
+        Ok(())
+    }
+
+    /// Moves an obstacle to a pose in the frame of the robot's base.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchObstacle`].
+    pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
+        let number = self.held.len() + self.obstacle_number(name)?;
+        self.bodies[number].pose = pose;
+        let moved = self.bodies[number].parts(number);
+        let first = self.parts.partition_point(|part| part.owner < number);
+        self.parts.splice(first..first + moved.len(), moved);
+        Ok(())
+    }
+
+    /// Removes an obstacle, together with the clearances that it had.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchObstacle`].
+    pub fn remove_obstacle(&mut self, name: &str) -> Result<(), RobotError> {
+        let obstacle = self.obstacle_number(name)?;
+        self.obstacle_names.remove(obstacle);
+        self.remove(self.held.len() + obstacle);
+        Ok(())
+    }
+
+    /// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It moves with the
+    /// link. It may touch that link, links that no joint moves against it, and those that are named.
+    ///
+    /// # Errors
+    /// [`RobotError::AttachedNameTaken`], [`RobotError::NoSuchLink`].
+    pub fn attach(
+        &mut self,
+        name: impl Into<String>,
+        body: impl Into<Arc<Body>>,
+        (link, pose): (&str, Pose),
+        may_touch: &[&str],
+    ) -> Result<(), RobotError> {
+        let link = self.robot.link_number(link)?;
+        let may_touch = may_touch.iter().map(|link| self.robot.link_number(link));
+        let may_touch = may_touch.collect::<Result<_, _>>()?;
+        let name = name.into();
+        if self.attached_number(&name).is_ok() {
+            return Err(RobotError::AttachedNameTaken { name });
+        }
+        let attachment = Some(Attachment { name, may_touch });
+        let held = Held {
+            link,
+            pose,
+            attachment,
+        };
+        self.hold(body.into(), held);
+        Ok(())
+    }
+
+    /// Removes a body that is attached to a link, together with the clearances that it had.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchAttachedBody`].
+    pub fn detach(&mut self, name: &str) -> Result<(), RobotError> {
+        let number = self.attached_number(name)?;
+        self.held.remove(number);
+        let parts = self.parts.iter().filter(|part| part.owner == number);
+        self.robot_part_count -= parts.count();
+        self.remove(number);
         Ok(())
     }
 
@@ -90,17 +180,24 @@ impl Cell {
         self.obstacle_names.iter().map(String::as_str)
     }
 
+    /// Returns the names of the bodies that are attached to links, in the order in which they were attached.
+    pub fn attached_names(&self) -> impl Iterator<Item = &str> {
+        let attachments = self.held.iter().filter_map(|held| held.attachment.as_ref());
+        attachments.map(|attachment| attachment.name.as_str())
+    }
+
     pub(crate) fn kinematics(&self) -> &Kinematics {
         &self.kinematics
     }
 
-    /// Returns the bodies of the robot's links, followed by the obstacles.
+    /// Returns the bodies that the robot holds, followed by the obstacles.
     pub(crate) fn bodies(&self) -> &[PlacedBody] {
         &self.bodies
     }
 
+    /// Returns the number of bodies that the robot holds.
     pub(crate) fn robot_body_count(&self) -> usize {
-        self.places.len()
+        self.held.len()
     }
 
     /// Returns the convex parts of all bodies, in the order of the bodies.
@@ -112,35 +209,117 @@ impl Cell {
         self.robot_part_count
     }
 
-    /// Returns the number of the link of one of the robot's bodies.
+    /// Returns the number of the link that holds one of the robot's bodies.
     pub(crate) fn link_of(&self, body: usize) -> usize {
-        self.places[body][0]
+        self.held[body].link
     }
 
     /// Returns the pose of one of the robot's bodies in its link.
     pub(crate) fn pose_in_link(&self, body: usize) -> Pose {
-        let [link, number] = self.places[body];
-        self.robot.links()[link].bodies[number].pose
+        self.held[body].pose
     }
 
-    /// Returns the name of an obstacle by its number among all bodies.
-    pub(crate) fn obstacle_name(&self, body: usize) -> &str {
-        &self.obstacle_names[body - self.places.len()]
+    /// Returns the name of what a body belongs to.
+    pub(crate) fn item(&self, body: usize) -> Item<'_> {
+        match self.held.get(body) {
+            None => Item::Obstacle(&self.obstacle_names[body - self.held.len()]),
+            Some(Held {
+                attachment: Some(attachment),
+                ..
+            }) => Item::Attached(&attachment.name),
+            Some(held) => Item::Link(&self.robot.links()[held.link].name),
+        }
     }
 
     /// Iterates over the pairs of the robot's own parts that are checked, each with the nearest frame above both.
     pub(crate) fn own_pairs(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
-        let parts_of = move |link: usize| {
-            (0..self.robot_part_count)
-                .filter(move |&part| self.link_of(self.parts[part].owner) == link)
-        };
-        let pairs = self.pairs.checked();
-        let pairs = pairs.flat_map(move |[one, other]| {
-            parts_of(one).flat_map(move |a| parts_of(other).map(move |b| [b, a]))
+        let parts = || self.parts[..self.robot_part_count].iter().enumerate();
+        let pairs = parts().flat_map(move |(a, part_a)| {
+            let earlier = parts().take(a);
+            let checked =
+                earlier.filter(move |(_, part_b)| self.is_checked(part_a.owner, part_b.owner));
+            checked.map(move |(b, _)| [a, b])
         });
         pairs.map(move |pair| {
             let frames = pair.map(|part| self.parts[part].frame);
             (pair, self.kinematics.common_frame(frames))
         })
     }
+
+    /// Returns whether two of the robot's bodies are checked against each other.
+    fn is_checked(&self, a: usize, b: usize) -> bool {
+        let [a, b] = [&self.held[a], &self.held[b]];
+        if a.attachment.is_none() && b.attachment.is_none() {
+            return self.pairs.is_checked(a.link, b.link);
+        }
+        let may_touch = |held: &Held, link: usize| {
+            let attachment = held.attachment.as_ref();
+            attachment.is_some_and(|attachment| attachment.may_touch.contains(&link))
+        };
+        !self.robot.are_rigidly_connected(a.link, b.link)
+            && !may_touch(a, b.link)
+            && !may_touch(b, a.link)
+    }
+
+    /// Adds a body that the robot holds.
+    fn hold(&mut self, body: Arc<Body>, held: Held) {
+        let (frame, link_pose) = self.kinematics.link(held.link);
+        let pose = link_pose.compose(&held.pose);
+        let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
+        let number = self.held.len();
+        self.held.push(held);
+        self.robot_part_count += self.insert(number, placed);
+    }
+
+    /// Inserts a body with its parts, and returns the number of the parts.
+    fn insert(&mut self, number: usize, placed: PlacedBody) -> usize {
+        let first = self.parts.partition_point(|part| part.owner < number);
+        for part in &mut self.parts[first..] {
+            part.owner += 1;
+        }
+        self.margins.insert_body(number);
+        let parts = placed.parts(number);
+        let count = parts.len();
+        self.parts.splice(first..first, parts);
+        self.bodies.insert(number, placed);
+        count
+    }
+
+    fn remove(&mut self, number: usize) {
+        self.bodies.remove(number);
+        self.margins.remove_body(number);
+        self.parts.retain(|part| part.owner != number);
+        for part in &mut self.parts {
+            if part.owner > number {
+                part.owner -= 1;
+            }
+        }
+    }
+
+    fn obstacle_number(&self, name: &str) -> Result<usize, RobotError> {
+        let number = self.obstacle_names.iter().position(|other| other == name);
+        number.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
+    }
+
+    fn attached_number(&self, name: &str) -> Result<usize, RobotError> {
+        let has_name = |held: &Held| {
+            let attachment = held.attachment.as_ref();
+            attachment.is_some_and(|attachment| attachment.name == name)
+        };
+        let number = self.held.iter().position(has_name);
+        number.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
+    }
 }
+
+impl Held {
+    fn by_link(link: usize, pose: Pose) -> Self {
+        Held {
+            link,
+            pose,
+            attachment: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -12,6 +12,24 @@ pub enum RobotError {
         /// The name of both obstacles.
         name: String,
     },
+    /// Two bodies that are attached to links have the same name.
+    #[error("two attached bodies are named `{name}`")]
+    AttachedNameTaken {
+        /// The name of both bodies.
+        name: String,
+    },
+    /// No obstacle of the cell has the given name.
+    #[error("there is no obstacle `{name}`")]
+    NoSuchObstacle {
+        /// The name that no obstacle has.
+        name: String,
+    },
+    /// No body with the given name is attached to a link.
+    #[error("there is no attached body `{name}`")]
+    NoSuchAttachedBody {
+        /// The name that no attached body has.
+        name: String,
+    },
     /// The robot has no links.
     #[error("the robot has no links")]
     NoLinks,
@@ -92,13 +110,21 @@ pub enum RobotError {
     Input(#[from] InputError),
 }
 
-/// The error of a question about an edge.
+/// The error of a question about a path.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum EdgeError {
+pub enum PathError {
+    /// The path has no configuration.
+    #[error("the path has no configuration")]
+    Empty,
     /// A configuration does not fit the robot.
-    #[error(transparent)]
-    Robot(#[from] RobotError),
+    #[error("configuration {number} of the path: {error}")]
+    Configuration {
+        /// The number of the configuration, from 0.
+        number: usize,
+        /// The reason why it does not fit.
+        error: RobotError,
+    },
     /// A query is invalid, or reached a limit.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),

@@ -24,26 +24,26 @@
 //! |---|---|
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `cell` | a robot among obstacles: [`Cell`] |
-//! | `edge` | one search for all pairs along an edge: [`EdgeSolver`]; `edge/kinematics` the frames of links, `edge/displacement` how far parts move, `edge/search` the search, `edge/exact` what goes to the engine |
+//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
 //! | `tuning` | numbers that only cost time |
 
 mod cell;
-mod edge;
 mod error;
 mod pairs;
 mod robot;
+mod solver;
 mod srdf;
 mod tuning;
 mod urdf;
 
-pub use cell::Cell;
-pub use edge::{EdgeContact, EdgeSolver, Other};
-pub use error::{EdgeError, RobotError};
+pub use cell::{Cell, Item};
+pub use error::{PathError, RobotError};
 pub use pairs::{LinkPairs, SkipReason};
 pub use robot::{ChainBetween, Joint, Link, LinkBody, Position, Robot};
+pub use solver::{CellSolver, ClosestApproach, PathContact, PathOutcome, PathPoint};
 pub use urdf::{Geometry, MeshModel, Urdf, UrdfError};
 
 /// The example in the README, run as a doctest.

@@ -63,6 +63,15 @@ impl LinkPairs {
         self.skip_reasons.remove(&ordered_pair(one, other));
     }
 
+    /// Returns whether a pair is checked; a link and itself are not.
+    pub fn is_checked(&self, one: usize, other: usize) -> bool {
+        one != other
+            && [one, other]
+                .iter()
+                .all(|link| self.links_with_bodies.contains(link))
+            && self.skip_reason(one, other).is_none()
+    }
+
     /// Iterates over the pairs that are checked, the lower number first.
     pub fn checked(&self) -> impl Iterator<Item = [usize; 2]> {
         self.all()

@@ -30,14 +30,14 @@ use glam::DVec3;
 ///             false => Motion::still(at(from)?),
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
-///         let deviation = DeviationBound { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
-///         Ok(Stretch { deviation, ..Stretch::exact(motion) })
+///         let deviation_bound = DeviationBound { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
+///         Ok(Stretch { deviation_bound, ..Stretch::exact(motion) })
 ///     }
 /// }
 ///
 /// let stretch = Swing.stretch(1.0, 1.5)?;
 /// let middle = stretch.motion.pose(0.25).translation();
-/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation.shift);
+/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation_bound.shift);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Trajectory: Sync {
@@ -209,13 +209,13 @@ impl std::ops::Add for DeviationBound {
 ///     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
 ///         Motion::new(Pose::at(time.cos() * DVec3::X)?, -time.sin() * DVec3::X, DVec3::ZERO)
 ///     }
-///     fn accelerations(&self, _from: f64, _to: f64) -> AccelerationBounds {
-///         AccelerationBounds { linear: 1.0, angular_acceleration: 0.0 }
+///     fn acceleration_bounds(&self, _from: f64, _to: f64) -> AccelerationBounds {
+///         AccelerationBounds { linear_acceleration: 1.0, angular_acceleration: 0.0 }
 ///     }
 /// }
 ///
 /// let stretch = Swing.stretch(1.0, 1.5)?;
-/// let DeviationBound { shift, turn } = stretch.deviation;
+/// let DeviationBound { shift, turn } = stretch.deviation_bound;
 /// assert!(shift > 0.03 && shift < 0.04 && turn < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```

@@ -6,6 +6,7 @@ use ccd_core::order::greater;
 use ccd_core::{Body, Piece, Pieces, SupportScan, Volume};
 use rigid_ccd::Pose;
 use rigid_ccd::glam::DVec3;
+use rigid_ccd::oracle::Frame;
 use std::sync::Arc;
 
 /// A body in a cell, at rest in a frame: that of the moving joint above its link, or the base for an obstacle.
@@ -16,6 +17,16 @@ pub(crate) struct PlacedBody {
     pub(crate) pose: Pose,
     /// The number of the frame.
     pub(crate) frame: usize,
+    /// Convex hulls that enclose the body together, in its own coordinates.
+    hulls: Arc<[Hull]>,
+}
+
+/// A convex hull around some pieces of a body.
+#[derive(Clone, Debug)]
+struct Hull {
+    corners: Vec<DVec3>,
+    /// The radius of the ball by which the hull is grown.
+    radius: f64,
 }
 
 /// A convex hull around some pieces of a body, in the frame in which the body rests.
@@ -40,15 +51,40 @@ pub(crate) struct Part {
 }
 
 impl PlacedBody {
-    /// Creates a body in a cell. The engine takes the triangles of a polytope against other bodies of many triangles.
-    pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize) -> Self {
+    /// Creates a body in a cell, which at most `max_hulls` hulls enclose. The engine takes the triangles of a polytope
+    /// against other bodies of many triangles.
+    pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize, max_hulls: usize) -> Self {
         let body = match surface_of(&body) {
             Some(surface) => Body::clone(&body)
                 .with_surface(surface)
                 .map_or(body, Arc::new),
             None => body,
         };
-        PlacedBody { body, pose, frame }
+        let clusters = clusters(body.pieces().iter().collect(), max_hulls);
+        let hulls = clusters.iter().map(|pieces| Hull::around(pieces)).collect();
+        PlacedBody {
+            body,
+            pose,
+            frame,
+            hulls,
+        }
+    }
+
+    /// Returns the hulls as parts of a cell in which the body has the number `owner`.
+    pub(crate) fn parts(&self, owner: usize) -> Vec<Part> {
+        let hulls = self.hulls.iter();
+        hulls.map(|hull| Part::new(hull, self, owner)).collect()
+    }
+}
+
+impl Hull {
+    fn around(pieces: &[Piece<'_>]) -> Self {
+        let radii = pieces.iter().map(|piece| piece.radius);
+        let points = pieces.iter().flat_map(|piece| piece.points);
+        Hull {
+            corners: hull_corners(points.copied().collect()),
+            radius: radii.fold(0.0, greater),
+        }
     }
 }
 
@@ -75,28 +111,12 @@ fn surface_of(body: &Body) -> Option<Body> {
 }
 
 impl Part {
-    /// Creates the parts of a body, of which there are at most `max_count`.
-    pub(crate) fn of_body(placed: &PlacedBody, owner: usize, max_count: usize) -> Vec<Self> {
-        let pieces: Vec<Piece<'_>> = placed.body.pieces().iter().collect();
-        let clusters = clusters(pieces, max_count);
-        clusters
-            .iter()
-            .map(|pieces| Part::new(pieces, placed, owner))
-            .collect()
-    }
-
-    fn new(pieces: &[Piece<'_>], placed: &PlacedBody, owner: usize) -> Self {
-        let radii = pieces.iter().map(|piece| piece.radius);
-        let radius = radii.fold(0.0, greater);
-        let points: Vec<DVec3> = pieces
-            .iter()
-            .flat_map(|piece| piece.points)
-            .copied()
+    fn new(hull: &Hull, placed: &PlacedBody, owner: usize) -> Self {
+        let corners = hull.corners.iter();
+        let points: Vec<DVec3> = corners
+            .map(|&corner| placed.pose.transform_point(corner))
             .collect();
-        let points: Vec<DVec3> = hull_corners(points)
-            .into_iter()
-            .map(|point| placed.pose.transform_point(point))
-            .collect();
+        let radius = hull.radius;
         let (mut min, mut max) = (points[0], points[0]);
         for &point in &points {
             (min, max) = (min.min(point), max.max(point));
@@ -117,6 +137,15 @@ impl Part {
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
             ball_radius: farthest + radius,
         }
+    }
+
+    /// Returns the half extents of the box along the base's axes around the part, for its frame in the base.
+    #[inline(always)]
+    pub(crate) fn box_extents(&self, frame: &Frame) -> DVec3 {
+        let (rotation, extents) = (&frame.rotation, self.half_extents);
+        rotation.x_axis.abs() * extents.x
+            + rotation.y_axis.abs() * extents.y
+            + rotation.z_axis.abs() * extents.z
     }
 
     /// Returns the largest distance of a point of the body from the frame's origin.

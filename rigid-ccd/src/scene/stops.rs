@@ -42,7 +42,7 @@ impl Stop {
     /// scene.add_fixed(&ground, Pose::at([0.0, 0.0, -1.0])?);
     /// let falls = Motion::new(Pose::at([0.0, 0.0, 2.0])?, [1.0, 0.0, -3.0], [0.0; 3])?;
     /// let ball = scene.add(&ball, falls);
-    /// let stop = scene.stops(1.0)?[ball];
+    /// let stop = scene.find_stops(1.0)?[ball];
     /// // It may slide on along the ground.
     /// let down = stop.normal().expect("the ground stops it");
     /// let slides = falls.velocity() - falls.velocity().dot(down) * down;
@@ -88,7 +88,7 @@ impl Scene<'_> {
     /// scene.add_fixed(&paper, Pose::IDENTITY);
     /// let shot = Motion::new(Pose::at([-2.0, 0.0, 0.0])?, [800.0, 0.0, 0.0], [0.0; 3])?;
     /// let bullet = scene.add(&bullet, shot);
-    /// let stop = scene.stops(1.0 / 60.0)?[bullet];
+    /// let stop = scene.find_stops(1.0 / 60.0)?[bullet];
     /// assert_eq!(stop.stopped_by, Some(0));
     /// assert!(shot.pose(stop.time).translation().x < -0.01);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -1,8 +1,9 @@
 //! Bounds of the displacements of all parts over a stretch of an edge.
 //!
-//! A part moves with the joints between it and the base. As the frame before a joint sees it, a point has the speed that
-//! it has in the frame after the joint, and in addition the joint's rate times the distance from its axis. That distance
-//! is at most the one in the middle of the stretch and the displacement since then.
+//! A part moves with the joints between it and the base. Let a point be displaced by some vector as the frame after a
+//! joint sees it. The frame before the joint sees that vector turned, and in addition the displacement of the point's
+//! place in the middle of the stretch by the joint alone: a chord about the joint's axis, or a distance along it. Only
+//! distances from axes in the middle of the stretch are needed.
 
 use super::kinematics::Kinematics;
 use crate::cell::part::Part;
@@ -65,33 +66,46 @@ impl Displacements {
         slot.map_or(0.0, |slot| self.bounds[slot as usize])
     }
 
-    /// Computes the bounds for the time `half` before and after the one at which the frames are placed, with the absolute
-    /// rates of all joints. Errors of the frames move points by at most `rounding`. The centre, the joint's origin and its
-    /// axis have such an error each.
+    /// Computes the bounds for a stretch in whose middle the frames are placed. There and at any other point of the stretch
+    /// the positions of the joints differ by at most `deviations`. Errors of the frames move points by at most `rounding`.
+    /// The centre, the joint's origin and its axis have such an error each.
+    #[inline(always)]
     pub(crate) fn update(
         &mut self,
         kinematics: &Kinematics,
         parts: &[Part],
         frames: &[Frame],
-        rates: &[f64],
-        (half, rounding): (f64, f64),
+        deviations: &[f64],
+        rounding: f64,
     ) {
         for (part, bounds) in parts.iter().zip(self.starts.windows(2)) {
             let centre = frames[part.frame].point(part.centre);
-            let mut speed = 0.0;
+            let mut displacement = 0.0;
             for slot in bounds[0]..bounds[1] {
                 let number = self.joints[slot];
                 let joint = &kinematics.joints()[number];
-                let distance = if joint.is_prismatic {
-                    1.0
+                displacement += if joint.is_prismatic {
+                    deviations[number]
                 } else {
                     let axis = frames[joint.parent].rotation * joint.axis;
                     let arm = centre - frames[number + 1].translation;
-                    axis.cross(arm).length() + part.ball_radius + half * speed + 3.0 * rounding
+                    let distance = axis.cross(arm).length() + part.ball_radius + 3.0 * rounding;
+                    chord(deviations[number]) * distance
                 };
-                speed += rates[number] * distance;
-                self.bounds[slot] = half * speed * ROUNDED_UP;
+                self.bounds[slot] = displacement * ROUNDED_UP;
             }
         }
     }
+}
+
+/// Returns an upper bound of the chord of an angle on the unit circle: `2 sin(angle/2)`, and 2 beyond half a turn.
+#[inline(always)]
+fn chord(angle: f64) -> f64 {
+    // Written so that NaN stays.
+    if angle >= 3.0 {
+        return 2.0;
+    }
+    // The Taylor series alternates, and is exceeded after a positive term.
+    let square = angle * angle;
+    angle * (1.0 - square * (1.0 / 24.0 - square * (1.0 / 1920.0)))
 }

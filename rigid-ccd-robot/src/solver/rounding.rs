@@ -14,8 +14,9 @@ const U: f64 = 0.5 * f64::EPSILON;
 const ROTATION_PER_JOINT: f64 = 64.0;
 
 /// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. A
-/// joint that follows another one has a factor and an offset more.
-const POSITION: f64 = 8.0;
+/// joint that follows another one has a factor and an offset more. The difference to a position in the middle of a
+/// stretch has the errors of both.
+const POSITION: f64 = 16.0;
 
 /// Returns a bound of the distance between points of all parts, as computed with frames along an edge, and the points
 /// themselves. The positions of the moving joints are at most `positions`.

@@ -1,5 +1,6 @@
 //! Pairs of bodies as the engine takes them: a body with the trajectory of its link, against another one at rest.
 
+use super::Question;
 use crate::cell::Cell;
 use rigid_ccd::trajectory::{Chain, Joint};
 use rigid_ccd::{Answer, Error, Motion, Pose, Solver};
@@ -29,10 +30,11 @@ impl<'c> ExactPairs<'c> {
         }
     }
 
-    /// Asks whether two bodies touch while all moving joints go from their positions in `from` to those in `to`.
-    pub(crate) fn any_contact(
+    /// Asks a question about two bodies while all moving joints go from their positions in `from` to those in `to`.
+    pub(crate) fn ask(
         &mut self,
         solver: &mut Solver,
+        question: Question,
         pair: [usize; 2],
         from: &[f64],
         to: &[f64],
@@ -61,7 +63,12 @@ impl<'c> ExactPairs<'c> {
         } else {
             Pose::IDENTITY
         });
-        Ok(solver.any_contact((&*bodies[a].body, &link), (&*bodies[b].body, rests), 1.0)?)
+        let (a, b) = ((&*bodies[a].body, &link), (&*bodies[b].body, rests));
+        Ok(match question {
+            Question::AnyContact => solver.any_contact(a, b, 1.0)?,
+            Question::FirstContact => solver.first_contact(a, b, 1.0)?,
+            Question::ClosestApproach => solver.closest_approach(a, b, 1.0)?,
+        })
     }
 }
 

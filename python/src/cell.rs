@@ -1,0 +1,273 @@
+//! The Python class `Cell`.
+
+use crate::body::extract_body;
+use crate::cell_rows::{self, Ask, PathRow};
+use crate::cell_solver::{SolvedCell, answer_all};
+use crate::errors::{Unresolved, input_error, input_error_from, unresolved_error, with_attribute};
+use crate::interruptible::run_interruptibly;
+use crate::motion::read_pose;
+use crate::path_array::PathArray;
+use crate::robot::PyRobot;
+use crate::settings::{CONTACT_SETTINGS, DISTANCE_SETTINGS, read, read_thread_count};
+use crate::table::PyTable;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rigid_ccd::{Error, Pose, Settings};
+use rigid_ccd_robot::{Cell, Item, PathError, RobotError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// A robot among obstacles that rest in the frame of its base.
+///
+/// A path is an array of shape (n, joints): configurations, between two of which all joints move at constant rates. An array
+/// of shape (joints,) is a configuration alone.
+///
+/// Args:
+///     robot: the robot, as `Robot.from_urdf` makes it.
+#[pyclass(name = "Cell", module = "rigid_ccd", frozen)]
+pub(crate) struct PyCell {
+    solved: Mutex<SolvedCell>,
+}
+
+#[pymethods]
+impl PyCell {
+    #[new]
+    fn new(robot: &PyRobot) -> Self {
+        let cell = Cell::new((*robot.robot).clone(), robot.pairs.clone());
+        PyCell {
+            solved: Mutex::new(SolvedCell::new(cell)),
+        }
+    }
+
+    /// Adds an obstacle at a pose in the frame of the robot's base.
+    #[pyo3(signature = (name, body, pose = None))]
+    fn add(
+        &self,
+        name: &str,
+        body: &Bound<'_, PyAny>,
+        pose: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let (body, pose) = (extract_body(body, "body")?.clone(), pose_or_identity(pose)?);
+        self.change(|cell| cell.add_obstacle(name, body, pose))
+    }
+
+    /// Moves an obstacle to a pose.
+    fn move_to(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
+        let pose = read_pose(pose, "pose")?;
+        self.change(|cell| cell.move_obstacle(name, pose))
+    }
+
+    /// Removes an obstacle.
+    fn remove(&self, name: &str) -> PyResult<()> {
+        self.change(|cell| cell.remove_obstacle(name))
+    }
+
+    /// Attaches a body to a link, at a pose in the link's frame. It may touch that link, and those in `may_touch`.
+    #[pyo3(signature = (name, body, link, pose = None, may_touch = Vec::new()))]
+    fn attach(
+        &self,
+        name: &str,
+        body: &Bound<'_, PyAny>,
+        link: &str,
+        pose: Option<&Bound<'_, PyAny>>,
+        may_touch: Vec<String>,
+    ) -> PyResult<()> {
+        let (body, pose) = (extract_body(body, "body")?.clone(), pose_or_identity(pose)?);
+        let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+        self.change(|cell| cell.attach(name, body, (link, pose), &may_touch))
+    }
+
+    /// Removes a body that is attached to a link.
+    fn detach(&self, name: &str) -> PyResult<()> {
+        self.change(|cell| cell.detach(name))
+    }
+
+    /// Sets the distance that obstacles have to keep from a link, in addition to the margin.
+    fn set_padding(&self, link: &str, distance: f64) -> PyResult<()> {
+        self.change(|cell| cell.set_padding(link, distance))
+    }
+
+    /// Sets the distance at which a pair counts as touching. `a` is a link or an attached body; so is `b`, or an obstacle.
+    fn set_clearance(&self, a: &str, b: &str, distance: f64) -> PyResult<()> {
+        self.change(|cell| {
+            let [a_item, b_item] = [a, b].map(|name| item(cell, name));
+            cell.set_clearance([a_item, b_item], distance)
+        })
+    }
+
+    /// Returns whether nothing touches on a path. That is proven for all configurations on it.
+    ///
+    /// Raises:
+    ///     Unresolved: a limit was reached first.
+    #[pyo3(signature = (path, **settings))]
+    fn is_free(
+        &self,
+        py: Python<'_>,
+        path: &Bound<'_, PyAny>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<bool> {
+        let settings = read(settings, CONTACT_SETTINGS)?;
+        let path = PathArray::read(path, "path")?;
+        let found = py.detach(|| {
+            self.lock()
+                .ask(settings, |solver| solver.is_free(&path.configurations()))
+        });
+        found.map_err(|error| path_error(py, error))
+    }
+
+    /// Returns the first contact on a path, or None. Nothing touches before it.
+    ///
+    /// Raises:
+    ///     Unresolved: a limit was reached first; `safe_until` is the last free point, in segments of the path.
+    #[pyo3(signature = (path, **settings))]
+    fn first_contact<'py>(
+        &self,
+        py: Python<'py>,
+        path: &Bound<'py, PyAny>,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let settings = read(settings, CONTACT_SETTINGS)?;
+        let path = PathArray::read(path, "path")?;
+        let found = py.detach(|| {
+            self.lock().ask(settings, |solver| {
+                PathRow::first_contact(solver, &path.configurations())
+            })
+        });
+        let row = found.map_err(|error| path_error(py, error))?;
+        match row.limit {
+            Some(limit) => {
+                let until = row
+                    .at
+                    .map_or(0.0, |(segment, share)| segment as f64 + share);
+                let text = format!("a limit was reached ({limit}); free until {until}");
+                let error = Unresolved::new_err(text);
+                Err(with_attribute(py, error, "safe_until", until))
+            }
+            None => row.contact(py),
+        }
+    }
+
+    /// Returns bounds of the least distance on a path, with the nearest pair.
+    #[pyo3(signature = (path, **settings))]
+    fn closest_approach<'py>(
+        &self,
+        py: Python<'py>,
+        path: &Bound<'py, PyAny>,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let settings = read(settings, DISTANCE_SETTINGS)?;
+        let path = PathArray::read(path, "path")?;
+        let found = py.detach(|| {
+            self.lock().ask(settings, |solver| {
+                PathRow::closest_approach(solver, &path.configurations())
+            })
+        });
+        let row = found.map_err(|error| path_error(py, error))?;
+        let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
+        class.call1((row.lower, row.upper, row.contact(py)?))
+    }
+
+    /// Answers a question about many edges, on all cores: `start` and `end` are arrays of shape (N, joints).
+    ///
+    /// Args:
+    ///     ask: "is-free", "first-contact" or "closest-approach".
+    ///     threads: how many threads; None for one on each core.
+    ///
+    /// Returns:
+    ///     A table with a row for each edge: the column `status`, and those that the question has of `share`, `a`, `b`,
+    ///     `lower`, `upper`, and the witnesses `wa_x` to `wb_z`.
+    #[pyo3(signature = (start, end, ask = "is-free", *, threads = None, **settings))]
+    fn edges(
+        &self,
+        py: Python<'_>,
+        start: &Bound<'_, PyAny>,
+        end: &Bound<'_, PyAny>,
+        ask: &str,
+        threads: Option<i64>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PyTable> {
+        let stacked = py
+            .import("numpy")?
+            .call_method1("stack", ((start, end), 1))
+            .map_err(|error| input_error_from(py, "start, end", error))?;
+        self.paths(py, &stacked, ask, threads, settings)
+    }
+
+    /// Answers a question about many paths of equally many configurations, on all cores: an array of shape
+    /// (N, n, joints). The column `segment` has the number of the segment of a path; otherwise the table is that of `edges`.
+    #[pyo3(signature = (paths, ask = "is-free", *, threads = None, **settings))]
+    fn paths(
+        &self,
+        py: Python<'_>,
+        paths: &Bound<'_, PyAny>,
+        ask: &str,
+        threads: Option<i64>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PyTable> {
+        let ask = Ask::named(ask)?;
+        let settings = read(settings, ask.known_settings())?;
+        let threads = read_thread_count(threads)?;
+        let cell = Arc::clone(self.lock().cell());
+        let array = PathArray::read(paths, "paths")?;
+        let joints = cell.robot().joint_names().len();
+        array.check_many(joints)?;
+        let work = |stop: &Arc<_>| {
+            let settings = Settings {
+                stop: Some(Arc::clone(stop)),
+                ..settings
+            };
+            answer_all(&cell, &settings, threads, array.paths(), |solver, path| {
+                ask.answer(solver, path)
+            })
+        };
+        let (rows, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+        seen?;
+        let batch = py
+            .detach(|| cell_rows::table(&rows, ask))
+            .map_err(input_error)?;
+        Ok(PyTable { batch })
+    }
+
+    fn __repr__(&self) -> String {
+        let cell = Arc::clone(self.lock().cell());
+        let obstacles: Vec<&str> = cell.obstacle_names().collect();
+        format!(
+            "Cell({} obstacles: {})",
+            obstacles.len(),
+            obstacles.join(", ")
+        )
+    }
+}
+
+impl PyCell {
+    fn lock(&self) -> MutexGuard<'_, SolvedCell> {
+        // A panic leaves a solver that begins anew with each question.
+        self.solved.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change(&self, change: impl FnOnce(&mut Cell) -> Result<(), RobotError>) -> PyResult<()> {
+        self.lock().change(change).map_err(input_error)
+    }
+}
+
+fn pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
+    given.map_or(Ok(Pose::IDENTITY), |pose| read_pose(pose, "pose"))
+}
+
+/// Returns what has a name: an obstacle, an attached body, else a link.
+fn item<'a>(cell: &Cell, name: &'a str) -> Item<'a> {
+    if cell.obstacle_names().any(|other| other == name) {
+        Item::Obstacle(name)
+    } else if cell.attached_names().any(|other| other == name) {
+        Item::Attached(name)
+    } else {
+        Item::Link(name)
+    }
+}
+
+/// Converts an error about a path to a Python exception.
+fn path_error(py: Python<'_>, error: PathError) -> PyErr {
+    match error {
+        PathError::Query(Error::Unresolved(known)) => unresolved_error(py, &known),
+        error => input_error(error),
+    }
+}

@@ -1,0 +1,107 @@
+//! A cell with a solver that keeps its memory from one question to the next.
+
+use rigid_ccd::{ParallelSolver, Settings};
+use rigid_ccd_robot::{Cell, CellSolver};
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+
+self_cell::self_cell!(
+    /// A cell, and a solver that borrows it.
+    struct CellAndSolver {
+        owner: Arc<Cell>,
+        #[not_covariant]
+        dependent: CellSolver,
+    }
+);
+
+/// A cell that may change between questions, and a solver for it.
+pub(crate) struct SolvedCell {
+    cell: Arc<Cell>,
+    /// The solver of the present cell, made for the first question.
+    solver: Option<CellAndSolver>,
+}
+
+impl SolvedCell {
+    pub(crate) fn new(cell: Cell) -> Self {
+        SolvedCell {
+            cell: Arc::new(cell),
+            solver: None,
+        }
+    }
+
+    pub(crate) fn cell(&self) -> &Arc<Cell> {
+        &self.cell
+    }
+
+    /// Changes the cell; the solver is made again for the next question.
+    pub(crate) fn change<T>(&mut self, change: impl FnOnce(&mut Cell) -> T) -> T {
+        self.solver = None;
+        change(Arc::make_mut(&mut self.cell))
+    }
+
+    /// Asks the solver a question.
+    pub(crate) fn ask<T>(
+        &mut self,
+        settings: Settings,
+        question: impl FnOnce(&mut CellSolver<'_>) -> T,
+    ) -> T {
+        let cell = &self.cell;
+        let solver = self
+            .solver
+            .get_or_insert_with(|| CellAndSolver::new(Arc::clone(cell), |cell| cell.solver()));
+        solver.with_dependent_mut(|_, solver| {
+            solver.set_settings(settings);
+            question(solver)
+        })
+    }
+}
+
+/// The number of paths that a thread answers at a time.
+const PATHS_PER_TASK: usize = 32;
+
+/// Answers a question about many paths, on `threads` threads, or on all cores.
+///
+/// `positions` has the paths one after another, each of `length` configurations of `joints` positions.
+pub(crate) fn answer_all<T: Send>(
+    cell: &Cell,
+    settings: &Settings,
+    threads: Option<u16>,
+    paths: Paths<'_>,
+    question: impl Fn(&mut CellSolver<'_>, &[&[f64]]) -> T + Sync,
+) -> Vec<T> {
+    let solver = || cell.solver().with_settings(settings.clone());
+    let tasks: Vec<&[f64]> = paths.tasks().collect();
+    let count = threads.and_then(|threads| NonZeroUsize::new(usize::from(threads)));
+    let mut solvers = match count {
+        Some(count) => ParallelSolver::with_threads(count, solver),
+        None => ParallelSolver::new(solver),
+    };
+    let answers = solvers.map(&tasks, |solver, task| {
+        let mut path = Vec::with_capacity(paths.length);
+        let mut answers = Vec::with_capacity(PATHS_PER_TASK);
+        for positions in task.chunks_exact(paths.length * paths.joints) {
+            path.clear();
+            path.extend(positions.chunks_exact(paths.joints));
+            answers.push(question(solver, &path));
+        }
+        answers
+    });
+    answers.into_iter().flatten().collect()
+}
+
+/// Paths of equally many configurations, one after another.
+#[derive(Clone, Copy)]
+pub(crate) struct Paths<'a> {
+    pub(crate) positions: &'a [f64],
+    /// The number of configurations of a path, at least 1.
+    pub(crate) length: usize,
+    /// The number of positions of a configuration, at least 1.
+    pub(crate) joints: usize,
+}
+
+impl<'a> Paths<'a> {
+    fn tasks(&self) -> impl Iterator<Item = &'a [f64]> {
+        self.positions
+            .chunks(PATHS_PER_TASK * self.length * self.joints)
+    }
+}

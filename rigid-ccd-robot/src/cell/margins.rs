@@ -1,0 +1,128 @@
+//! The distances at which pairs of bodies count as touching.
+
+use super::{Cell, Item};
+use crate::error::RobotError;
+use ccd_core::order::greater;
+use rigid_ccd::InputError;
+use std::collections::BTreeMap;
+
+/// The distances that some bodies are to keep, besides the margin of the settings.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Margins {
+    /// For each body, the distance that obstacles have to keep in addition; an obstacle has none.
+    paddings: Vec<f64>,
+    /// The distance of a pair of bodies, the lower number first.
+    clearances: BTreeMap<[usize; 2], f64>,
+}
+
+impl Cell {
+    /// Grows a link as obstacles see it: they are to stay away by this distance in addition to the margin. The robot's own
+    /// links, and bodies attached to the link, are not affected.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchLink`], and [`RobotError::Input`] for a distance that is negative or not finite.
+    pub fn set_padding(&mut self, link: &str, distance: f64) -> Result<(), RobotError> {
+        self.robot.link_number(link)?;
+        check_distance("padding", distance)?;
+        for body in self.bodies_of(Item::Link(link)) {
+            self.margins.paddings[body] = distance;
+        }
+        Ok(())
+    }
+
+    /// Sets the distance at which a pair counts as touching, instead of the margin and the padding.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], and
+    /// [`RobotError::Input`] for a distance that is negative or not finite.
+    pub fn set_clearance(&mut self, pair: [Item<'_>; 2], distance: f64) -> Result<(), RobotError> {
+        for item in pair {
+            match item {
+                Item::Link(name) => self.robot.link_number(name)?,
+                Item::Attached(name) => self.attached_number(name)?,
+                Item::Obstacle(name) => self.obstacle_number(name)?,
+            };
+        }
+        check_distance("clearance", distance)?;
+        let [one, other] = pair.map(|item| self.bodies_of(item));
+        for &a in &one {
+            for &b in &other {
+                self.margins.clearances.insert(ordered(a, b), distance);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the distance at which a pair of bodies counts as touching.
+    #[inline]
+    pub(crate) fn margin(&self, [a, b]: [usize; 2], margin: f64) -> f64 {
+        let Margins {
+            paddings,
+            clearances,
+        } = &self.margins;
+        if !clearances.is_empty()
+            && let Some(&clearance) = clearances.get(&ordered(a, b))
+        {
+            return clearance;
+        }
+        let count = self.robot_body_count();
+        if a < count && b < count {
+            margin
+        } else {
+            margin + paddings[a] + paddings[b]
+        }
+    }
+
+    /// Returns a bound of the distance at which an obstacle counts as touching.
+    pub(crate) fn largest_obstacle_margin(&self, margin: f64) -> f64 {
+        let largest = self.margins.paddings.iter().copied().fold(0.0, greater);
+        let clearances = self.margins.clearances.values().copied();
+        clearances.fold(margin + largest, greater)
+    }
+
+    /// Returns the numbers of the bodies of a link, of an attached body, or of an obstacle.
+    fn bodies_of(&self, item: Item<'_>) -> Vec<usize> {
+        let all = 0..self.bodies.len();
+        all.filter(|&body| self.item(body) == item).collect()
+    }
+}
+
+impl Margins {
+    /// Makes place for a body.
+    pub(super) fn insert_body(&mut self, number: usize) {
+        self.paddings.insert(number, 0.0);
+        self.renumber(|body| Some(if body < number { body } else { body + 1 }));
+    }
+
+    pub(super) fn remove_body(&mut self, number: usize) {
+        self.paddings.remove(number);
+        self.renumber(|body| match body.cmp(&number) {
+            std::cmp::Ordering::Less => Some(body),
+            std::cmp::Ordering::Equal => None,
+            std::cmp::Ordering::Greater => Some(body - 1),
+        });
+    }
+
+    fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
+        let clearances = std::mem::take(&mut self.clearances).into_iter();
+        let kept = clearances
+            .filter_map(|([a, b], clearance)| Some(([number(a)?, number(b)?], clearance)));
+        self.clearances = kept.collect();
+    }
+}
+
+fn ordered(a: usize, b: usize) -> [usize; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+/// Refuses a distance that is negative or not finite.
+fn check_distance(quantity: &'static str, distance: f64) -> Result<(), InputError> {
+    if (0.0..=f64::MAX).contains(&distance) {
+        return Ok(());
+    }
+    Err(InputError::OutOfRange {
+        quantity,
+        value: distance,
+        allowed: "at least 0 and finite",
+    })
+}

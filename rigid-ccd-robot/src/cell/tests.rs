@@ -1,0 +1,138 @@
+//! Tests of changes of a cell: obstacles, attached bodies, paddings and clearances.
+
+use super::*;
+use crate::robot::{Joint, Link, Position};
+use crate::solver::PathOutcome;
+use rigid_ccd::trajectory;
+
+/// Returns a slide along x with a ball of radius 0.1, and a second link beside it that holds a ball at (0, 1, 0).
+fn slide() -> Cell {
+    let ball = || Body::sphere(0.1).unwrap();
+    let links = vec![
+        Link::named("base"),
+        Link::named("cart").with_body(ball(), Pose::IDENTITY),
+        Link::named("post").with_body(ball(), Pose::IDENTITY),
+    ];
+    let slide = |name: &str, child: &str, y: f64| Joint {
+        name: name.into(),
+        parent: "base".into(),
+        child: child.into(),
+        joint: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0]).unwrap(), [1.0, 0.0, 0.0])
+            .unwrap(),
+        position: Position::Free,
+    };
+    let joints = vec![slide("rail", "cart", 0.0), slide("side", "post", 1.0)];
+    let robot = Robot::new(links, joints).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    Cell::new(robot, pairs)
+}
+
+/// Returns the position at which the cart first touches something on its way to 10, and what touches.
+fn stop(cell: &Cell) -> Option<(f64, [Item<'_>; 2])> {
+    match cell
+        .solver()
+        .first_contact(&[[0.0, 0.0], [10.0, 0.0]])
+        .unwrap()
+    {
+        PathOutcome::Free => None,
+        PathOutcome::Contact(contact) => Some((10.0 * contact.at.share, contact.between)),
+        PathOutcome::Unresolved { .. } => panic!("a limit was reached"),
+    }
+}
+
+fn assert_stops_at(cell: &Cell, position: f64, between: [Item<'_>; 2]) {
+    let (found, pair) = stop(cell).expect("the cart meets something");
+    assert!(
+        (found - position).abs() <= 1e-3 && found <= position,
+        "{found}"
+    );
+    assert_eq!(pair, between);
+}
+
+#[test]
+fn obstacles_are_moved_and_removed() {
+    let mut cell = slide();
+    let wall = Body::cuboid([0.1, 1.0, 1.0]).unwrap();
+    let at = |x: f64| Pose::at([x, 0.0, 0.0]).unwrap();
+    cell.add_obstacle("far", Body::sphere(0.5).unwrap(), at(8.0))
+        .unwrap();
+    cell.add_obstacle("wall", wall, at(5.0)).unwrap();
+    let [cart, wall, far] = [
+        Item::Link("cart"),
+        Item::Obstacle("wall"),
+        Item::Obstacle("far"),
+    ];
+    assert_stops_at(&cell, 4.8, [cart, wall]);
+    cell.move_obstacle("wall", at(6.0)).unwrap();
+    assert_stops_at(&cell, 5.8, [cart, wall]);
+    cell.set_clearance([cart, far], 1.0).unwrap();
+    cell.remove_obstacle("wall").unwrap();
+    assert_stops_at(&cell, 6.4, [cart, far]);
+    cell.remove_obstacle("far").unwrap();
+    assert_eq!(stop(&cell), None);
+    let error = cell.remove_obstacle("far").unwrap_err();
+    assert_eq!(error.to_string(), "there is no obstacle `far`");
+}
+
+#[test]
+fn attached_bodies_move_with_their_link() {
+    let mut cell = slide();
+    let rod = Body::capsule(0.05, 0.5).unwrap();
+    cell.add_obstacle(
+        "wall",
+        Body::cuboid([0.1; 3]).unwrap(),
+        Pose::at([5.0, 0.0, 1.0]).unwrap(),
+    )
+    .unwrap();
+    assert_eq!(stop(&cell), None);
+    let upright = Pose::at([0.0, 0.0, 0.6]).unwrap();
+    cell.attach("rod", rod, ("cart", upright), &[]).unwrap();
+    let [rod, wall] = [Item::Attached("rod"), Item::Obstacle("wall")];
+    assert_stops_at(&cell, 4.85, [rod, wall]);
+    // The obstacle keeps its number among all bodies when another one is attached and removed.
+    cell.set_clearance([rod, wall], 0.5).unwrap();
+    assert_stops_at(&cell, 4.35, [rod, wall]);
+    let plate = Body::cuboid([0.1, 1.2, 0.1]).unwrap();
+    let ahead = Pose::at([2.0, 0.0, 0.0]).unwrap();
+    cell.attach("plate", plate, ("cart", ahead), &[]).unwrap();
+    assert_stops_at(&cell, 4.35, [rod, wall]);
+    // The plate runs into the other link, unless it may touch it.
+    let back = [[0.0, 0.0], [-4.0, 0.0]];
+    assert!(!cell.solver().is_free(&back).unwrap());
+    cell.detach("plate").unwrap();
+    assert!(cell.solver().is_free(&back).unwrap());
+    let plate = Body::cuboid([0.1, 1.2, 0.1]).unwrap();
+    cell.attach("plate", plate, ("cart", ahead), &["post"])
+        .unwrap();
+    assert!(cell.solver().is_free(&back).unwrap());
+    cell.detach("rod").unwrap();
+    cell.detach("plate").unwrap();
+    assert_eq!(stop(&cell), None);
+    let error = cell.detach("rod").unwrap_err();
+    assert_eq!(error.to_string(), "there is no attached body `rod`");
+}
+
+#[test]
+fn paddings_keep_obstacles_away_but_not_links() {
+    let mut cell = slide();
+    let wall = Body::cuboid([0.1, 0.5, 0.5]).unwrap();
+    cell.add_obstacle("wall", wall, Pose::at([5.0, 0.0, 0.0]).unwrap())
+        .unwrap();
+    let [cart, wall] = [Item::Link("cart"), Item::Obstacle("wall")];
+    cell.set_padding("cart", 0.25).unwrap();
+    assert_stops_at(&cell, 4.55, [cart, wall]);
+    // The other link is 0.8 away at the start.
+    cell.set_padding("cart", 1.0).unwrap();
+    assert_stops_at(&cell, 3.8, [cart, wall]);
+    cell.set_clearance([wall, cart], 0.0).unwrap();
+    assert_stops_at(&cell, 4.8, [cart, wall]);
+    for wrong in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(cell.set_padding("cart", wrong).is_err());
+        assert!(cell.set_clearance([wall, cart], wrong).is_err());
+    }
+    assert!(cell.set_padding("wall", 0.1).is_err());
+    let unknown = cell
+        .set_clearance([Item::Link("wall"), cart], 0.1)
+        .unwrap_err();
+    assert_eq!(unknown.to_string(), "there is no link `wall`");
+}

@@ -1,0 +1,248 @@
+//! Questions about paths: a robot moves through configurations, between two of them all joints at constant rates.
+
+mod boxes;
+mod displacement;
+mod engine;
+mod exact;
+pub(crate) mod kinematics;
+mod measure;
+mod open_pairs;
+mod part_pairs;
+mod placement;
+mod rounding;
+mod search;
+mod stretch;
+mod time_limit;
+mod waypoints;
+
+pub use stretch::PathPoint;
+
+use crate::cell::{Cell, Item};
+use crate::error::PathError;
+use part_pairs::PartPair;
+use rigid_ccd::answer::{HitKind, Limit, Unresolved};
+use rigid_ccd::glam::{DQuat, DVec3};
+use rigid_ccd::oracle::Frame;
+use rigid_ccd::{Error, Hit, Outcome, Pose, Settings, Solver};
+use search::Search;
+
+/// Answers questions about paths in a cell, one after another.
+///
+/// A path is a slice of configurations. One configuration is a robot at rest, two are an edge. Between two of them all
+/// joints move at constant rates.
+///
+/// The margin of the settings is the distance at which bodies count as touching. A deadline is for a whole question, the
+/// budget for each query of two bodies that a path leaves to the engine. Contacts at the start are always reported.
+pub struct CellSolver<'c> {
+    cell: &'c Cell,
+    search: Search<'c>,
+    distance: Solver,
+}
+
+/// A pair of a cell at a point of a path, where it is in contact or nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathContact<'c> {
+    /// Where on the path. Nothing touches before the first contact.
+    pub at: PathPoint,
+    /// The pair; a link or an attached body comes first.
+    pub between: [Item<'c>; 2],
+    /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect.
+    pub witnesses: [DVec3; 2],
+}
+
+/// The first contact on a path, if there is one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PathOutcome<'c> {
+    /// Nothing touches on the whole path.
+    Free,
+    /// A pair touches; the path is free before.
+    Contact(PathContact<'c>),
+    /// A limit was reached before the answer was known.
+    Unresolved {
+        /// The path is free before this point.
+        free_until: PathPoint,
+        /// The limit.
+        limit: Limit,
+    },
+}
+
+/// Bounds of the least distance on a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosestApproach<'c> {
+    /// A lower bound of the distance of all pairs at all points of the path.
+    pub lower: f64,
+    /// An upper bound of the least distance; infinite if no distance was measured.
+    pub upper: f64,
+    /// The nearest pair that was found; `None` if no pair was measured.
+    pub nearest: Option<PathContact<'c>>,
+    /// The limit that ended the search; `None` if the bounds differ by the tolerance.
+    pub limit: Option<Limit>,
+}
+
+/// A question about a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Question {
+    AnyContact,
+    FirstContact,
+    ClosestApproach,
+}
+
+impl Cell {
+    /// Returns a solver for paths in this cell. It keeps memory from one question to the next.
+    pub fn solver(&self) -> CellSolver<'_> {
+        CellSolver {
+            cell: self,
+            search: Search::new(self),
+            distance: Solver::new(),
+        }
+    }
+}
+
+impl<'c> CellSolver<'c> {
+    /// Sets the tolerance, the margin and limits of the questions that follow.
+    #[must_use]
+    pub fn with_settings(mut self, settings: Settings) -> Self {
+        self.set_settings(settings);
+        self
+    }
+
+    /// Changes the tolerance, the margin and limits of the questions that follow.
+    pub fn set_settings(&mut self, settings: Settings) {
+        self.search.set_settings(settings);
+    }
+
+    /// Returns whether the robot touches nothing on a path, itself included.
+    ///
+    /// # Guarantee
+    /// On a free path all pairs that are checked stay apart by more than the margin. On other paths a pair comes within
+    /// margin + tolerance.
+    ///
+    /// # Errors
+    /// [`PathError`]; also if a limit is reached.
+    pub fn is_free<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<bool, PathError> {
+        Ok(self.find_contact(path)?.is_none())
+    }
+
+    /// Returns any contact on a path, perhaps not the first one.
+    ///
+    /// # Errors
+    /// [`PathError`]; also if a limit is reached.
+    pub fn any_contact<Q: AsRef<[f64]>>(
+        &mut self,
+        path: &[Q],
+    ) -> Result<Option<PathContact<'c>>, PathError> {
+        let found = self.find_contact(path)?;
+        Ok(found.map(|found| self.contact(found)).transpose()?)
+    }
+
+    /// Returns the first contact on a path: the last free point, and what touches there.
+    ///
+    /// # Guarantee
+    /// All pairs that are checked stay apart by more than the margin before that point. There the pair is within
+    /// margin + tolerance.
+    ///
+    /// # Errors
+    /// [`PathError`].
+    pub fn first_contact<Q: AsRef<[f64]>>(
+        &mut self,
+        path: &[Q],
+    ) -> Result<PathOutcome<'c>, PathError> {
+        self.answer(Question::FirstContact, path)?;
+        let found = &self.search.found;
+        Ok(match (found.limit, found.nearest) {
+            (Some((limit, until)), _) => PathOutcome::Unresolved {
+                free_until: PathPoint::of(until, self.search.segments()),
+                limit,
+            },
+            (None, Some(nearest)) => PathOutcome::Contact(self.contact(nearest)?),
+            (None, None) => PathOutcome::Free,
+        })
+    }
+
+    /// Returns how near any pair that is checked comes to touching on a path. The margin, paddings and clearances play no
+    /// role.
+    ///
+    /// # Guarantee
+    /// No pair is ever nearer than the lower bound, and the nearest one comes at least as near as the upper bound. They
+    /// differ by at most the tolerance, unless a limit is reached.
+    ///
+    /// # Errors
+    /// [`PathError`].
+    pub fn closest_approach<Q: AsRef<[f64]>>(
+        &mut self,
+        path: &[Q],
+    ) -> Result<ClosestApproach<'c>, PathError> {
+        self.answer(Question::ClosestApproach, path)?;
+        let (lower, upper) = self.search.distance_bounds();
+        let found = self.search.found;
+        Ok(ClosestApproach {
+            lower,
+            upper,
+            nearest: found.nearest.map(|found| self.contact(found)).transpose()?,
+            limit: found.limit.map(|(limit, _)| limit),
+        })
+    }
+
+    fn find_contact<Q: AsRef<[f64]>>(
+        &mut self,
+        path: &[Q],
+    ) -> Result<Option<(f64, PartPair)>, PathError> {
+        self.answer(Question::AnyContact, path)?;
+        let found = &self.search.found;
+        if found.nearest.is_none()
+            && let Some((limit, _)) = found.limit
+        {
+            let unresolved = Unresolved::from_safe_until(0.0, limit);
+            return Err(Error::from(unresolved).into());
+        }
+        Ok(found.nearest)
+    }
+
+    fn answer<Q: AsRef<[f64]>>(&mut self, question: Question, path: &[Q]) -> Result<(), PathError> {
+        if path.is_empty() {
+            return Err(PathError::Empty);
+        }
+        for (number, configuration) in path.iter().enumerate() {
+            let checked = self.cell.robot().check(configuration.as_ref());
+            checked.map_err(|error| PathError::Configuration { number, error })?;
+        }
+        self.search.settings().check().map_err(Error::from)?;
+        Ok(self.search.answer(question, path)?)
+    }
+
+    /// Measures a pair at a point of the path.
+    fn contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
+        let bodies = pair.owners(self.cell.parts());
+        let frames = &self.search.place_frames(at).frames;
+        let placed = bodies.map(|body| &self.cell.bodies()[body]);
+        let [a, b] = placed.map(|placed| {
+            let pose = pose_of(&frames[placed.frame])?.compose(&placed.pose);
+            Ok::<_, Error>((&*placed.body, pose))
+        });
+        let outcome = self.distance.distance(a?, b?)?.outcome;
+        Ok(PathContact {
+            at: PathPoint::of(at, self.search.segments()),
+            between: bodies.map(|body| self.cell.item(body)),
+            witnesses: witnesses(&outcome),
+        })
+    }
+}
+
+/// Returns the nearest points of two bodies; of two pieces that intersect if the bodies overlap.
+fn witnesses(outcome: &Outcome) -> [DVec3; 2] {
+    let kind = match (*outcome, outcome.nearest()) {
+        (Outcome::Overlapping { overlap, .. }, _) => HitKind::Overlapping(overlap),
+        (_, Some((_, contact))) => HitKind::Contact(contact),
+        _ => return [DVec3::NAN; 2],
+    };
+    let hit = Hit { time: 0.0, kind };
+    [hit.witness_a(), hit.witness_b()]
+}
+
+fn pose_of(frame: &Frame) -> Result<Pose, Error> {
+    let rotation = DQuat::from_mat3(&frame.rotation).normalize();
+    Ok(Pose::new(frame.translation, rotation)?)
+}
+
+#[cfg(test)]
+mod tests;

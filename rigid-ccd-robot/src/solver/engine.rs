@@ -1,0 +1,168 @@
+//! What the search leaves to the engine: bodies that are not convex, and pairs that are open after all halvings.
+
+use super::Question;
+use super::open_pairs::OpenPair;
+use super::part_pairs::PartPair;
+use super::search::Search;
+use super::stretch::Step;
+use ccd_core::order::{greater, lesser};
+use rigid_ccd::answer::Clearance;
+use rigid_ccd::{Answer, Error, Outcome, Settings};
+use std::ops::ControlFlow::{self, Break, Continue};
+
+impl Search<'_> {
+    /// Asks the engine whether one of the suspects is in contact in the middle of a stretch.
+    pub(super) fn check_suspects(&mut self, at: f64) -> Step {
+        if self.suspects.is_empty() {
+            return Ok(Continue(()));
+        }
+        let mut suspects = std::mem::take(&mut self.suspects);
+        suspects.sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
+        let mut step = Ok(Continue(()));
+        for (k, pair) in suspects.iter().enumerate() {
+            let bodies = pair.owners(self.cell.parts());
+            let mut earlier = suspects[..k].iter();
+            if earlier.any(|other| bodies == other.owners(self.cell.parts())) {
+                continue;
+            }
+            step = self.check_suspect(pair, bodies, at);
+            // An earlier contact than one at this point has another middle.
+            if !matches!(step, Ok(Continue(()))) || self.found.end <= at {
+                break;
+            }
+        }
+        self.suspects = suspects;
+        step
+    }
+
+    fn check_suspect(&mut self, pair: &PartPair, bodies: [usize; 2], at: f64) -> Step {
+        let question = match self.question {
+            Question::FirstContact => Question::AnyContact,
+            other => other,
+        };
+        let open = OpenPair::at(*pair, bodies, at);
+        let answer = self.ask(question, &open, None)?;
+        if question == Question::ClosestApproach {
+            return Ok(self.keep_distance(&open, &answer.outcome));
+        }
+        Ok(match answer.outcome.hit()? {
+            Some(_) => self.keep_contact(pair, at),
+            None => Continue(()),
+        })
+    }
+
+    /// Lets the engine decide about each open pair.
+    pub(super) fn ask_engine(&mut self) -> Result<(), Error> {
+        let mut open = std::mem::take(&mut self.open);
+        let result = self.decide(open.in_order(self.question));
+        self.open = open;
+        result
+    }
+
+    fn decide(&mut self, open: &[OpenPair]) -> Result<(), Error> {
+        for pair in open {
+            if pair.from >= self.found.end {
+                continue;
+            }
+            let pair = OpenPair {
+                to: lesser(pair.to, self.found.end),
+                ..*pair
+            };
+            let step = match self.question {
+                Question::AnyContact | Question::FirstContact => {
+                    let answer = self.ask(self.question, &pair, None)?;
+                    self.keep_answer(&pair, &answer.outcome)
+                }
+                Question::ClosestApproach => self.approach(&pair)?,
+            };
+            if step.is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps an answer about contacts of an open pair.
+    fn keep_answer(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
+        match outcome.hit() {
+            Ok(None) => Continue(()),
+            Ok(Some(hit)) => {
+                self.found.limit = None;
+                self.keep_contact(&open.pair, open.point(hit.time))
+            }
+            Err(known) => {
+                let until = match self.question {
+                    Question::FirstContact => open.point(known.safe_until),
+                    _ => 0.0,
+                };
+                self.found.limit = Some((known.limit, until));
+                if self.question == Question::FirstContact {
+                    self.found.end = until;
+                }
+                Continue(())
+            }
+        }
+    }
+
+    /// Measures the least distance of an open pair, if it may be less than what is found.
+    fn approach(&mut self, open: &OpenPair) -> Step {
+        let least = self.found.upper - self.settings.tolerance;
+        // Written so that NaN is measured.
+        if least <= 0.0 {
+            return Ok(Break(()));
+        }
+        if least < f64::INFINITY {
+            let answer = self.ask(Question::ClosestApproach, open, Some(least))?;
+            if answer
+                .outcome
+                .clearance(least + 2.0 * self.placement.rounding)
+                == Clearance::Kept
+            {
+                return Ok(Continue(()));
+            }
+        }
+        let answer = self.ask(Question::ClosestApproach, open, None)?;
+        Ok(self.keep_distance(open, &answer.outcome))
+    }
+
+    /// Keeps the distance of an open pair, if it is the least.
+    fn keep_distance(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
+        if let Some(limit) = outcome.limit() {
+            self.found.limit = Some((limit, 0.0));
+            self.found.lower = lesser(self.found.lower, outcome.lower());
+        }
+        let upper = outcome.upper() + 2.0 * self.placement.rounding;
+        if upper < self.found.upper {
+            let at = open.point(outcome.time().unwrap_or(0.0));
+            self.keep_nearest(&open.pair, at, upper);
+        }
+        if outcome.upper() > 0.0 {
+            Continue(())
+        } else {
+            Break(())
+        }
+    }
+
+    /// Asks the engine about an open pair. Its margin or clearance is larger because the positions that the engine gets are
+    /// rounded.
+    fn ask(
+        &mut self,
+        question: Question,
+        open: &OpenPair,
+        clearance: Option<f64>,
+    ) -> Result<Answer, Error> {
+        let rounding = 2.0 * self.placement.rounding;
+        self.solver.set_settings(Settings {
+            margin: open.pair.margin + rounding,
+            clearance: clearance.map(|clearance| greater(clearance + rounding, 0.0)),
+            deadline: self.time_limit.remaining(),
+            ..self.settings.clone()
+        });
+        for (at, positions) in [open.from, open.to].into_iter().zip(&mut self.ends) {
+            self.path.interpolate_in(open.segment, at, positions);
+        }
+        let [from, to] = &self.ends;
+        self.exact
+            .ask(&mut self.solver, question, open.bodies, from, to)
+    }
+}

@@ -1,0 +1,147 @@
+//! What the distance of two parts in the middle of a stretch proves.
+
+use super::part_pairs::PartPair;
+use super::placement::Placement;
+use crate::cell::Cell;
+use crate::cell::part::Part;
+use crate::tuning::{FAR_DISPLACEMENT, MIN_SQUARED_AXIS};
+use ccd_distance_gjk::{RequiredBounds, Vertex, bound_distance};
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::oracle::Frame;
+
+/// The distances that decide about a pair, in the middle of a stretch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Thresholds {
+    /// A pair is free that stays farther apart than this over the whole stretch.
+    pub(crate) free: f64,
+    /// A pair is near that is at most so far apart in the middle.
+    pub(crate) near: f64,
+}
+
+/// What the distance of a pair in the middle of a stretch proves.
+pub(crate) enum Measured {
+    /// The pair stays farther apart than the threshold over the whole stretch.
+    Free,
+    /// The hulls are near each other in the middle.
+    Near,
+    /// Neither is known. The hulls are at most so far apart in the middle.
+    Open(f64),
+}
+
+/// Measures a pair, as exactly as the thresholds require. With `skips_far` a pair that moves far is not measured as long as
+/// its boxes are apart.
+#[inline(always)]
+pub(crate) fn measure(
+    cell: &Cell,
+    placement: &Placement,
+    pair: &mut PartPair,
+    thresholds: Thresholds,
+    skips_far: bool,
+) -> Measured {
+    let parts = cell.parts();
+    let (a, b) = (&parts[pair.a as usize], &parts[pair.b as usize]);
+    let frames = [a, b].map(|part| placement.frames[part.frame]);
+    let displacement = pair.slots.map(|slot| placement.displacements.bound(slot));
+    let displacement = displacement[0] + displacement[1];
+    let rounding = 2.0 * placement.rounding;
+    let is_obstacle = pair.b as usize >= cell.robot_part_count();
+    let centres = [frames[0].point(a.centre), frames[1].point(b.centre)];
+    let gap = gap_of_volumes([a, b], &frames[0], centres, is_obstacle);
+    let required = displacement + thresholds.free + rounding;
+    if gap > required {
+        return Measured::Free;
+    }
+    if skips_far && displacement > FAR_DISPLACEMENT && gap > thresholds.near {
+        pair.share = 1.0;
+        return Measured::Open(f64::INFINITY);
+    }
+    let first_axis = if pair.axis != DVec3::ZERO {
+        pair.axis
+    } else {
+        first_axis(b, centres, is_obstacle)
+    };
+    let radii = a.radius + b.radius;
+    let until = RequiredBounds {
+        lower: required + radii,
+        upper: thresholds.near - rounding + radii,
+    };
+    let bounds = bound_distance(
+        #[inline(always)]
+        |direction: DVec3| vertex([a, b], &frames, direction),
+        first_axis,
+        until,
+    );
+    if bounds.lower > until.lower {
+        return Measured::Free;
+    }
+    pair.axis = bounds.axis;
+    pair.share = (bounds.lower - radii) / required;
+    let upper = bounds.upper - radii + rounding;
+    if bounds.upper <= until.upper {
+        Measured::Near
+    } else {
+        Measured::Open(upper)
+    }
+}
+
+/// Returns a lower bound of the distance of a pair in the middle of a stretch by bounding volumes.
+pub(crate) fn volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
+    let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
+    let centres = parts.map(|part| placement.frames[part.frame].point(part.centre));
+    let is_obstacle = pair.b as usize >= cell.robot_part_count();
+    gap_of_volumes(
+        parts,
+        &placement.frames[parts[0].frame],
+        centres,
+        is_obstacle,
+    )
+}
+
+/// Returns a lower bound of the distance by bounding volumes: boxes for a part and an obstacle, balls for two parts of the
+/// robot.
+#[inline(always)]
+fn gap_of_volumes(
+    [a, b]: [&Part; 2],
+    frame_a: &Frame,
+    centres: [DVec3; 2],
+    is_obstacle: bool,
+) -> f64 {
+    let offset = centres[1] - centres[0];
+    if is_obstacle {
+        let extents = a.box_extents(frame_a) + b.half_extents;
+        (offset.abs() - extents).max_element()
+    } else {
+        offset.length() - a.ball_radius - b.ball_radius
+    }
+}
+
+/// Returns the first direction in which a pair is measured: to the nearest point of an obstacle's box, or between centres.
+#[inline(always)]
+fn first_axis(b: &Part, [centre_a, centre_b]: [DVec3; 2], is_obstacle: bool) -> DVec3 {
+    if is_obstacle {
+        let nearest = centre_a.clamp(centre_b - b.half_extents, centre_b + b.half_extents);
+        let axis = nearest - centre_a;
+        if axis.length_squared() > MIN_SQUARED_AXIS {
+            return axis;
+        }
+    }
+    centre_b - centre_a
+}
+
+/// Returns the vertex of the Minkowski difference of two hulls with the least height along a direction.
+#[inline(always)]
+fn vertex([a, b]: [&Part; 2], frames: &[Frame; 2], direction: DVec3) -> Vertex {
+    let in_a = frames[0].inverse_vector(direction);
+    let in_b = -frames[1].inverse_vector(direction);
+    let (index_a, index_b) = (
+        a.support.extremal_point(in_a),
+        b.support.extremal_point(in_b),
+    );
+    let point_a = frames[0].point(a.points[index_a as usize]);
+    let point_b = frames[1].point(b.points[index_b as usize]);
+    Vertex {
+        point: point_b - point_a,
+        a: index_a,
+        b: index_b,
+    }
+}

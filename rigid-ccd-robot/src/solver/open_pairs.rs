@@ -1,0 +1,86 @@
+//! Pairs of bodies that are open in a stretch, for the engine.
+
+use super::Question;
+use super::part_pairs::PartPair;
+use super::stretch::Stretch;
+use ccd_core::order::{greater, lesser};
+
+/// A pair that is open in a stretch of one segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OpenPair {
+    pub(crate) pair: PartPair,
+    /// The numbers of both bodies.
+    pub(crate) bodies: [usize; 2],
+    pub(crate) segment: usize,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+}
+
+/// The open pairs of a search.
+#[derive(Debug, Default)]
+pub(crate) struct OpenPairs(Vec<OpenPair>);
+
+impl OpenPair {
+    /// Creates a pair that is open at one point of the path.
+    pub(crate) fn at(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
+        OpenPair {
+            pair,
+            bodies,
+            segment: at as usize,
+            from: at,
+            to: at,
+        }
+    }
+
+    /// Returns the point at a share of the stretch, rounded towards its start.
+    pub(crate) fn point(&self, share: f64) -> f64 {
+        let at = self.from + share * (self.to - self.from);
+        greater(at.next_down(), self.from)
+    }
+}
+
+impl OpenPairs {
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Returns the start of the earliest stretch; infinite without open pairs.
+    pub(crate) fn start(&self) -> f64 {
+        let starts = self.0.iter().map(|open| open.from);
+        starts.fold(f64::INFINITY, lesser)
+    }
+
+    /// Adds a pair of bodies in a stretch. Neighbouring stretches of the pair become one.
+    pub(crate) fn leave(&mut self, pair: PartPair, bodies: [usize; 2], stretch: &Stretch) {
+        let (from, to, segment) = (stretch.from, stretch.to, stretch.from as usize);
+        let mut same = self.0.iter_mut().filter(|open| {
+            open.bodies == bodies && open.segment == segment && open.from <= to && from <= open.to
+        });
+        match same.next() {
+            Some(open) => {
+                open.from = lesser(open.from, from);
+                open.to = greater(open.to, to);
+                open.pair.share = lesser(open.pair.share, pair.share);
+            }
+            None => self.0.push(OpenPair {
+                pair,
+                bodies,
+                segment,
+                from,
+                to,
+            }),
+        }
+    }
+
+    /// Returns the open pairs in the order in which the engine is asked: the earliest first for the first contact, the
+    /// nearest first for other questions.
+    pub(crate) fn in_order(&mut self, question: Question) -> &[OpenPair] {
+        match question {
+            Question::FirstContact => self.0.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
+            Question::AnyContact | Question::ClosestApproach => self
+                .0
+                .sort_unstable_by(|a, b| a.pair.share.total_cmp(&b.pair.share)),
+        }
+        &self.0
+    }
+}

@@ -1,0 +1,110 @@
+//! Pairs of parts that may touch.
+
+use super::boxes::ObstacleBoxes;
+use super::displacement::Displacements;
+use super::placement::Placement;
+use crate::cell::Cell;
+use crate::cell::part::Part;
+use rigid_ccd::glam::DVec3;
+
+/// A pair of parts that may touch in a stretch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PartPair {
+    pub(crate) a: u32,
+    pub(crate) b: u32,
+    /// The places of the bounds of both parts' displacements, as seen from the nearest frame above both.
+    pub(crate) slots: [Option<u32>; 2],
+    /// The distance at which the pair counts as touching.
+    pub(crate) margin: f64,
+    /// The direction from A to B along which they were farthest apart so far; zero if there was none.
+    pub(crate) axis: DVec3,
+    /// The distance in the middle of the last stretch, as a share of what would prove it free.
+    pub(crate) share: f64,
+}
+
+/// All pairs of a cell's parts that are checked, and what finds those that come near each other.
+pub(crate) struct PartPairs<'c> {
+    cell: &'c Cell,
+    boxes: ObstacleBoxes,
+    /// The pairs of the robot's own parts.
+    own: Vec<PartPair>,
+    /// The margin of pairs without one of their own.
+    margin: f64,
+    /// The largest margin of a pair of a part and an obstacle.
+    largest_margin: f64,
+}
+
+impl PartPair {
+    fn new([a, b]: [usize; 2], slots: [Option<u32>; 2], margin: f64) -> Self {
+        PartPair {
+            a: a as u32,
+            b: b as u32,
+            slots,
+            margin,
+            axis: DVec3::ZERO,
+            share: 0.0,
+        }
+    }
+
+    /// Returns the numbers of both bodies.
+    pub(crate) fn owners(&self, parts: &[Part]) -> [usize; 2] {
+        [self.a, self.b].map(|part| parts[part as usize].owner)
+    }
+}
+
+impl<'c> PartPairs<'c> {
+    pub(crate) fn new(cell: &'c Cell, displacements: &Displacements) -> Self {
+        let own = cell.own_pairs().map(|([a, b], frame)| {
+            let slots = [a, b].map(|part| displacements.slot(cell.kinematics(), part, frame));
+            PartPair::new([a, b], slots, 0.0)
+        });
+        let mut pairs = PartPairs {
+            boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
+            own: own.collect(),
+            cell,
+            margin: 0.0,
+            largest_margin: 0.0,
+        };
+        pairs.set_margin(0.0);
+        pairs
+    }
+
+    /// Sets the margin of all pairs that have none of their own.
+    pub(crate) fn set_margin(&mut self, margin: f64) {
+        self.margin = margin;
+        self.largest_margin = self.cell.largest_obstacle_margin(margin);
+        for pair in &mut self.own {
+            pair.margin = self.cell.margin(pair.owners(self.cell.parts()), margin);
+        }
+    }
+
+    /// Appends all pairs whose bounding boxes may come within their margins and `allowance` in the stretch that is placed.
+    #[inline(always)]
+    pub(crate) fn append_near(
+        &self,
+        placement: &Placement,
+        allowance: f64,
+        pairs: &mut Vec<PartPair>,
+    ) {
+        let (cell, parts) = (self.cell, self.cell.parts());
+        let robot_parts = cell.robot_part_count();
+        for (a, part) in parts[..robot_parts].iter().enumerate() {
+            if part.frame == 0 {
+                continue;
+            }
+            let slot = placement.displacements.slot_at_base(a);
+            let displacement = placement.displacements.bound(slot);
+            let frame = &placement.frames[part.frame];
+            let growth = displacement + self.largest_margin + allowance;
+            let extents = part.box_extents(frame) + DVec3::splat(growth);
+            let centre = frame.point(part.centre);
+            self.boxes
+                .for_each_meeting(centre - extents, centre + extents, |obstacle| {
+                    let b = robot_parts + obstacle;
+                    let margin = cell.margin([part.owner, parts[b].owner], self.margin);
+                    pairs.push(PartPair::new([a, b], [slot, None], margin));
+                });
+        }
+        pairs.extend_from_slice(&self.own);
+    }
+}

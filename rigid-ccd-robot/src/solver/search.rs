@@ -1,0 +1,303 @@
+//! The search along a path: whether anything touches, when first, or how near anything comes.
+//!
+//! The middle of a stretch comes first: the frames of all links there, and a bound of how far each part moves from there
+//! within the stretch. A pair whose distance in the middle exceeds that is free over the whole stretch. For the others the
+//! stretch is halved. What is still open after a few halvings goes to the engine, pair by pair.
+
+use super::Question;
+use super::exact::ExactPairs;
+use super::measure::{Measured, Thresholds, measure, volume_gap};
+use super::open_pairs::OpenPairs;
+use super::part_pairs::{PartPair, PartPairs};
+use super::placement::Placement;
+use super::stretch::{Step, Stretch};
+use super::time_limit::TimeLimit;
+use super::waypoints::Waypoints;
+use crate::cell::Cell;
+use crate::tuning::{LAST_DISPLACEMENT, LAST_LENGTH, LAST_LENGTH_OF_CLOSEST, MIN_HALVINGS};
+use ccd_core::order::{greater, lesser};
+use ccd_core::vectorize;
+use rigid_ccd::answer::Limit;
+use rigid_ccd::{Error, Settings, Solver};
+use std::ops::ControlFlow::{self, Break, Continue};
+use std::ops::Range;
+
+/// Memory for searches along paths, which is kept from one to the next.
+pub(crate) struct Search<'c> {
+    pub(super) cell: &'c Cell,
+    pub(super) pairs: PartPairs<'c>,
+    pub(super) exact: ExactPairs<'c>,
+    pub(super) path: Waypoints,
+    pub(super) placement: Placement,
+    /// Pairs that may touch in the stretches from the whole path down to the current one.
+    pub(super) candidates: Vec<PartPair>,
+    /// Pairs of bodies that are not convex, whose hulls are near each other in the middle of the stretch, or nearer than
+    /// what was found.
+    pub(super) suspects: Vec<PartPair>,
+    /// What the engine is to decide.
+    pub(super) open: OpenPairs,
+    pub(super) solver: Solver,
+    /// The positions at both ends of the stretch that the engine is asked about.
+    pub(super) ends: [Vec<f64>; 2],
+    pub(super) settings: Settings,
+    // Of the current question.
+    pub(super) question: Question,
+    pub(super) time_limit: TimeLimit,
+    pub(crate) found: Found,
+}
+
+/// What a search has found so far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found {
+    /// The nearest pair and where it is nearest; for a question about contacts a pair in contact.
+    pub(crate) nearest: Option<(f64, PartPair)>,
+    /// An upper bound of the distance of that pair there, for a question about the distance.
+    pub(crate) upper: f64,
+    /// Nothing beyond this point matters: for the first contact the point of the earliest one.
+    pub(crate) end: f64,
+    /// The limit that ended the search, and the point up to which everything was searched.
+    pub(crate) limit: Option<(Limit, f64)>,
+    /// A lower bound of the distance of what a limit left open.
+    pub(crate) lower: f64,
+}
+
+impl Found {
+    const NOTHING: Found = Found {
+        nearest: None,
+        upper: f64::INFINITY,
+        end: f64::INFINITY,
+        limit: None,
+        lower: f64::INFINITY,
+    };
+}
+
+impl<'c> Search<'c> {
+    pub(crate) fn new(cell: &'c Cell) -> Self {
+        let placement = Placement::new(cell);
+        Search {
+            cell,
+            pairs: PartPairs::new(cell, &placement.displacements),
+            exact: ExactPairs::new(cell),
+            path: Waypoints::default(),
+            placement,
+            candidates: Vec::new(),
+            suspects: Vec::new(),
+            open: OpenPairs::default(),
+            solver: Solver::new(),
+            ends: Default::default(),
+            settings: Settings::DEFAULT,
+            question: Question::AnyContact,
+            time_limit: TimeLimit::NONE,
+            found: Found::NOTHING,
+        }
+    }
+
+    /// Sets the settings of all questions that follow.
+    pub(crate) fn set_settings(&mut self, settings: Settings) {
+        self.pairs.set_margin(settings.margin);
+        self.settings = settings;
+    }
+
+    pub(crate) fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Returns bounds of the least distance, after a question about it.
+    pub(crate) fn distance_bounds(&self) -> (f64, f64) {
+        let Found { upper, lower, .. } = self.found;
+        // Pairs are left out that stay farther apart than the upper bound at that time, less the tolerance.
+        let least = upper - self.settings.tolerance - 4.0 * self.placement.rounding;
+        (greater(lesser(least, lower), 0.0), upper)
+    }
+
+    /// Returns the number of segments of the current path.
+    pub(crate) fn segments(&self) -> usize {
+        self.path.segments()
+    }
+
+    /// Answers a question about a path of at least one configuration; the answer is in `found`.
+    pub(crate) fn answer<Q: AsRef<[f64]>>(
+        &mut self,
+        question: Question,
+        path: &[Q],
+    ) -> Result<(), Error> {
+        self.question = question;
+        self.time_limit = TimeLimit::starting_now(&self.settings);
+        self.found = Found::NOTHING;
+        self.path.set(self.cell.kinematics(), path);
+        self.placement.begin(self.cell, &self.path);
+        self.candidates.clear();
+        self.open.clear();
+        let whole = Stretch::whole(self.path.segments());
+        match self.search(whole, None)? {
+            Break(()) => Ok(()),
+            Continue(()) => self.ask_engine(),
+        }
+    }
+
+    /// Places the frames of all links at a point of the path, and returns them.
+    pub(crate) fn place_frames(&mut self, at: f64) -> &Placement {
+        self.placement.place_frames(self.cell, &self.path, at);
+        &self.placement
+    }
+
+    /// Searches a stretch among some candidates; among all pairs without them. Pairs that stay open are left to the engine.
+    fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> Step {
+        if stretch.from >= self.found.end {
+            return Ok(Continue(()));
+        }
+        if let Some(limit) = self.time_limit.reached() {
+            self.found.limit = Some((limit, lesser(stretch.from, self.open.start())));
+            self.found.lower = 0.0;
+            return Ok(Break(()));
+        }
+        let base = self.candidates.len();
+        let level = self.settings.vector_instructions.level();
+        let Continue(first) = vectorize!(level, _token => self.look(stretch, among)) else {
+            return Ok(Break(()));
+        };
+        if self.check_suspects(stretch.middle())?.is_break() {
+            return Ok(Break(()));
+        }
+        let undecided = first..self.candidates.len();
+        if !undecided.is_empty() {
+            self.candidates[first..].sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
+            let [earlier, later] = stretch.halves();
+            let halves = match self.question {
+                Question::FirstContact => [earlier, later],
+                // The start of a planner's edge is free as a rule.
+                Question::AnyContact | Question::ClosestApproach => [later, earlier],
+            };
+            for half in halves {
+                if self.search(half, Some(undecided.clone()))?.is_break() {
+                    return Ok(Break(()));
+                }
+            }
+        }
+        self.candidates.truncate(base);
+        Ok(Continue(()))
+    }
+
+    /// Measures the candidates in the middle of a stretch, and appends those that are undecided. Returns the index of the
+    /// first of these.
+    #[inline(always)]
+    fn look(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> ControlFlow<(), usize> {
+        self.placement.place(self.cell, &self.path, &stretch);
+        let among = among.unwrap_or_else(|| {
+            let first = self.candidates.len();
+            self.append_all_pairs();
+            first..self.candidates.len()
+        });
+        let first = self.candidates.len();
+        self.suspects.clear();
+        for k in among {
+            let mut pair = self.candidates[k];
+            let is_last = self.is_last(&stretch, &pair);
+            let thresholds = self.thresholds(&pair);
+            match measure(self.cell, &self.placement, &mut pair, thresholds, !is_last) {
+                Measured::Free => continue,
+                Measured::Near if !self.is_convex(&pair) => self.suspects.push(pair),
+                Measured::Near => self.keep_contact(&pair, stretch.middle())?,
+                Measured::Open(upper) if self.is_nearest(upper) => {
+                    if self.is_convex(&pair) {
+                        self.keep_nearest(&pair, stretch.middle(), upper);
+                    } else {
+                        self.suspects.push(pair);
+                    }
+                }
+                Measured::Open(_) => {}
+            }
+            if is_last {
+                self.open
+                    .leave(pair, pair.owners(self.cell.parts()), &stretch);
+            } else {
+                self.candidates.push(pair);
+            }
+        }
+        Continue(first)
+    }
+
+    /// Returns the distances that decide about a pair.
+    #[inline(always)]
+    fn thresholds(&self, pair: &PartPair) -> Thresholds {
+        let tolerance = self.settings.tolerance;
+        match self.question {
+            Question::AnyContact | Question::FirstContact => Thresholds {
+                free: pair.margin,
+                near: pair.margin + tolerance,
+            },
+            // Touching hulls end the search; others are measured exactly.
+            Question::ClosestApproach => Thresholds {
+                free: self.found.upper - tolerance,
+                near: 0.0,
+            },
+        }
+    }
+
+    /// Returns whether a pair goes to the engine unless this stretch decides about it.
+    #[inline(always)]
+    fn is_last(&self, stretch: &Stretch, pair: &PartPair) -> bool {
+        if !stretch.is_within_segment() {
+            return false;
+        }
+        let length = stretch.to - stretch.from;
+        let is_short = match self.question {
+            Question::ClosestApproach => length <= LAST_LENGTH_OF_CLOSEST,
+            _ => length <= LAST_LENGTH,
+        };
+        is_short || {
+            let displacement = |slot| self.placement.displacements.bound(slot);
+            let displacement = displacement(pair.slots[0]) + displacement(pair.slots[1]);
+            stretch.halvings >= MIN_HALVINGS && displacement < LAST_DISPLACEMENT
+        }
+    }
+
+    /// Appends all pairs that may come near each other in the stretch that is placed.
+    #[inline(always)]
+    fn append_all_pairs(&mut self) {
+        let first = self.candidates.len();
+        let allowance = match self.question {
+            Question::AnyContact | Question::FirstContact => self.settings.tolerance,
+            Question::ClosestApproach => f64::INFINITY,
+        };
+        let allowance = allowance + 2.0 * self.placement.rounding;
+        self.pairs
+            .append_near(&self.placement, allowance, &mut self.candidates);
+        if self.question == Question::ClosestApproach {
+            // The nearest bodies first: others are then farther apart than these by their bounding volumes.
+            let (cell, placement) = (self.cell, &self.placement);
+            let gap = |pair: &PartPair| volume_gap(cell, placement, pair);
+            self.candidates[first..].sort_unstable_by(|a, b| gap(a).total_cmp(&gap(b)));
+        }
+    }
+
+    fn is_convex(&self, pair: &PartPair) -> bool {
+        let parts = self.cell.parts();
+        [pair.a, pair.b]
+            .iter()
+            .all(|&part| parts[part as usize].is_convex)
+    }
+
+    /// Returns whether a distance is of interest and the least so far.
+    #[inline(always)]
+    fn is_nearest(&self, upper: f64) -> bool {
+        self.question == Question::ClosestApproach && upper < self.found.upper
+    }
+
+    /// Keeps a pair as the nearest so far, with an upper bound of its distance.
+    pub(super) fn keep_nearest(&mut self, pair: &PartPair, at: f64, upper: f64) {
+        self.found.upper = upper;
+        self.found.nearest = Some((at, *pair));
+    }
+
+    /// Keeps a contact of a pair at a point. The search ends unless an earlier contact is looked for.
+    pub(super) fn keep_contact(&mut self, pair: &PartPair, at: f64) -> ControlFlow<()> {
+        self.found.nearest = Some((at, *pair));
+        self.found.upper = 0.0;
+        self.found.end = at;
+        match self.question {
+            Question::FirstContact => Continue(()),
+            Question::AnyContact | Question::ClosestApproach => Break(()),
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Points and stretches of a path.
+
+use rigid_ccd::Error;
+
+/// A point of a path: the number of a segment between two configurations, and the share of the segment that is passed.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct PathPoint {
+    /// The number of the segment: 0 between the first two configurations.
+    pub segment: usize,
+    /// The share of the segment that is passed, from 0 to 1.
+    pub share: f64,
+}
+
+/// A stretch of a path. Its ends are measured in segments: 1.5 is the middle of the second one.
+///
+/// Stretches come from halving: one that is longer than a segment begins and ends at configurations.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    /// The number of times that the path was halved to get this stretch.
+    pub(crate) halvings: u32,
+}
+
+impl PathPoint {
+    /// Converts a number of segments; the end of a path belongs to its last segment.
+    pub(crate) fn of(at: f64, segments: usize) -> Self {
+        let segment = (at as usize).min(segments.saturating_sub(1));
+        PathPoint {
+            segment,
+            share: at - segment as f64,
+        }
+    }
+}
+
+impl Stretch {
+    /// Returns the whole path of a number of segments.
+    pub(crate) fn whole(segments: usize) -> Self {
+        Stretch {
+            from: 0.0,
+            to: segments as f64,
+            halvings: 0,
+        }
+    }
+
+    /// Returns the point that halves the stretch: a configuration if the stretch is longer than a segment.
+    pub(crate) fn middle(&self) -> f64 {
+        let middle = 0.5 * (self.from + self.to);
+        if self.to - self.from > 1.0 {
+            middle.floor()
+        } else {
+            middle
+        }
+    }
+
+    /// Returns whether the stretch lies within one segment.
+    pub(crate) fn is_within_segment(&self) -> bool {
+        self.to - self.from <= 1.0
+    }
+
+    /// Returns the parts before and after the middle.
+    pub(crate) fn halves(&self) -> [Self; 2] {
+        let (middle, halvings) = (self.middle(), self.halvings + 1);
+        let (from, to) = (self.from, self.to);
+        [(from, middle), (middle, to)].map(|(from, to)| Stretch { from, to, halvings })
+    }
+}
+
+/// The result of a step of a search: an error of the engine, or whether the search goes on.
+pub(crate) type Step = Result<std::ops::ControlFlow<()>, Error>;

@@ -1,0 +1,213 @@
+//! Tests of paths in random cells against sampled configurations.
+
+mod bounds;
+mod inputs;
+mod questions;
+
+use super::*;
+use crate::pairs::LinkPairs;
+use crate::robot::{Joint, Link, Position, Robot};
+use ccd_core::order::{greater, lesser};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::body::{Pieces, Volume};
+use rigid_ccd::glam::{DQuat, DVec3};
+use rigid_ccd::{Body, Pose, Solver, trajectory};
+use std::sync::Arc;
+
+fn random_vector(random: &mut Pcg64, size: f64) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| random.random_range(-size..size)))
+}
+
+fn random_pose(random: &mut Pcg64, size: f64) -> Pose {
+    let at = random_vector(random, size);
+    Pose::new(at, DQuat::from_scaled_axis(random_vector(random, 2.0))).unwrap()
+}
+
+/// Returns a random body of about the size 0.2: a box, a ball, a capsule, or two triangles that are not in one plane.
+fn random_body(random: &mut Pcg64) -> Body {
+    match random.random_range(0..4) {
+        0 => Body::cuboid([(); 3].map(|()| random.random_range(0.02..0.2))).unwrap(),
+        1 => Body::sphere(random.random_range(0.02..0.2)).unwrap(),
+        2 => Body::capsule(0.05, random.random_range(0.02..0.2)).unwrap(),
+        _ => {
+            let corners: Vec<DVec3> = (0..4).map(|_| random_vector(random, 0.2)).collect();
+            let faces = [[0, 1, 2], [2, 1, 3]];
+            let pieces = Pieces::triangles(&corners, &faces, &[0, 1]).unwrap();
+            Body::new(&pieces, Volume::Surface).unwrap()
+        }
+    }
+}
+
+/// Returns a random tree of links with joints that turn, slide, are fixed, or follow the first one.
+fn random_robot(random: &mut Pcg64) -> Robot {
+    let count = random.random_range(3..8);
+    let links = (0..count).map(|k| {
+        let link = Link::named(format!("link{k}"));
+        let pose = random_pose(random, 0.1);
+        link.with_body(random_body(random), pose)
+    });
+    let links: Vec<Link> = links.collect();
+    let joints = (1..count).map(|k| {
+        let origin = random_pose(random, 0.5);
+        let axis = random_vector(random, 1.0).to_array();
+        let joint = match k % 4 {
+            3 => trajectory::Joint::prismatic(origin, axis),
+            2 if k == 6 => Ok(trajectory::Joint::fixed(origin)),
+            _ => trajectory::Joint::revolute(origin, axis),
+        };
+        let position = match k {
+            4 => Position::Follows {
+                joint: "joint1".into(),
+                multiplier: -1.5,
+                offset: 0.2,
+            },
+            _ => Position::Free,
+        };
+        Joint {
+            name: format!("joint{k}"),
+            parent: format!("link{}", random.random_range(0..k)),
+            child: format!("link{k}"),
+            joint: joint.unwrap(),
+            position,
+        }
+    });
+    let joints = joints.collect();
+    Robot::new(links, joints).unwrap()
+}
+
+fn random_cell(random: &mut Pcg64) -> Cell {
+    let robot = random_robot(random);
+    let pairs = LinkPairs::from_robot(&robot);
+    let mut cell = Cell::new(robot, pairs);
+    for k in 0..random.random_range(0..12) {
+        let (body, pose) = (random_body(random), random_pose(random, 1.5));
+        cell.add_obstacle(format!("obstacle{k}"), body, pose)
+            .unwrap();
+    }
+    cell
+}
+
+fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
+    let names = robot.joint_names();
+    names.map(|_| random.random_range(-1.5..1.5)).collect()
+}
+
+/// Returns the least distance of all pairs that are checked at a configuration, by poses and distances of one pair after
+/// another.
+fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
+    let robot = cell.robot();
+    let mut solver = Solver::new();
+    let pose = |link: usize| {
+        robot
+            .pose(&robot.links()[link].name, configuration)
+            .unwrap()
+    };
+    let mut least = f64::INFINITY;
+    let mut measure = |a: (&Body, Pose), b: (&Body, Pose)| {
+        least = lesser(least, solver.distance(a, b).unwrap().outcome.upper());
+    };
+    let poses: Vec<Pose> = (0..robot.links().len()).map(pose).collect();
+    for (number, link) in robot.links().iter().enumerate() {
+        for held in &link.bodies {
+            let body = (&*held.body, poses[number].compose(&held.pose));
+            for obstacle in &cell.bodies()[cell.robot_body_count()..] {
+                // A body on the base never moves, and is not compared with obstacles.
+                if cell.kinematics().link(number).0 > 0 {
+                    measure(body, (&*obstacle.body, obstacle.pose));
+                }
+            }
+        }
+    }
+    for [one, other] in LinkPairs::from_robot(robot).checked() {
+        for a in &robot.links()[one].bodies {
+            for b in &robot.links()[other].bodies {
+                let at = |link: usize, pose: &Pose| poses[link].compose(pose);
+                measure((&a.body, at(one, &a.pose)), (&b.body, at(other, &b.pose)));
+            }
+        }
+    }
+    least
+}
+
+fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+    let ends = from.iter().zip(to);
+    ends.map(|(from, to)| from + share * (to - from)).collect()
+}
+
+/// Tests random cells: on a free edge no sampled configuration is within the margin, and on another edge the pair that is
+/// named is within margin + tolerance at the share that is named.
+#[test]
+fn edges_agree_with_sampled_configurations() {
+    let mut random = Pcg64::seed_from_u64(3);
+    let (mut free, mut contacts, mut closest) = (0, 0, f64::INFINITY);
+    for _ in 0..150 {
+        let cell = random_cell(&mut random);
+        let margin = [0.0, 0.05][random.random_range(0..2)];
+        let settings = Settings {
+            margin,
+            tolerance: 1e-4,
+            ..Settings::DEFAULT
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        for _ in 0..8 {
+            let from = random_configuration(&mut random, cell.robot());
+            let reach = [0.05, 0.5, 1.0][random.random_range(0..3)];
+            let to = between(
+                &from,
+                &random_configuration(&mut random, cell.robot()),
+                reach,
+            );
+            match solver.any_contact(&[&from, &to]).unwrap() {
+                None => {
+                    free += 1;
+                    for k in 0..=12 {
+                        let at = between(&from, &to, f64::from(k) / 12.0);
+                        let distance = least_distance(&cell, &at);
+                        assert!(distance > margin, "{distance} on a free edge");
+                        closest = lesser(closest, distance - margin);
+                    }
+                }
+                Some(contact) => {
+                    contacts += 1;
+                    let distance = least_distance(&cell, &between(&from, &to, contact.at.share));
+                    assert!(
+                        distance <= margin + 1e-4 + 1e-9,
+                        "{distance} in {contact:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(free > 200 && contacts > 200, "{free} {contacts}");
+    assert!(closest < 2e-3, "{closest}: no free edge is close");
+}
+
+/// Tests that an edge is free or not whichever way it is passed, and that its parts are free if it is.
+#[test]
+fn an_edge_backward_and_its_halves_agree() {
+    let mut random = Pcg64::seed_from_u64(4);
+    let mut free = 0;
+    for _ in 0..60 {
+        let cell = random_cell(&mut random);
+        let mut solver = cell.solver();
+        let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
+        let [from, to] = &ends;
+        let middle = between(from, to, 0.3);
+        if solver.is_free(&[from, to]).unwrap() {
+            free += 1;
+            assert!(
+                solver.is_free(&[&middle, to]).unwrap()
+                    && solver.is_free(&[from, &middle]).unwrap()
+            );
+        }
+        if solver.is_free(&[from, to]).unwrap() != solver.is_free(&[to, from]).unwrap() {
+            // Both answers are right only within the tolerance.
+            let shares = (0..=400).map(|k| f64::from(k) / 400.0);
+            let distances = shares.map(|share| least_distance(&cell, &between(from, to, share)));
+            let least = distances.fold(f64::INFINITY, lesser);
+            assert!(least > 0.0 && least < 0.05, "{least}");
+        }
+    }
+    assert!(free > 5, "{free}");
+}

@@ -1,0 +1,118 @@
+//! Tests the bounds on which the search relies: rounding of frames, and displacements of parts.
+
+use super::*;
+use crate::solver::displacement::Displacements;
+use crate::solver::kinematics::Kinematics;
+use crate::solver::rounding::point_error;
+use rigid_ccd::oracle::Frame;
+
+/// Tests that frames are as near to the poses of links as the bound on rounding says, and that the bound is not a million
+/// times too large.
+#[test]
+fn frames_are_within_the_bound_on_rounding() {
+    let mut random = Pcg64::seed_from_u64(5);
+    let mut largest_share = 0.0;
+    for _ in 0..300 {
+        let cell = random_cell(&mut random);
+        let (robot, kinematics) = (cell.robot(), cell.kinematics());
+        let configuration = random_configuration(&mut random, robot);
+        let positions = kinematics
+            .joints()
+            .iter()
+            .map(|joint| joint.source.position(&configuration));
+        let positions: Vec<f64> = positions.collect();
+        let mut frames = Vec::new();
+        kinematics.place(positions.iter().copied(), &mut frames);
+        let largest = positions.iter().map(|position| position.abs());
+        let bound = point_error(kinematics, cell.parts(), largest);
+        for part in &cell.parts()[..cell.robot_part_count()] {
+            let link = cell.link_of(part.owner);
+            let pose = robot
+                .pose(&robot.links()[link].name, &configuration)
+                .unwrap();
+            let pose = pose.compose(&cell.pose_in_link(part.owner));
+            let body = &cell.bodies()[part.owner].body;
+            for &point in body.pieces().points() {
+                let in_frame = cell.bodies()[part.owner].pose.transform_point(point);
+                let found = frames[part.frame].point(in_frame);
+                let share = found.distance(pose.transform_point(point)) / bound;
+                largest_share = greater(largest_share, share);
+            }
+        }
+    }
+    assert!(
+        largest_share < 1.0 && largest_share > 1e-4,
+        "{largest_share}"
+    );
+}
+
+/// Tests that no point of a part moves farther, as the base and each frame between see it, than the bound says.
+#[test]
+fn displacements_are_within_their_bounds() {
+    let mut random = Pcg64::seed_from_u64(6);
+    let mut largest_share = 0.0;
+    for _ in 0..200 {
+        let cell = random_cell(&mut random);
+        let kinematics = cell.kinematics();
+        let parts = &cell.parts()[..cell.robot_part_count()];
+        let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
+        let half = random.random_range(0.01..0.5);
+        let share = Shares::new(kinematics, &ends, 0.5);
+        let mut displacements = Displacements::new(kinematics, parts);
+        displacements.update(
+            kinematics,
+            parts,
+            &share.frames,
+            &share
+                .rates
+                .iter()
+                .map(|rate| half * rate)
+                .collect::<Vec<_>>(),
+            1e-12,
+        );
+        for _ in 0..10 {
+            let later = Shares::new(kinematics, &ends, 0.5 + random.random_range(-half..half));
+            for (number, part) in parts.iter().enumerate() {
+                for seen_from in 0..part.frame {
+                    let Some(slot) = displacements.slot(kinematics, number, seen_from) else {
+                        continue;
+                    };
+                    let bound = displacements.bound(Some(slot));
+                    for &point in &part.points {
+                        let place = |frames: &[Frame]| {
+                            frames[seen_from].inverse_point(frames[part.frame].point(point))
+                        };
+                        let moved = place(&share.frames).distance(place(&later.frames));
+                        assert!(moved <= bound + 1e-12, "{moved} beyond {bound}");
+                        if bound > 1e-6 {
+                            largest_share = greater(largest_share, moved / bound);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(largest_share > 0.7, "{largest_share}");
+}
+
+/// The frames at a share of an edge, and the rates of its joints.
+struct Shares {
+    frames: Vec<Frame>,
+    rates: Vec<f64>,
+}
+
+impl Shares {
+    fn new(kinematics: &Kinematics, [from, to]: &[Vec<f64>; 2], share: f64) -> Self {
+        let sources = kinematics.joints().iter().map(|joint| joint.source);
+        let ends: Vec<[f64; 2]> = sources
+            .map(|source| [source.position(from), source.position(to)])
+            .collect();
+        let mut frames = Vec::new();
+        kinematics.place(
+            ends.iter().map(|[from, to]| from + share * (to - from)),
+            &mut frames,
+        );
+        let rates = ends.iter().map(|[from, to]| (to - from).abs()).collect();
+        Shares { frames, rates }
+    }
+}

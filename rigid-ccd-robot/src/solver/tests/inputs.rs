@@ -1,0 +1,93 @@
+//! Tests unusual and wrong inputs: names, settings, positions that overflow, and facets that are wrong.
+
+use super::*;
+use crate::cell::part::PlacedBody;
+use rigid_ccd::body::{Facet, FacetOrigin, Polytope};
+
+/// Tests that names of obstacles are unique, and that wrong configurations are refused.
+#[test]
+fn wrong_input_is_refused() {
+    let mut random = Pcg64::seed_from_u64(7);
+    let mut cell = random_cell(&mut random);
+    let ball = || Body::sphere(0.1).unwrap();
+    cell.add_obstacle("lamp", ball(), Pose::IDENTITY).unwrap();
+    let error = cell
+        .add_obstacle("lamp", ball(), Pose::IDENTITY)
+        .unwrap_err();
+    assert_eq!(error.to_string(), "two obstacles are named `lamp`");
+    let start = random_configuration(&mut random, cell.robot());
+    let mut solver = cell.solver();
+    for wrong in [
+        Vec::new(),
+        vec![f64::NAN; start.len()],
+        vec![f64::INFINITY; start.len()],
+    ] {
+        assert!(solver.is_free(&[&start, &wrong]).is_err(), "{wrong:?}");
+        assert!(solver.is_free(&[&wrong, &start]).is_err(), "{wrong:?}");
+    }
+    for (margin, tolerance) in [(-0.1, 1e-3), (f64::NAN, 1e-3), (0.0, f64::NAN), (0.0, -1.0)] {
+        let settings = Settings {
+            margin,
+            tolerance,
+            ..Settings::DEFAULT
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        assert!(
+            solver.is_free(&[&start, &start]).is_err(),
+            "{margin} {tolerance}"
+        );
+    }
+}
+
+/// Tests that a link which slides so far that its frame overflows is never free of an obstacle on its way.
+#[test]
+fn an_edge_beyond_all_numbers_is_never_free() {
+    let rail = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let joint = Joint {
+        name: "rail".into(),
+        parent: "base".into(),
+        child: "cart".into(),
+        joint: rail,
+        position: Position::Free,
+    };
+    let cart = Link::named("cart").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
+    let robot = Robot::new(vec![Link::named("base"), cart], vec![joint]).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    let mut cell = Cell::new(robot, pairs);
+    let (wall, pose) = (
+        Body::cuboid([0.1; 3]).unwrap(),
+        Pose::at([1.0, 0.0, 0.0]).unwrap(),
+    );
+    cell.add_obstacle("wall", wall, pose).unwrap();
+    for far in [1e30, 1e200, f64::MAX] {
+        let free = cell.solver().is_free(&[[-far], [far]]);
+        assert!(!matches!(free, Ok(true)), "{far:e}");
+    }
+}
+
+/// Tests that a polytope whose facets are wrong is as solid as its hull.
+#[test]
+fn wrong_facets_open_no_hole() {
+    let corner = |k: usize| DVec3::from_array([0, 1, 2].map(|axis| (k >> axis & 1) as f64 - 0.5));
+    let polytope = Polytope {
+        points: (0..8).map(corner).collect(),
+        // Only the lower side of the cube.
+        facets: vec![Facet {
+            origin: FacetOrigin::Virtual,
+            corners: vec![0, 2, 3, 1],
+        }],
+        ..Polytope::default()
+    };
+    let cube = Body::new(&Pieces::polytopes(&[polytope]).unwrap(), Volume::Solid).unwrap();
+    let placed = PlacedBody::new(Arc::new(cube), Pose::IDENTITY, 0, 1);
+    assert!(placed.body.has_surface());
+    let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y, 3.0 * DVec3::Z];
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    let pieces = Pieces::triangles(&corners, &faces, &[0, 1, 2, 3]).unwrap();
+    let large = Body::new(&pieces, Volume::Solid).unwrap();
+    // It comes near the upper side, and not the lower one.
+    let start = Pose::at([-0.3, -0.3, 3.0]).unwrap();
+    let falls = rigid_ccd::Motion::new(start, [0.0, 0.0, -2.6], [0.0; 3]).unwrap();
+    let cube = (&*placed.body, rigid_ccd::Motion::STILL);
+    assert!(!Solver::new().is_free((&large, falls), cube, 1.0).unwrap());
+}

@@ -1,0 +1,202 @@
+//! Tests the questions about paths of several configurations against sampled configurations.
+
+use super::*;
+use rigid_ccd::answer::Limit;
+use std::time::Duration;
+
+/// Returns a path of a few configurations, each near the one before.
+fn random_path(random: &mut Pcg64, robot: &Robot) -> Vec<Vec<f64>> {
+    let mut path = vec![random_configuration(random, robot)];
+    for _ in 0..random.random_range(0..9) {
+        let next = random_configuration(random, robot);
+        let step = [0.01, 0.2, 0.7][random.random_range(0..3)];
+        path.push(between(path.last().unwrap(), &next, step));
+    }
+    path
+}
+
+/// Returns the configuration at a point of a path.
+fn configuration_at(path: &[Vec<f64>], at: PathPoint) -> Vec<f64> {
+    match path.get(at.segment + 1) {
+        Some(next) => between(&path[at.segment], next, at.share),
+        None => path[at.segment].clone(),
+    }
+}
+
+/// Returns points of a path, some in each segment.
+fn sampled_points(path: &[Vec<f64>]) -> Vec<PathPoint> {
+    let segments = 0..(path.len() - 1).max(1);
+    let shares = |segment| (0..=8).map(move |k| (segment, f64::from(k) / 8.0));
+    let points = segments.flat_map(shares);
+    points
+        .map(|(segment, share)| PathPoint { segment, share })
+        .collect()
+}
+
+/// Tests that no sampled configuration before a first contact is within the margin, and that the pair which is named is
+/// within margin + tolerance there.
+#[test]
+fn nothing_touches_before_a_first_contact() {
+    let mut random = Pcg64::seed_from_u64(11);
+    let (mut free, mut contacts, mut late_segments) = (0, 0, 0);
+    for _ in 0..250 {
+        let cell = random_cell(&mut random);
+        let margin = [0.0, 0.03][random.random_range(0..2)];
+        let settings = Settings {
+            margin,
+            tolerance: 1e-4,
+            ..Settings::DEFAULT
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        let path = random_path(&mut random, cell.robot());
+        let outcome = solver.first_contact(&path).unwrap();
+        let any = solver.any_contact(&path).unwrap();
+        let end = match outcome {
+            PathOutcome::Free => {
+                free += 1;
+                assert_eq!(any, None);
+                None
+            }
+            PathOutcome::Contact(contact) => {
+                contacts += 1;
+                late_segments += usize::from(contact.at.segment > 0);
+                let there = least_distance(&cell, &configuration_at(&path, contact.at));
+                assert!(there <= margin + 1e-4 + 1e-9, "{there} in {contact:?}");
+                let [a, b] = contact.witnesses;
+                let is_near = a.distance(b) <= margin + 1e-4 + 1e-9;
+                assert!(is_near || there == 0.0, "{contact:?}");
+                Some(contact.at)
+            }
+            PathOutcome::Unresolved { .. } => panic!("{outcome:?}"),
+        };
+        for at in sampled_points(&path) {
+            if end.is_none_or(|end| at < end) {
+                let distance = least_distance(&cell, &configuration_at(&path, at));
+                assert!(distance > margin, "{distance} at {at:?} before {end:?}");
+            }
+        }
+    }
+    let enough = free > 40 && contacts > 40 && late_segments > 15;
+    assert!(enough, "{free} {contacts} {late_segments}");
+}
+
+/// Tests that the least distance of sampled configurations is never below the bracket of the closest approach, that the
+/// bracket is as narrow as the tolerance, and that the pair which is named is as near as its upper bound.
+#[test]
+fn the_closest_approach_brackets_sampled_distances() {
+    let mut random = Pcg64::seed_from_u64(12);
+    let (mut apart, mut touching, mut narrowest) = (0, 0, f64::INFINITY);
+    for _ in 0..200 {
+        let cell = random_cell(&mut random);
+        let settings = Settings {
+            tolerance: 1e-4,
+            ..Settings::DEFAULT
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        let path = random_path(&mut random, cell.robot());
+        let found = solver.closest_approach(&path).unwrap();
+        assert_eq!(found.limit, None);
+        assert!(found.upper - found.lower <= 1e-4 + 1e-9, "{found:?}");
+        let nearest = found.nearest.expect("links are checked");
+        let [a, b] = nearest.witnesses;
+        let is_near = a.distance(b) <= found.upper + 1e-9;
+        assert!(is_near || found.upper <= 1e-9, "{found:?}");
+        let least = sampled_points(&path)
+            .into_iter()
+            .map(|at| least_distance(&cell, &configuration_at(&path, at)))
+            .fold(f64::INFINITY, lesser);
+        assert!(least >= found.lower, "{least} below {found:?}");
+        narrowest = lesser(narrowest, least - found.lower);
+        if found.upper > 1e-4 {
+            apart += 1;
+        } else {
+            touching += 1;
+        }
+    }
+    let enough = apart > 40 && touching > 20 && narrowest < 1e-3;
+    assert!(enough, "{apart} {touching} {narrowest}");
+}
+
+/// Tests that an edge and the same edge cut into many segments have the same answers.
+#[test]
+fn a_cut_edge_is_the_same_edge() {
+    let mut random = Pcg64::seed_from_u64(13);
+    let (mut free, mut contacts) = (0, 0);
+    for _ in 0..60 {
+        let cell = random_cell(&mut random);
+        let mut solver = cell.solver();
+        let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
+        let cut: Vec<Vec<f64>> = (0..=64)
+            .map(|k| between(&ends[0], &ends[1], f64::from(k) / 64.0))
+            .collect();
+        let whole = solver.closest_approach(&ends).unwrap();
+        let parts = solver.closest_approach(&cut).unwrap();
+        assert!(
+            whole.lower <= parts.upper + 1e-9 && parts.lower <= whole.upper + 1e-9,
+            "{whole:?} {parts:?}"
+        );
+        // Within the tolerance both answers are right.
+        if whole.lower > 0.0 {
+            free += 1;
+            assert!(solver.is_free(&ends).unwrap() && solver.is_free(&cut).unwrap());
+        } else if whole.upper <= 0.0 {
+            contacts += 1;
+            assert!(!solver.is_free(&ends).unwrap() && !solver.is_free(&cut).unwrap());
+        }
+    }
+    assert!(free > 20 && contacts > 10, "{free} {contacts}");
+}
+
+/// Tests that a path without time is unresolved, and free before the point that is named.
+#[test]
+fn a_deadline_leaves_a_free_start() {
+    let mut random = Pcg64::seed_from_u64(14);
+    let mut unresolved = 0;
+    for nanos in [0, 20_000, 50_000, 100_000].repeat(15) {
+        let cell = random_cell(&mut random);
+        let settings = Settings {
+            deadline: Some(Duration::from_nanos(nanos)),
+            ..Settings::DEFAULT
+        };
+        let path = random_path(&mut random, cell.robot());
+        let mut solver = cell.solver().with_settings(settings);
+        if let PathOutcome::Unresolved { free_until, limit } = solver.first_contact(&path).unwrap()
+        {
+            unresolved += 1;
+            assert_eq!(limit, Limit::Deadline);
+            for at in sampled_points(&path) {
+                let distance = || least_distance(&cell, &configuration_at(&path, at));
+                assert!(
+                    at >= free_until || distance() > 0.0,
+                    "{at:?} {free_until:?}"
+                );
+            }
+            if nanos == 0 {
+                assert_eq!(solver.closest_approach(&path).unwrap().lower, 0.0);
+                assert!(solver.is_free(&path).is_err());
+            }
+        }
+    }
+    assert!(unresolved >= 15, "{unresolved}");
+}
+
+/// Tests a configuration alone, and that a path without any is refused.
+#[test]
+fn a_configuration_is_a_path() {
+    let mut random = Pcg64::seed_from_u64(15);
+    for _ in 0..40 {
+        let cell = random_cell(&mut random);
+        let configuration = random_configuration(&mut random, cell.robot());
+        let mut solver = cell.solver();
+        let found = solver.closest_approach(&[&configuration]).unwrap();
+        let least = least_distance(&cell, &configuration);
+        assert!(
+            found.lower <= least + 1e-9 && found.upper >= least - 1e-9,
+            "{found:?} {least}"
+        );
+        assert!(matches!(
+            solver.is_free::<Vec<f64>>(&[]),
+            Err(PathError::Empty)
+        ));
+    }
+}
