@@ -10,7 +10,7 @@ use answer::AnswerArgs;
 use chart::ChartArgs;
 use clap::{Parser, Subcommand};
 use judge::JudgeArgs;
-use rigid_ccd::command::{OutputError, exit_code};
+use rigid_ccd::command::{OutputError, print_error_and_get_exit_code};
 use stability::StabilityArgs;
 use std::env;
 use std::ffi::OsString;
@@ -55,7 +55,7 @@ pub fn main() -> ExitCode {
     if words.len() < 2 {
         words.push("chart".into());
     }
-    exit_code(match Cli::parse_from(words).command {
+    print_error_and_get_exit_code(match Cli::parse_from(words).command {
         Command::Chart(args) => chart::run(&args),
         Command::Truth(args) => truth::run(&args),
         Command::Stability(args) => stability::run(&args),
@@ -67,7 +67,7 @@ pub fn main() -> ExitCode {
 /// Prints a summary of the results to standard output.
 fn print_summary(text: &impl Display) -> Result<(), OutputError> {
     writeln!(io::stdout(), "{text}").map_err(|source| OutputError {
-        place: "the summary".to_owned(),
+        file_or_stream: "the summary".to_owned(),
         source,
     })
 }

@@ -114,7 +114,7 @@ impl Scene {
     }
 
     /// Returns the number of pairs of pieces of the two bodies, all of which the naive schedule processes.
-    pub fn pairs(&self) -> u64 {
+    pub fn piece_pair_count(&self) -> u64 {
         self.a.body.pieces().len() as u64 * self.b.body.pieces().len() as u64
     }
 }
@@ -137,7 +137,7 @@ impl ModelCache {
             return Ok(body.clone());
         }
         let of_model = || format!("model {}", model.name());
-        let mesh = model.load(self.directory.as_deref());
+        let mesh = model.load_or_generate(self.directory.as_deref());
         let mesh = mesh.with_context(of_model)?;
         let prepared = body_from_mesh(&mesh, Detail::Auto).with_context(of_model)?;
         let body = SceneBody {

@@ -7,7 +7,7 @@
 //! | judge an answer | [`judge`] |
 //! | ask all methods, each in a process that can be stopped | [`Survey`] |
 //! | know what was asked and answered | [`Findings`] |
-//! | see how far each method follows | [`summary`], [`first_failure_table`], [`solved_range_map`], [`cost_growth_map`] |
+//! | see how far each method follows | [`summary`], [`first_failure_table`], [`solved_range_heat_map`], [`cost_growth_heat_map`] |
 
 mod families;
 mod family;
@@ -21,5 +21,5 @@ pub use families::families;
 pub use family::{ExactCase, Family, FamilyStep};
 pub use findings::Findings;
 pub use judge::judge;
-pub use summary::{cost_growth_map, first_failure_table, solved_range_map, summary};
+pub use summary::{cost_growth_heat_map, first_failure_table, solved_range_heat_map, summary};
 pub use survey::Survey;

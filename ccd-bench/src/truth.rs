@@ -107,7 +107,7 @@ impl<'a> Referee<'a> {
     /// The exact distance, for the motion of [`Referee::first_contact`], lies in the bracket. It is
     /// 0 if the surfaces intersect, within the width of the bracket, and infinite for a body
     /// without triangles.
-    pub fn distance(&self, query: &Motions, time: f64) -> DistanceBounds {
-        gap::distance(Search::new(self, query), time)
+    pub fn distance_bounds(&self, query: &Motions, time: f64) -> DistanceBounds {
+        gap::distance_bounds(Search::new(self, query), time)
     }
 }

@@ -7,7 +7,7 @@ mod unresolved;
 use crate::body::excess::ExcessSum;
 use crate::distance::oracle::Effort;
 use crate::math::order::greater;
-use crate::tuning::EVALUATIONS_PER_VISIT;
+use crate::tuning::EVALUATIONS_WORTH_A_VISIT;
 
 pub use contact::{Contact, Overlap, Separation};
 pub use hit::{Hit, HitKind};
@@ -153,7 +153,7 @@ impl Answer {
         let outcome = self.outcome.for_enclosed_shapes(excess);
         Answer {
             outcome,
-            tolerance: greater(self.tolerance, outcome.width()),
+            tolerance: greater(self.tolerance, outcome.least_distance_bracket_width()),
             ..self
         }
     }
@@ -288,7 +288,7 @@ impl Outcome {
     }
 
     /// Returns the difference between the bounds of the least distance; 0 if the outcome is no least distance.
-    pub(crate) fn width(&self) -> f64 {
+    pub(crate) fn least_distance_bracket_width(&self) -> f64 {
         match *self {
             Outcome::LeastDistance { lower, contact, .. } => contact.separation.upper - lower,
             _ => 0.0,
@@ -341,7 +341,7 @@ impl Outcome {
         match self.map_contacts(|contact, _| contact.widened_by_excess(excess)) {
             Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
                 overlap,
-                upper: excess.upper_bound_of_overlap(),
+                upper: excess.shape_distance_bound_at_overlap(),
             },
             outcome => outcome,
         }
@@ -350,10 +350,10 @@ impl Outcome {
 
 impl Stats {
     /// Returns the work that the [budget](crate::Settings::budget) limits: iterations, plus one for every
-    /// [`EVALUATIONS_PER_VISIT`] evaluations of points.
+    /// [`EVALUATIONS_WORTH_A_VISIT`] evaluations of points.
     #[inline]
     pub fn work(&self) -> u64 {
-        self.iterations + self.point_evaluations / EVALUATIONS_PER_VISIT
+        self.iterations + self.point_evaluations / EVALUATIONS_WORTH_A_VISIT
     }
 
     /// Adds the counters of another query; the peak of the front is the larger one of both.

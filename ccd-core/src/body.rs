@@ -29,7 +29,7 @@ use feature_lookup::{face_at, prepare_facets_by_corner};
 use glam::DVec3;
 use hierarchy::Hierarchy;
 #[cfg(feature = "hull-tree")]
-use hull_tree::convex::support_of;
+use hull_tree::convex::build_support_map;
 #[cfg(feature = "hull-tree")]
 use hull_tree::{HullTree, HullTreeError};
 use piece::{ConvexCombination, Piece};
@@ -39,7 +39,7 @@ use std::any::Any;
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
 use threads::{join, parallel_for_each};
-use tree::point_query::polytopes_at;
+use tree::point_query::polytopes_with_box_at;
 use tree::{Tree, TreeLayout};
 
 /// A rigid body that is ready for queries: convex pieces in the body's own frame, and a tree over them. It is
@@ -69,7 +69,7 @@ pub struct Body {
 /// The triangulated surface of a convex body, which replaces the body in queries against a body of many triangles.
 #[derive(Clone, Debug)]
 struct Surface {
-    triangles: Body,
+    triangulated_body: Body,
     /// True if the body fills the box at the root of its tree nearly completely.
     fills_root_box: bool,
 }
@@ -116,7 +116,7 @@ impl Body {
         if !pieces.are_all_triangles() {
             // The searches are prepared now, so that no query waits for them.
             for piece in pieces.iter() {
-                piece.with_support_map(support_of);
+                piece.with_support_map(build_support_map);
                 prepare_facets_by_corner(&piece);
             }
         }
@@ -153,7 +153,7 @@ impl Body {
         self.excess = greater(self.excess, surface.excess);
         self.surface = Some(Box::new(Surface {
             fills_root_box: volume >= MIN_BOX_FILL * 8.0 * x * y * z,
-            triangles: surface,
+            triangulated_body: surface,
         }));
         Ok(self)
     }
@@ -178,7 +178,9 @@ impl Body {
     /// points.
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
-        self.pieces.get(index as usize).with_support_map(support_of)
+        self.pieces
+            .get(index as usize)
+            .with_support_map(build_support_map)
     }
 
     /// Computes in advance, on all cores, the values that [`Piece::cached_value`] would compute when first requested.
@@ -200,7 +202,7 @@ impl Body {
     pub fn precompute<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {
         let mut pieces: Vec<Piece<'_>> = self.pieces.iter().collect();
         if let Some(surface) = &self.surface {
-            pieces.extend(surface.triangles.pieces.iter());
+            pieces.extend(surface.triangulated_body.pieces.iter());
         }
         #[cfg(feature = "hull-tree")]
         if let Some(tree) = &self.hull_tree {
@@ -208,7 +210,9 @@ impl Body {
         }
         parallel_for_each(&mut pieces, &(), |(), _, piece| {
             // Pieces in queries have this search, too.
-            let _ = piece.with_support_map(support_of).cached_value(&make);
+            let _ = piece
+                .with_support_map(build_support_map)
+                .cached_value(&make);
         });
     }
 
@@ -235,7 +239,9 @@ impl Body {
         let many = other.pieces.are_all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
         match &self.surface {
-            Some(surface) if many && !(larger && surface.fills_root_box) => &surface.triangles,
+            Some(surface) if many && !(larger && surface.fills_root_box) => {
+                &surface.triangulated_body
+            }
             _ => self,
         }
     }
@@ -258,7 +264,7 @@ impl Body {
         #[cfg(not(feature = "hull-tree"))]
         let hulls = 0;
         let surface = self.surface.as_ref();
-        let surface = surface.map_or(0, |surface| surface.triangles.memory_usage());
+        let surface = surface.map_or(0, |surface| surface.triangulated_body.memory_usage());
         self.pieces.memory_usage() + self.tree.memory_usage() + hulls + surface
     }
 
@@ -273,8 +279,8 @@ impl Body {
         };
         let at = point.position(self.pieces.get(piece as usize).points);
         at.and_then(|at| {
-            let mut faces =
-                polytopes_at(&self.tree, at).map(|k| face_at(&self.pieces.get(k as usize), at));
+            let mut faces = polytopes_with_box_at(&self.tree, at)
+                .map(|k| face_at(&self.pieces.get(k as usize), at));
             faces.find_map(|face| face)
         })
         .map_or(feature, Feature::Face)

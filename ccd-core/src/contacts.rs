@@ -58,7 +58,7 @@ impl Problem<'_> {
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_face_pairs(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
         for skin in &mut skins {
-            skin.find_coplanar_edges(self.rounding);
+            skin.find_hidden_edges_and_corners(self.rounding);
         }
         let [a, b] = &skins;
         let mut manifold = ContactManifold::new(self, [a, b]);

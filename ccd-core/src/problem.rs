@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
-use crate::rounding::{self, NODE_CLOCK_GAP};
+use crate::rounding::{self, NODE_GAP_TOLERANCE_SHARE};
 use crate::settings::{QuerySettings, StartPolicy};
 use crate::shortcuts::{Shortcut, Shortcuts};
 use crate::touching_plane::TouchingPlane;
@@ -73,7 +73,7 @@ impl WhichBody {
         }
     }
 
-    pub(crate) fn of<'p, 'a>(self, problem: &'p Problem<'a>) -> &'p BodyWithPath<'a> {
+    pub(crate) fn body_in_problem<'p, 'a>(self, problem: &'p Problem<'a>) -> &'p BodyWithPath<'a> {
         match self {
             WhichBody::A => &problem.a,
             WhichBody::B => &problem.b,
@@ -123,11 +123,11 @@ impl<'a> Problem<'a> {
             side.check()?;
         }
         let rounding = rounding::distance_rounding(
-            [a.max_distance_bound(), b.max_distance_bound()],
+            [a.span_with_centre(), b.span_with_centre()],
             [a.path.rate, b.path.rate],
             distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
-                + a.path.speed()
-                + b.path.speed()
+                + a.path.speed_bound()
+                + b.path.speed_bound()
                 + terms.margin,
         );
         Ok(Problem {
@@ -188,8 +188,8 @@ impl<'a> Problem<'a> {
 
     /// Returns the gap that the clocks of pairs of nodes keep if rounding allows. It is the same for all sizes of
     /// nodes, so that clocks that run out at a common contact run out together.
-    pub(crate) fn node_gap(&self) -> f64 {
-        self.margin + NODE_CLOCK_GAP * self.tolerance
+    pub(crate) fn kept_node_gap(&self) -> f64 {
+        self.margin + NODE_GAP_TOLERANCE_SHARE * self.tolerance
     }
 
     /// Converts a time of the motions to a clock, up to rounding.
@@ -259,12 +259,14 @@ impl<'a> Problem<'a> {
     /// than that by half of the tolerance, and pairs that keep the margin are within the tolerance of it. The rest in
     /// between is room for proofs.
     pub(crate) fn for_distances_below(&self, upper: f64) -> Self {
-        let half = self.with_margin(upper, 0.5 * self.tolerance).tolerance;
-        self.with_margin(greater(0.0, upper - 2.0 * half), half)
+        let half = self
+            .with_margin_and_tolerance(upper, 0.5 * self.tolerance)
+            .tolerance;
+        self.with_margin_and_tolerance(greater(0.0, upper - 2.0 * half), half)
     }
 
     /// Returns the problem with another margin and tolerance; the tolerance is raised to one that can be certified.
-    pub(crate) fn with_margin(&self, margin: f64, tolerance: f64) -> Self {
+    pub(crate) fn with_margin_and_tolerance(&self, margin: f64, tolerance: f64) -> Self {
         // Distances may be off by more if they are measured beyond a margin.
         let rounding = self.rounding + rounding::margin_rounding(margin);
         Problem {
@@ -287,7 +289,7 @@ impl<'a> Problem<'a> {
         Problem {
             a: of(&self.a),
             b: of(&self.b),
-            start_time: self.time(from),
+            start_time: self.time_of_clock(from),
             // The duration is rounded down, so that no time is late.
             duration: self.duration * (to - from) * (1.0 - rounding::RATE_ERROR_F64),
             margin: (self.margin + raised).next_up(),
@@ -307,7 +309,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Converts a clock to a time of the motions, rounded so that it is never late.
-    pub(crate) fn time(&self, s: f64) -> f64 {
+    pub(crate) fn time_of_clock(&self, s: f64) -> f64 {
         if s >= 1.0 {
             self.start_time + self.duration
         } else {
@@ -336,12 +338,12 @@ impl BodyWithPath<'_> {
     }
 
     /// Returns the span of the body plus twice the distance of its centre of rotation from its origin.
-    pub(crate) fn max_distance_bound(&self) -> f64 {
+    pub(crate) fn span_with_centre(&self) -> f64 {
         self.body.tree().max_distance_from_origin() + 2.0 * length(self.path.centre)
     }
 
     pub(crate) fn check(&self) -> Result<(), InputError> {
-        let travel = self.path.speed() + length(self.path.centre_at(0.0));
+        let travel = self.path.speed_bound() + length(self.path.centre_at(0.0));
         check(
             "travel",
             travel,

@@ -213,7 +213,7 @@ pub const APPROACH_DECREASE: f64 = 4.0;
 
 /// The height along a direction up to which the corners around a point count as level with the point, in units of the
 /// distance's rounding. One unit is for the point, and one for the corners.
-pub const LEVEL_HEIGHT: f64 = 2.0;
+pub const LEVEL_HEIGHT_TOLERANCE: f64 = 2.0;
 
 /// The distance up to which a face counts as adjacent to a point, in units of the distance's rounding. Such faces are
 /// those across an edge that contains the point, and faces that bridge cracks.
@@ -228,7 +228,7 @@ pub fn is_direction_uncertain(distance: f64, rounding: f64) -> bool {
 
 /// The least length of a unit vector's component perpendicular to other vectors, for the direction of the component to
 /// be used. Rounding turns the component by the inverse of the length, in units of [`UNIT_ROUNDOFF_F64`].
-pub const LEAST_COMPONENT_LENGTH: f64 = 1e-6;
+pub const LEAST_PERPENDICULAR_LENGTH: f64 = 1e-6;
 
 /// The error of the determinant of three vectors, relative to the product of their 1-norms, if at least two of the
 /// vectors are differences of points. It also bounds the error of a scalar product of two vectors, relative to the
@@ -250,7 +250,7 @@ pub const RAY_BOX_WIDENING_F64: f64 = 1e-5;
 /// rounding of nodes that are not too large, so that all of them stop at the same gap. With a slack that grows with the
 /// size of the nodes instead, two flat faces that meet would have all of their larger nodes split before a pair of
 /// pieces is seen.
-pub const NODE_CLOCK_GAP: f64 = 7.0 / 8.0;
+pub const NODE_GAP_TOLERANCE_SHARE: f64 = 7.0 / 8.0;
 
 /// The accepted range of weights of a convex combination before they are divided by their sum. No product of a weight
 /// with a coordinate, and no sum of four weights, overflows or underflows.
@@ -262,7 +262,7 @@ pub const CERTAIN_SIDE_DISTANCE: f64 = 4.0;
 
 /// The distance beside an edge at which points of a flat piece are tested, in units of the length of the edge's part on
 /// the piece. It is far above rounding, and below the distance to other features.
-pub const EDGE_PROBE_DISTANCE: f64 = 1e-3;
+pub const EDGE_PROBE_DISTANCE_SHARE: f64 = 1e-3;
 
 /// The error of a height `n·x` computed in f64, relative to the product of `|n|₁` and the largest coordinate of `x`.
 /// Three products and two sums take at most 3u; 4u are taken.

@@ -101,7 +101,7 @@ impl Settings {
             start: self.start,
             budget: self.budget,
             deadline: self.deadline,
-            level: self.vector_instructions.level(),
+            level: self.vector_instructions.simd_level(),
             shortcuts: self.shortcuts,
             stop: self.stop.as_deref(),
         }

@@ -3,7 +3,7 @@
 
 /// The number of point evaluations that cost as much as an iteration over a pair of nodes. An evaluation projects a
 /// point of a piece onto an axis, or computes its track and rate.
-pub const EVALUATIONS_PER_VISIT: u64 = 128;
+pub const EVALUATIONS_WORTH_A_VISIT: u64 = 128;
 
 /// The number of steps that a call of an oracle is assumed to take if the oracle does not count its steps. Each step
 /// evaluates every point of two pieces. Searches take 3 to 10 steps.
@@ -52,7 +52,7 @@ pub const MAX_FOLLOW_MEASUREMENTS: usize = 16;
 pub const DEVIATION_SHARE: f64 = 0.125;
 
 /// The least tolerance of a search with approximate motions, in units of their deviations from the trajectories.
-pub const TOLERANCE_PER_DEVIATION: f64 = 1.0 / 16.0;
+pub const MIN_TOLERANCE_PER_DEVIATION: f64 = 1.0 / 16.0;
 
 /// The ratio of a stretch's deviation to that of the adjacent proven stretch above which the stretch is cut before it
 /// is searched. The bodies are measured at the common end, which costs less than a failure. Twice the length has at
@@ -102,7 +102,7 @@ pub const REVISIT_DISTANCE: f32 = 0.5;
 
 /// The share of a node's radius that is added to its thickness when the thicker of two nodes is chosen for a split. It
 /// lets flat nodes that are seen edge-on be split as well.
-pub const THICKNESS_PER_RADIUS: f32 = 0.1;
+pub const ADDED_THICKNESS_PER_RADIUS: f32 = 0.1;
 
 /// The longest time for which a bound along a plane that turns with a body is used, in units of the duration. The bound
 /// has to cover the motion of the bodies in that time.
@@ -123,12 +123,12 @@ pub const MAX_RAYS: u32 = 32;
 /// The excess of a gap of nodes over the required gap up to which the gap counts as closed, in units of the tolerance.
 /// The rest that rounding leaves of a gap at the end of a clock is not worth another clock, and a pair that inherits
 /// its parent's clock is examined before all others.
-pub const CLOSED_GAP: f64 = 1.0 / 16.0;
+pub const CLOSED_GAP_THRESHOLD: f64 = 1.0 / 16.0;
 
 /// The largest number of corners of the polytope that is grown inside the Minkowski difference of two pieces to decide
 /// whether they intersect. Each corner improves the least depth found. A few tens were enough for pieces of a thousand
 /// corners that begin to overlap.
-pub const MAX_OVERLAP_POLYTOPE_CORNERS: usize = 256;
+pub const MAX_EXPANDING_POLYTOPE_CORNERS: usize = 256;
 
 /// The depths below a flat piece at which a point inside its solid is sought, in this order, in units of the piece's
 /// size. The first is far above the distance at which a point counts as off the surface; the others reach inside
@@ -145,7 +145,7 @@ pub const JOIN_DISTANCE_RATIO: f64 = 2.0;
 /// splits hulls that have a distance, a larger one searches for common points in vain. Measured on rings and bunnies
 /// that fall: a half takes two thirds of the time on rings, where hulls overlap, and costs nothing on bunnies; a
 /// quarter measures a seventh more pairs of bunnies.
-pub const SPLIT_OVERLAP: f64 = 0.5;
+pub const MIN_OVERLAP_TO_SPLIT: f64 = 0.5;
 
 /// The largest number of points of a piece that are scanned for an extremal point; for more points, edges are climbed.
 /// Measured on hulls of random points of a sphere, in random directions, by `cargo bench -p ccd-bench --bench support`:
@@ -193,7 +193,7 @@ pub const MIN_SCREW_ADVANCE: f64 = 1.0 / 65536.0;
 
 /// The least distance of a node from the axis of a screw for which a profile is computed, in units of the centre's
 /// distance from the axis. Nodes that extend nearer have profiles too wide to prove anything.
-pub const MIN_PROFILE_RADIUS: f64 = 0.25;
+pub const MIN_PROFILE_DISTANCE_SHARE: f64 = 0.25;
 
 /// The number of splits in a search after which nodes are compared along a screw. Profiles of nodes are worth their
 /// cost to long queries only.

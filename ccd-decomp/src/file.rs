@@ -24,7 +24,7 @@ pub(crate) fn has_stored_body_extension(path: &Path) -> bool {
 
 /// The fields of a model in the order in which they are stored; remarks follow if there are any. A hull tree is stored
 /// without its pieces. Any change to these types or their order needs a new version of the format.
-type Stored = (
+type StoredFields = (
     Pieces,
     Hierarchy,
     Volume,
@@ -99,7 +99,7 @@ impl Model {
 
     fn read_stored(reader: impl Read) -> Result<Self, StoreFault> {
         let payload = frame::read(reader)?;
-        let (stored, rest): (Stored, &[u8]) = postcard::take_from_bytes(&payload)
+        let (stored, rest): (StoredFields, &[u8]) = postcard::take_from_bytes(&payload)
             .map_err(|error| StoreFault::invalid_content(&error))?;
         let (pieces, hierarchy, volume, nodes, surface, mut report) = stored;
         if !rest.is_empty() {

@@ -26,7 +26,7 @@ impl EdgeUse {
     }
 
     /// Returns 1 if the half-edge runs from the smaller end vertex to the larger, and −1 otherwise.
-    pub(crate) fn direction(self) -> i32 {
+    pub(crate) fn direction_sign(self) -> i32 {
         if self.is_backward { -1 } else { 1 }
     }
 }

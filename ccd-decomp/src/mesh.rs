@@ -23,7 +23,7 @@ use error::{MeshError, MeshFault};
 use format::Format;
 use mesh_file::MeshFile;
 use polygons::Polygons;
-use repair::{Repairs, collapsed_faces, duplicate_faces};
+use repair::{Repairs, mark_covered_collapsed_faces, mark_duplicate_faces};
 use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
@@ -49,9 +49,9 @@ pub struct TriangleMesh {
     faces: Vec<[u32; 3]>,
     face_ids: Vec<u32>,
     /// For each vertex, the index of the first vertex with exactly the same coordinates.
-    positions: Vec<u32>,
+    welded_vertices: Vec<u32>,
     /// The number of faces in the file, including those that were dropped.
-    face_count: u32,
+    file_face_count: u32,
     repairs: Repairs,
 }
 
@@ -122,8 +122,8 @@ impl TriangleMesh {
         mut repairs: Repairs,
     ) -> Self {
         let positions = weld_vertices(&vertices);
-        let drop_duplicate = duplicate_faces(&all_faces, &positions);
-        let drop_collapsed = collapsed_faces(&all_faces, &positions);
+        let drop_duplicate = mark_duplicate_faces(&all_faces, &positions);
+        let drop_collapsed = mark_covered_collapsed_faces(&all_faces, &positions);
         let (mut faces, mut face_ids) = (Vec::new(), Vec::new());
         faces.reserve_exact(all_faces.len());
         face_ids.reserve_exact(all_faces.len());
@@ -145,8 +145,8 @@ impl TriangleMesh {
             vertices,
             faces,
             face_ids,
-            positions,
-            face_count,
+            welded_vertices: positions,
+            file_face_count: face_count,
             repairs,
         }
     }
@@ -188,7 +188,7 @@ impl TriangleMesh {
     /// Returns a triangle's corners after welding: each corner is the index of the first vertex at exactly the same
     /// point.
     pub(crate) fn welded_face(&self, face: u32) -> [u32; 3] {
-        self.faces[face as usize].map(|v| self.positions[v as usize])
+        self.faces[face as usize].map(|v| self.welded_vertices[v as usize])
     }
 
     /// Returns the [welded](TriangleMesh::welded_face) corners of all triangles.

@@ -134,10 +134,10 @@ impl PiecesChoice {
         };
         Ok(PiecesChoice {
             volume,
-            parts,
+            pieces: parts,
             reason: why,
             topology,
-            turned,
+            reoriented_mesh: turned,
         })
     }
 }

@@ -18,13 +18,13 @@ use crate::work::Work;
 use box_tree::BoxTree;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use fans::{Fan, split};
+use fans::{Fan, split_into_fans};
 use region::Region;
 
 /// Trees of oriented boxes over triangles, to search by region. Boxes are oriented like the triangles, so that those
 /// of adjacent slivers hardly overlap. Large fans around one vertex, where all boxes overlap, have separate trees.
 pub(crate) struct TriangleBoxes {
-    single_face_tree: BoxTree,
+    tree_outside_fans: BoxTree,
     fans: Vec<Fan>,
     /// The axis-aligned boxes of the fans.
     bounds: BoundsTree,
@@ -33,9 +33,9 @@ pub(crate) struct TriangleBoxes {
 impl TriangleBoxes {
     /// Builds the trees in O(n log n).
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
-        let (single, fans) = split(points, faces);
+        let (single, fans) = split_into_fans(points, faces);
         TriangleBoxes {
-            single_face_tree: BoxTree::from_faces(points, faces, single),
+            tree_outside_fans: BoxTree::from_faces(points, faces, single),
             bounds: BoundsTree::new(fans.iter().map(Fan::bounds).collect()),
             fans,
         }
@@ -46,28 +46,28 @@ impl TriangleBoxes {
     ///
     /// # Guarantee
     /// An omitted triangle shares no point with the region, except perhaps a common corner.
-    pub(crate) fn all_meeting_faces_satisfy(
+    pub(crate) fn all_near_faces_satisfy(
         &self,
         region: &Region,
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         if !self
-            .single_face_tree
-            .all_meeting_faces_satisfy(region, work, &mut holds)
+            .tree_outside_fans
+            .all_near_faces_satisfy(region, work, &mut holds)
         {
             return false;
         }
         self.bounds
             .all_meeting_boxes_satisfy(&region.bounds, |fan| {
                 let fan = &self.fans[fan as usize];
-                work.spend(1) && fan.all_meeting_faces_satisfy(&region.shape, work, &mut holds)
+                work.spend(1) && fan.all_near_faces_satisfy(&region.shape, work, &mut holds)
             })
     }
 
     /// Returns an upper bound, up to rounding, of the largest distance from `point` to any point of the triangles.
-    pub(crate) fn farthest_distance(&self, point: DVec3) -> f64 {
-        let single = self.single_face_tree.bounds();
+    pub(crate) fn farthest_distance_bound(&self, point: DVec3) -> f64 {
+        let single = self.tree_outside_fans.bounds();
         let all = self.fans.iter().map(Fan::bounds).chain(single);
         let far = all.map(|b| (point - b.lo).abs().max((b.hi - point).abs()).length());
         far.fold(0.0, greater)

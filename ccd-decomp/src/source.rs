@@ -70,7 +70,7 @@ pub enum BodySource {
         excess: Option<f64>,
     },
     /// A [stored](crate::Model::save) body, by the path of a file that ends in `.ccd`.
-    Stored(PathBuf),
+    StoredBody(PathBuf),
     /// A mesh file or a part of a mesh file, with adjustments: any text that describes no other kind of body. All parts
     /// of a file are one body.
     Mesh(MeshSource),
@@ -140,10 +140,10 @@ impl BodySource {
                 &SolidOfRevolution::cone(radius, half_height)?,
                 excess,
             )?,
-            BodySource::Stored(ref path) if adjustments.has_mesh_only_adjustment() => {
+            BodySource::StoredBody(ref path) if adjustments.has_mesh_only_adjustment() => {
                 return Err(SourceError::AdjustedStoredBody { file: path.clone() }.into());
             }
-            BodySource::Stored(ref path) => {
+            BodySource::StoredBody(ref path) => {
                 add_file_path_to_error(path, Model::load(path)?.into_prepared_body())?
             }
             BodySource::Mesh(ref source) => {
@@ -162,9 +162,9 @@ impl BodySource {
     }
 
     /// Returns the description of the body in a file: a stored body or a mesh, depending on the extension.
-    pub fn from_file(path: PathBuf) -> Self {
+    pub fn from_path(path: PathBuf) -> Self {
         if has_stored_body_extension(&path) {
-            BodySource::Stored(path)
+            BodySource::StoredBody(path)
         } else {
             BodySource::Mesh(path.into())
         }
@@ -176,7 +176,7 @@ impl BodySource {
     /// [`BodyError::Mesh`] if a glTF cannot be read.
     pub fn file_paths(&self) -> Result<Vec<PathBuf>, BodyError> {
         Ok(match self {
-            BodySource::Stored(path) => vec![path.clone()],
+            BodySource::StoredBody(path) => vec![path.clone()],
             BodySource::Mesh(source) => source_paths(&source.file)?,
             _ => Vec::new(),
         })
@@ -220,7 +220,7 @@ impl FromStr for BodySource {
                 if !has_stored_body_extension(&source.file) || source.part.is_some() {
                     Ok(BodySource::Mesh(source))
                 } else if source.adjustments == Adjustments::NONE {
-                    Ok(BodySource::Stored(source.file))
+                    Ok(BodySource::StoredBody(source.file))
                 } else {
                     Err(SourceError::AdjustedStoredBody { file: source.file })
                 }

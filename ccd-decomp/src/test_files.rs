@@ -104,7 +104,7 @@ mod gltf {
             self.push("accessors", about)
         }
 
-        pub(crate) fn indices(&mut self, numbers: &[u16]) -> usize {
+        pub(crate) fn add_index_accessor(&mut self, numbers: &[u16]) -> usize {
             let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
             let view = self.add_buffer_view(&bytes);
             let about = json!({"bufferView": view, "componentType": 5123, "count": numbers.len(), "type": "SCALAR"});

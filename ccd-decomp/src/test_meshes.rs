@@ -76,7 +76,7 @@ pub(crate) fn merged_meshes(parts: &[&TriangleMesh]) -> TriangleMesh {
 }
 
 /// Scales a mesh, then moves it. A negative scale turns it inside out.
-pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> TriangleMesh {
+pub(crate) fn scaled_and_moved(part: &TriangleMesh, scale: f64, offset: DVec3) -> TriangleMesh {
     let vertices = part.vertices().iter().map(|&p| scale * p + offset);
     mesh(vertices.collect(), part.faces())
 }

@@ -81,12 +81,12 @@ pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;
 
 /// The measured time of queries with one kind of pieces.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PieceCost {
+pub(crate) struct QueryCost {
     /// The median time of a query against a body of many triangles, in µs. The same time is assumed for any number of
     /// pieces.
     pub(crate) typical_time: f64,
     /// The time that a query takes for each piece of a plane that rests flat on another body, in µs.
-    pub(crate) resting_time: f64,
+    pub(crate) time_per_resting_piece: f64,
 }
 
 /// The measured time of queries with triangles as pieces.
@@ -94,9 +94,9 @@ pub(crate) struct PieceCost {
 /// Measured on a perforated plate (coarse and fine), an L-prism, a comb and a gear of 460 to 7,452
 /// triangles against a ring of 10,000: medians of 22, 23, 24, 20, 38 µs. Laid flat on themselves, to a
 /// tolerance of 1e-9, about 1 to 13 µs for every triangle of the plane.
-pub(crate) const TRIANGLE_QUERY_COST: PieceCost = PieceCost {
+pub(crate) const TRIANGLE_QUERY_COST: QueryCost = QueryCost {
     typical_time: 23.0,
-    resting_time: 5.0,
+    time_per_resting_piece: 5.0,
 };
 
 /// The measured time of queries with patches as pieces.
@@ -104,9 +104,9 @@ pub(crate) const TRIANGLE_QUERY_COST: PieceCost = PieceCost {
 /// A query takes 2.4 times as long with patches, the median of random pairs of parts of real robots
 /// (`ccd-bench/scripts/pieces.py`; a third to 600 times); and about 4 to 10 µs for every patch of a plane
 /// laid flat.
-pub(crate) const PATCH_QUERY_COST: PieceCost = PieceCost {
+pub(crate) const PATCH_QUERY_COST: QueryCost = QueryCost {
     typical_time: 55.0,
-    resting_time: 6.0,
+    time_per_resting_piece: 6.0,
 };
 
 /// The assumed fraction of queries in which bodies rest flat on each other, so that all pieces of a plane are

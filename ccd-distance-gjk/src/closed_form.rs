@@ -55,7 +55,7 @@ impl ClosedForm {
     /// Creates the oracle for a choice of vector instructions. All choices give the same claims, to the last bit.
     pub fn new(instructions: Instructions) -> Self {
         ClosedForm {
-            level: instructions.level(),
+            level: instructions.simd_level(),
         }
     }
 }

@@ -5,17 +5,17 @@ use ccd_core::glam::DVec3;
 
 /// Four vectors in f64. Each field holds one coordinate of all four vectors.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lanes3<L: Simd> {
+pub(crate) struct FourVectors<L: Simd> {
     pub(crate) x: f64x4<L>,
     pub(crate) y: f64x4<L>,
     pub(crate) z: f64x4<L>,
 }
 
-impl<L: Simd> Lanes3<L> {
+impl<L: Simd> FourVectors<L> {
     /// Creates four copies of a vector.
     #[inline(always)]
     pub(crate) fn splat(level: L, v: DVec3) -> Self {
-        Lanes3 {
+        FourVectors {
             x: splat(level, v.x),
             y: splat(level, v.y),
             z: splat(level, v.z),
@@ -25,7 +25,7 @@ impl<L: Simd> Lanes3<L> {
     /// Creates the lanes from four vectors.
     #[inline(always)]
     pub(crate) fn new(level: L, [a, b, c, d]: [DVec3; 4]) -> Self {
-        Lanes3 {
+        FourVectors {
             x: [a.x, b.x, c.x, d.x].simd_into(level),
             y: [a.y, b.y, c.y, d.y].simd_into(level),
             z: [a.z, b.z, c.z, d.z].simd_into(level),
@@ -33,7 +33,7 @@ impl<L: Simd> Lanes3<L> {
     }
 
     #[inline(always)]
-    pub(crate) fn level(&self) -> L {
+    pub(crate) fn simd_level(&self) -> L {
         self.x.token()
     }
 
@@ -45,7 +45,7 @@ impl<L: Simd> Lanes3<L> {
     /// Returns the differences `self − other`.
     #[inline(always)]
     pub(crate) fn subtract(self, other: Self) -> Self {
-        Lanes3 {
+        FourVectors {
             x: self.x - other.x,
             y: self.y - other.y,
             z: self.z - other.z,
@@ -55,7 +55,7 @@ impl<L: Simd> Lanes3<L> {
     /// Returns the sums `self + t · direction`.
     #[inline(always)]
     pub(crate) fn add_scaled(self, t: f64x4<L>, direction: Self) -> Self {
-        Lanes3 {
+        FourVectors {
             x: self.x + t * direction.x,
             y: self.y + t * direction.y,
             z: self.z + t * direction.z,
@@ -71,7 +71,7 @@ impl<L: Simd> Lanes3<L> {
     /// Returns the cross product of the two vectors in each lane.
     #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
-        Lanes3 {
+        FourVectors {
             x: self.y * other.z - self.z * other.y,
             y: self.z * other.x - self.x * other.z,
             z: self.x * other.y - self.y * other.x,
@@ -81,7 +81,7 @@ impl<L: Simd> Lanes3<L> {
     /// Returns the component of each vector that is perpendicular to `direction`; the vector itself if `direction` is
     /// zero.
     #[inline(always)]
-    pub(crate) fn perpendicular_to(self, direction: Self) -> Self {
+    pub(crate) fn perpendicular_part(self, direction: Self) -> Self {
         let t = self.dot(direction) * reciprocal(direction.dot(direction));
         self.add_scaled(-t, direction)
     }

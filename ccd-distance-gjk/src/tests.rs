@@ -11,14 +11,14 @@ use rstest::rstest;
 use scene::{NearestFeatures, Pcg64, Scene, SeedableRng};
 
 /// Returns the number of scenes per law; the environment variable `CCD_CASES` overrides it.
-fn cases() -> u64 {
+fn case_count() -> u64 {
     let given = std::env::var("CCD_CASES").ok();
     given.and_then(|text| text.parse().ok()).unwrap_or(2000)
 }
 
 /// Checks a law for the scenes that `draw` makes from the seeds 0, 1, …
 fn check_scenes(draw: impl Fn(&mut Pcg64) -> Scene, law: impl Fn(&Scene)) {
-    for seed in 0..cases() {
+    for seed in 0..case_count() {
         law(&draw(&mut Pcg64::seed_from_u64(seed)));
     }
 }
@@ -59,7 +59,10 @@ macro_rules! obeys {
 
             #[test]
             fn touching() {
-                check_scenes(scene::touching, laws::check_touching_pieces::<$oracle>);
+                check_scenes(
+                    scene::touching_triangles,
+                    laws::check_touching_pieces::<$oracle>,
+                );
             }
 
             #[test]
@@ -156,7 +159,7 @@ fn check_random_hulls<O: DistanceOracle + Default>(a: usize, b: usize) {
         }
     };
     check_scenes(|rng| scene::random_hulls(rng, a, b), law);
-    let share = f64::from(apart.get()) / cases() as f64;
+    let share = f64::from(apart.get()) / case_count() as f64;
     assert!((0.3..=1.0).contains(&share), "{share} are apart");
     // A point or an edge hardly ever hits.
     assert!(a < 3 || share < 0.97, "{share} are apart");
@@ -219,10 +222,10 @@ fn check_far_from_origin<O: DistanceOracle + Default>() {
 
 fn check_hulls_of_any_scale<O: DistanceOracle + Default>() {
     let draw = |rng: &mut Pcg64| {
-        let scale = scene::magnitude(rng, -45.0, 15.0);
+        let scale = scene::random_magnitude(rng, -45.0, 15.0);
         let mut scene = scene::random_hulls(rng, 3, 3).scaled(scale);
         // One of the pieces may be almost a point, or almost a half-space.
-        let other = scene::magnitude(rng, -12.0, 0.0);
+        let other = scene::random_magnitude(rng, -12.0, 0.0);
         if other < 1e-6 {
             scene.b.iter_mut().for_each(|y| *y *= other);
         }
@@ -234,7 +237,7 @@ fn check_hulls_of_any_scale<O: DistanceOracle + Default>() {
     };
     check_scenes(draw, law);
     let draw = |rng: &mut Pcg64| {
-        let scale = scene::magnitude(rng, -45.0, 15.0);
+        let scale = scene::random_magnitude(rng, -45.0, 15.0);
         scene::intersecting_hulls(rng, 3, 3).scaled(scale)
     };
     check_scenes(draw, |scene| laws::check_common_point::<O>(scene, 1e-12));
@@ -256,7 +259,7 @@ fn check_history_independence<O: DistanceOracle + Default>(count: usize) {
 }
 
 /// Checks that claims name only existing points of the pieces, in three successive calls.
-fn ends<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
+fn check_claimed_points_exist<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
     let (mut oracle, mut cache) = (O::default(), O::Cache::default());
     for _ in 0..3 {
         if let Ok(claim) = oracle.separation(pair, &mut cache) {
@@ -272,15 +275,15 @@ fn check_searches_terminate(a: &[DVec3], b: &[DVec3], b_to_a: Frame) {
     let (a, b) = (Piece::from_points(a), Piece::from_points(b));
     for (a, b) in [(a, b), (b, a), (a, a)] {
         let pair = PiecePair { a, b, b_to_a };
-        ends::<ClosedForm>(&pair);
-        ends::<Gjk>(&pair);
-        ends::<Direct>(&pair);
+        check_claimed_points_exist::<ClosedForm>(&pair);
+        check_claimed_points_exist::<Gjk>(&pair);
+        check_claimed_points_exist::<Direct>(&pair);
     }
 }
 
 #[test]
 fn odd_coordinates_end() {
-    for seed in 0..cases() {
+    for seed in 0..case_count() {
         let mut rng = Pcg64::seed_from_u64(seed);
         for count in [1, 2, 3, 8, 20] {
             let [a, b] = [count, 3].map(|count| scene::extreme_coordinate_points(&mut rng, count));

@@ -3,7 +3,9 @@
 use crate::feature::{Feature, Pair};
 use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::polytope::{Polytope, unit};
-use crate::tolerance::{MAX_AXIS_EDGES, MAX_CERTIFIED_EXCESS, MAX_RELATIVE_CERTIFIED_EXCESS};
+use crate::tolerance::{
+    MAX_AXIS_EDGES, MAX_CERTIFIED_GAP_DEFICIT, MAX_RELATIVE_CERTIFIED_GAP_DEFICIT,
+};
 use crate::witness::{Witness, perpendicular_part};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -17,7 +19,7 @@ pub(crate) struct Axis {
 
 impl Axis {
     /// Creates the axis along a direction of any length, with its support gap; −∞ for a zero direction.
-    pub(crate) fn along(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
+    pub(crate) fn from_direction(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
         let known = direction != DVec3::ZERO;
         Axis {
@@ -34,8 +36,8 @@ impl Axis {
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
-        let slack =
-            MAX_CERTIFIED_EXCESS * placed.scale.size + MAX_RELATIVE_CERTIFIED_EXCESS * distance;
+        let slack = MAX_CERTIFIED_GAP_DEFICIT * placed.scale.size
+            + MAX_RELATIVE_CERTIFIED_GAP_DEFICIT * distance;
         self.direction != DVec3::ZERO && distance - self.gap <= slack
     }
 }
@@ -72,7 +74,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
 /// collinear features, directions within the plane or line.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
     let (distance, offset) = (witness.distance(), witness.offset());
-    let mut best = Axis::along(placed, witness.claim.axis);
+    let mut best = Axis::from_direction(placed, witness.claim.axis);
     if best.certifies(distance, placed) {
         return best;
     }
@@ -82,7 +84,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
             if !(gap_upper_bound(placed, direction) > best.gap) {
                 continue;
             }
-            let axis = Axis::along(placed, direction);
+            let axis = Axis::from_direction(placed, direction);
             if axis.gap > best.gap {
                 best = axis;
             }

@@ -9,14 +9,14 @@ use crate::penetration;
 use crate::placed::PlacedPair;
 use crate::start::extremal_pair;
 use crate::termination::MarchEnd;
-use crate::tolerance::{MAX_CYCLE_PAIRS, MAX_RESTARTS, MAX_TIE_MOVES, MIN_CERTAIN_DISTANCE};
+use crate::tolerance::{MAX_CYCLE_PAIRS, MAX_RESTARTS, MAX_TIE_MOVES, MIN_CERTAIN_DISTANCE_RATIO};
 use crate::touching;
 use crate::witness::Witness;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUpReason};
 
 /// The pair of features from which the next call starts, and a claim.
-type Certified = (Pair, Claim);
+type CertifiedClaim = (Pair, Claim);
 
 /// Certifies the result of a march that ended in a tie, in a cycle, at a common point or at the step limit.
 ///
@@ -32,7 +32,7 @@ pub(crate) fn certify_march_end(
     placed: &PlacedPair<'_>,
     first: MarchEnd,
     counters: &mut Counters,
-) -> Result<Certified, GiveUpReason> {
+) -> Result<CertifiedClaim, GiveUpReason> {
     let (mut end, mut restarts) = (first, 0);
     let mut why = GiveUpReason::Uncertified;
     for _ in 0..MAX_TIE_MOVES {
@@ -59,7 +59,7 @@ pub(crate) fn certify_march_end(
 
 /// The result of checking the end of a march: certified, or how to continue.
 enum CertificationResult {
-    Certified(Certified),
+    Certified(CertifiedClaim),
     /// The end is not certified: a neighbouring pair of features is nearer.
     NearerPair(Pair),
     /// The end is not certified, and no neighbouring pair is nearer. The vector is the best axis found.
@@ -75,7 +75,10 @@ fn certify_end(
         MarchEnd::Nearest(pair, certainty) => certify_stop(placed, pair, certainty),
         MarchEnd::CommonPoint(pair, which, crossing) => {
             counters.penetrations += 1;
-            CertificationResult::Certified((pair, touching::common(placed, which, &crossing)))
+            CertificationResult::Certified((
+                pair,
+                touching::common_point_claim(placed, which, &crossing),
+            ))
         }
         MarchEnd::Unclear(pair) => match search_common_point(placed, pair, counters) {
             Some(answer) => CertificationResult::Certified(answer),
@@ -89,7 +92,7 @@ fn certify_end(
 fn certify_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> CertificationResult {
     let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure
-        || witness.distance() >= MIN_CERTAIN_DISTANCE * placed.scale.size
+        || witness.distance() >= MIN_CERTAIN_DISTANCE_RATIO * placed.scale.size
     {
         return CertificationResult::Certified((pair, witness.claim));
     }
@@ -153,14 +156,14 @@ fn search_common_point(
     placed: &PlacedPair<'_>,
     pair: Pair,
     counters: &mut Counters,
-) -> Option<Certified> {
+) -> Option<CertifiedClaim> {
     let PlacedPair { a, b, .. } = placed;
     let of = |which| move |crossing| (which, crossing);
     let found = penetration::search_crossing(a, b).map(of(WhichPolytope::X));
     let found = found.or_else(|| penetration::search_crossing(b, a).map(of(WhichPolytope::Y)));
     let (which, crossing) = found?;
     counters.penetrations += 1;
-    Some((pair, touching::common(placed, which, &crossing)))
+    Some((pair, touching::common_point_claim(placed, which, &crossing)))
 }
 
 #[cfg(test)]

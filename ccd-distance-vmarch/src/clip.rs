@@ -54,8 +54,8 @@ pub(crate) fn clip_to_prism<Y: PlacedPolytope>(
 /// parameter of `one`.
 #[inline]
 pub(crate) fn parameter_of_overlap_middle(one: &Line, other: &Line) -> f64 {
-    let start = one.nearest(other.start);
-    let end = one.nearest(other.at(other.length));
+    let start = one.nearest_parameter(other.start);
+    let end = one.nearest_parameter(other.point_at(other.length));
     0.5 * (start + end)
 }
 

@@ -24,7 +24,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
 ) -> MarchStep {
     let (one, other) = (x.line(e), y.line(f));
     let (edge_x, edge_y) = (x.shape().edge(e), y.shape().edge(f));
-    let near = nearest(&one, &other);
+    let near = nearest_parameters(&one, &other);
     let ends = [
         end_vertex_at(edge_x, near.parameters[0]),
         end_vertex_at(edge_y, near.parameters[1]),
@@ -35,7 +35,10 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
         [None, Some(w)] => return MarchStep::Continue(Feature::Edge(e), Feature::Vertex(w)),
         [None, None] => {}
     }
-    let points = [one.at(near.parameters[0]), other.at(near.parameters[1])];
+    let points = [
+        one.point_at(near.parameters[0]),
+        other.point_at(near.parameters[1]),
+    ];
     let offset = points[1] - points[0];
     if offset.length() <= scale.rounding() {
         return MarchStep::Stop(Tied);
@@ -43,12 +46,12 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     let facing = NearestVector::new(&near, offset, scale);
     let slope_x = x.inward_components(edge_x, facing.axis);
     if let Some(side) = facing.face_side(x, edge_x, slope_x) {
-        return side.next_pair(Feature::Edge(f), points[1]);
+        return side.next_step(Feature::Edge(f), points[1]);
     }
     let facing = facing.reversed();
     let slope_y = y.inward_components(edge_y, facing.axis);
     if let Some(side) = facing.face_side(y, edge_y, slope_y) {
-        return side.next_pair(Feature::Edge(e), points[0]).swapped();
+        return side.next_step(Feature::Edge(e), points[0]).swapped();
     }
     let clear = edge_x.is_outside_face_planes(slope_x, facing.slack)
         && edge_y.is_outside_face_planes(slope_y, facing.slack);
@@ -57,14 +60,14 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
 
 /// The nearest points of two segments, and the cross product of the segments' directions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NearestPoints {
+pub(crate) struct NearestParameters {
     /// The parameters of the nearest points along both segments.
     pub(crate) parameters: [f64; 2],
     /// The cross product of the segments' unit directions; its length is the sine of the angle between them.
     pub(crate) cross_product: DVec3,
 }
 
-impl NearestPoints {
+impl NearestParameters {
     /// Returns the cross product, oriented along `offset`, if rounding tilts it less than it tilts `offset`; `None`
     /// otherwise. The cross product is tilted by its own rounding over the sine, `offset` by the rounding of the
     /// positions over the distance.
@@ -86,7 +89,7 @@ impl NearestPoints {
 /// If the segments are nearly parallel, the first parameter is off by rounding over the sine. The
 /// second one is computed from it, so the distance of the points is off by rounding only.
 #[inline(always)]
-pub(crate) fn nearest(one: &Line, other: &Line) -> NearestPoints {
+pub(crate) fn nearest_parameters(one: &Line, other: &Line) -> NearestParameters {
     let across = one.along.cross(other.along);
     let between = other.start - one.start;
     let square = across.length_squared();
@@ -95,15 +98,15 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> NearestPoints {
     } else {
         clip::parameter_of_overlap_middle(one, other)
     };
-    let free = (one.at(s) - other.start).dot(other.along);
+    let free = (one.point_at(s) - other.start).dot(other.along);
     let t = clamp(free, other.length);
     // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {
         s
     } else {
-        one.nearest(other.at(t))
+        one.nearest_parameter(other.point_at(t))
     };
-    NearestPoints {
+    NearestParameters {
         parameters: [s, t],
         cross_product: across,
     }
@@ -134,7 +137,7 @@ struct NearestVector {
 
 impl NearestVector {
     #[inline(always)]
-    fn new(near: &NearestPoints, offset: DVec3, scale: RoundingScale) -> Self {
+    fn new(near: &NearestParameters, offset: DVec3, scale: RoundingScale) -> Self {
         let across = near.axis(offset, scale);
         NearestVector {
             offset,
@@ -184,7 +187,7 @@ enum OuterSide {
 impl OuterSide {
     /// Returns the march's next step: the pair of the face of X and the feature of Y, or a local minimum for a point
     /// behind both faces.
-    fn next_pair(&self, feature: Feature, point: DVec3) -> MarchStep {
+    fn next_step(&self, feature: Feature, point: DVec3) -> MarchStep {
         match *self {
             OuterSide::InFront(face) => MarchStep::Continue(Feature::Face(face), feature),
             OuterSide::Behind(face) => MarchStep::LocalMinimum(

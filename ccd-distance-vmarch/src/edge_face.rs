@@ -42,7 +42,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
             WhichPolytope::X,
             LocalMinimum {
                 feature: Feature::Edge(e),
-                point: line.at(high.parameter),
+                point: line.point_at(high.parameter),
                 face: f,
             },
         );
@@ -67,8 +67,8 @@ fn step_to_nearest_side<Y: PlacedPolytope>(e: u32, line: &Line, y: &Y, f: u32) -
     let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));
     for side in sides {
         let other = y.line(side.edge);
-        let [s, t] = edge_edge::nearest(line, &other).parameters;
-        let square = line.at(s).distance_squared(other.at(t));
+        let [s, t] = edge_edge::nearest_parameters(line, &other).parameters;
+        let square = line.point_at(s).distance_squared(other.point_at(t));
         if square < least {
             (least, nearest) = (square, side.edge);
         }

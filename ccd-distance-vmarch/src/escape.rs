@@ -23,7 +23,7 @@ pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
     y: &Y,
     scale: RoundingScale,
 ) -> Escape {
-    if let Some((face, height)) = farthest(minimum.point, y)
+    if let Some((face, height)) = face_farthest_below(minimum.point, y)
         && height > scale.rounding()
         && face != minimum.face
     {
@@ -43,7 +43,7 @@ pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
 }
 
 /// Returns the face whose plane the point is highest above, and the signed height; `None` for a polytope without faces.
-fn farthest<Y: PlacedPolytope>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
+fn face_farthest_below<Y: PlacedPolytope>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
     let faces = 0..y.shape().faces.len() as u32;
     let heights = faces.filter_map(|f| {
         let start = y.shape().sides_of(f).first()?.start;

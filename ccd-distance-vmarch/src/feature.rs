@@ -90,7 +90,7 @@ pub(crate) struct LocalMinimum {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
     /// The ends of the edge with their weights; if the common point is a corner, that corner twice.
-    pub(crate) on_edge: WeightedCorners<2>,
+    pub(crate) edge_ends: WeightedCorners<2>,
     /// Three corners of the face with their weights, and a fourth corner if the common point is inside the polytope.
     pub(crate) face_corners: WeightedCorners<4>,
     /// The index of the face that the edge crosses; for a corner inside the polytope, the index of a face that the

@@ -29,21 +29,21 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
         let one = placed.a.line(e);
         for &f in &b.edges {
             let other = placed.b.line(f);
-            let [s, t] = edge_edge::nearest(&one, &other).parameters;
+            let [s, t] = edge_edge::nearest_parameters(&one, &other).parameters;
             let ends = (
                 vertex_or_edge_at(&placed.a, e, s),
                 vertex_or_edge_at(&placed.b, f, t),
             );
-            best.keep_if_nearer(one.at(s).distance(other.at(t)), ends.0, ends.1);
+            best.keep_if_nearer(one.point_at(s).distance(other.point_at(t)), ends.0, ends.1);
         }
     }
     for &v in &a.vertices {
         let point = placed.a.vertex(v);
         for &f in &b.edges {
             let line = placed.b.line(f);
-            let t = line.nearest(point);
+            let t = line.nearest_parameter(point);
             let end = vertex_or_edge_at(&placed.b, f, t);
-            best.keep_if_nearer(line.at(t).distance(point), Feature::Vertex(v), end);
+            best.keep_if_nearer(line.point_at(t).distance(point), Feature::Vertex(v), end);
         }
         for &f in &b.faces {
             let height = height_above_face(point, &placed.b, f);
@@ -54,9 +54,9 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
         let point = placed.b.vertex(w);
         for &e in &a.edges {
             let line = placed.a.line(e);
-            let s = line.nearest(point);
+            let s = line.nearest_parameter(point);
             let end = vertex_or_edge_at(&placed.a, e, s);
-            best.keep_if_nearer(line.at(s).distance(point), end, Feature::Vertex(w));
+            best.keep_if_nearer(line.point_at(s).distance(point), end, Feature::Vertex(w));
         }
         for &f in &a.faces {
             let height = height_above_face(point, &placed.a, f);

@@ -80,7 +80,7 @@ impl DistanceOracle for Vmarch {
         let a = prepared_polytope(&pair.a, &mut own_a)?;
         let b = prepared_polytope(&pair.b, &mut own_b)?;
         let placed = PlacedPair::new(a, b, &pair.b_to_a);
-        let end = march(&placed, cache.start(&placed), &mut self.counters);
+        let end = march(&placed, cache.start_features(&placed), &mut self.counters);
         if let MarchEnd::Nearest(nearest, Certainty::Sure) = end {
             let claim = Witness::new(&placed, nearest).claim;
             cache.store(&placed, nearest, claim.axis);

@@ -1,6 +1,6 @@
 //! Finds common points of two polytopes, and proves them by exact signs `[SHE97]`.
 
-use crate::double_double::volume;
+use crate::double_double::six_times_volume;
 use crate::feature::{Crossing, WeightedCorners};
 use crate::placed::PlacedPolytope;
 use crate::tolerance::MAX_EDGE_FACE_PAIRS;
@@ -24,10 +24,10 @@ pub(crate) fn edge_face_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     for k in 1..sides.len().saturating_sub(1) {
         let corners = [0, k, k + 1].map(|k| sides[k].vertex);
         let triangle = corners.map(|w| y.vertex(w));
-        if segment_meets_triangle(edge, triangle) {
+        if segment_crosses_triangle(edge, triangle) {
             let (along, inside) = weights(edge, triangle);
             return Some(Crossing {
-                on_edge: WeightedCorners {
+                edge_ends: WeightedCorners {
                     vertices: ends,
                     weights: along,
                 },
@@ -67,7 +67,7 @@ pub(crate) fn inner_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
             let triangle = corners.map(|w| y.vertex(w));
             if let Some(inside) = barycentric_coordinates(point, apex, triangle) {
                 return Some(Crossing {
-                    on_edge: WeightedCorners {
+                    edge_ends: WeightedCorners {
                         vertices: [v, v],
                         weights: [1.0, 0.0],
                     },
@@ -99,7 +99,7 @@ pub(crate) fn search_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
 }
 
 /// Returns whether a segment and a triangle have a common point; false if they are coplanar.
-fn segment_meets_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+fn segment_crosses_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let (first, last) = (side(triangle, start), side(triangle, end));
     let beside = first == last && first.is_ne();
     if beside || (first.is_eq() && last.is_eq()) {
@@ -112,8 +112,11 @@ fn segment_meets_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> boo
 
 /// Returns the weights of a segment's ends, and of a triangle's corners, for the point in which the two intersect.
 fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 3]) {
-    let (first, last) = (volume([a, b, c], start).abs(), volume([a, b, c], end).abs());
-    let parts = [[b, c], [c, a], [a, b]].map(|[p, q]| volume([start, p, q], end).abs());
+    let (first, last) = (
+        six_times_volume([a, b, c], start).abs(),
+        six_times_volume([a, b, c], end).abs(),
+    );
+    let parts = [[b, c], [c, a], [a, b]].map(|[p, q]| six_times_volume([start, p, q], end).abs());
     let total = parts[0] + parts[1] + parts[2];
     (
         [last / (first + last), first / (first + last)],
@@ -130,7 +133,7 @@ fn barycentric_coordinates(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> 
     if !(behind && solid) {
         return None;
     }
-    let parts = faces.map(|face| volume(face, point).abs());
+    let parts = faces.map(|face| six_times_volume(face, point).abs());
     let total = parts.iter().sum::<f64>();
     Some(parts.map(|part| part / total))
 }

@@ -119,13 +119,13 @@ impl RoundingScale {
 
 impl Line {
     #[inline(always)]
-    pub(crate) fn at(&self, parameter: f64) -> DVec3 {
+    pub(crate) fn point_at(&self, parameter: f64) -> DVec3 {
         self.start + self.along * parameter
     }
 
     /// Returns the parameter of the edge's point that is nearest to a given point.
     #[inline(always)]
-    pub(crate) fn nearest(&self, point: DVec3) -> f64 {
+    pub(crate) fn nearest_parameter(&self, point: DVec3) -> f64 {
         clamp((point - self.start).dot(self.along), self.length)
     }
 }

@@ -11,7 +11,7 @@ mod tests;
 
 use crate::feature::Feature;
 pub(crate) use facets::unit;
-use support::DirectionTable;
+use support::StartVertexTable;
 
 use ccd_core::glam::DVec3;
 
@@ -40,7 +40,7 @@ pub(crate) struct Polytope {
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
     /// A table of corners from which hill climbing starts; `None` for polytopes of few corners, which are scanned.
-    direction_table: Option<Box<DirectionTable>>,
+    start_vertex_table: Option<Box<StartVertexTable>>,
 }
 
 /// A corner of the polytope, and the range of its outgoing edges.

@@ -35,7 +35,7 @@ impl Cache {
     /// Returns the pair of features to start from. For each polytope this is its last feature if it is the same polytope,
     /// or else its extremal vertex along the last axis. Without an axis, the vector between the origins replaces it.
     #[inline]
-    pub(crate) fn start(self, placed: &PlacedPair<'_>) -> Pair {
+    pub(crate) fn start_features(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {
             return extremal_pair(placed, placed.b.origin());
         };

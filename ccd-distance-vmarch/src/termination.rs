@@ -23,7 +23,7 @@ pub(crate) enum MarchEnd {
 pub(crate) struct BrentCycleDetector {
     remembered_pair: Pair,
     steps_since_replacement: u32,
-    steps_to_replacement: u32,
+    replacement_interval: u32,
 }
 
 impl BrentCycleDetector {
@@ -31,7 +31,7 @@ impl BrentCycleDetector {
         BrentCycleDetector {
             remembered_pair: start,
             steps_since_replacement: 0,
-            steps_to_replacement: 1,
+            replacement_interval: 1,
         }
     }
 
@@ -42,9 +42,9 @@ impl BrentCycleDetector {
             return true;
         }
         self.steps_since_replacement += 1;
-        if self.steps_since_replacement == self.steps_to_replacement {
+        if self.steps_since_replacement == self.replacement_interval {
             self.remembered_pair = pair;
-            self.steps_to_replacement = self.steps_to_replacement.saturating_mul(2);
+            self.replacement_interval = self.replacement_interval.saturating_mul(2);
             self.steps_since_replacement = 0;
         }
         false

@@ -17,12 +17,12 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, Claim, DistanceOracle, Frame, GiveUpReason, PiecePair};
 use rstest::rstest;
 use scene::{PairKind, Scene};
-use shape::{Pcg64, SeedableRng, direction, magnitude};
+use shape::{Pcg64, SeedableRng, random_direction, random_magnitude};
 use twin::ReferencePolytope;
 
 /// Returns the number of scenes of each kind. `CCD_TEST_CASES` in the environment multiplies it, `CCD_TEST_SLOW` makes
 /// it a million claims over all kinds.
-fn cases() -> u64 {
+fn case_count() -> u64 {
     let given = std::env::var("CCD_TEST_CASES").ok();
     let times: u64 = given.and_then(|text| text.parse().ok()).unwrap_or(1);
     match std::env::var_os("CCD_TEST_SLOW") {
@@ -34,9 +34,9 @@ fn cases() -> u64 {
 /// A summary of the claims about one kind of pair.
 #[derive(Debug, Default)]
 struct Tally {
-    claims: u64,
-    intersecting_pairs: u64,
-    give_ups: u64,
+    claim_count: u64,
+    intersecting_pair_count: u64,
+    give_up_count: u64,
     /// The largest relative error of a distance, among distances above a thousandth of the scene's reach.
     max_relative_error: f64,
     /// The largest error of a distance, in units of the unit roundoff times the scene's reach.
@@ -55,11 +55,11 @@ impl Tally {
         let claim = match answer {
             Ok(claim) => claim,
             Err(_) => {
-                self.give_ups += 1;
+                self.give_up_count += 1;
                 return;
             }
         };
-        self.claims += 1;
+        self.claim_count += 1;
         let place = |p: DVec3| scene.b_to_a.point(p);
         let on_a = claim
             .a
@@ -73,7 +73,7 @@ impl Tally {
         let distance = on_a.distance(on_b);
         let unit = UNIT_ROUNDOFF * scene.reach();
         if scene.gap == 0.0 {
-            self.intersecting_pairs += 1;
+            self.intersecting_pair_count += 1;
             self.max_intersecting_witness_distance =
                 greater(self.max_intersecting_witness_distance, distance / unit);
             assert!(
@@ -113,14 +113,14 @@ fn describe_claim(scene: &Scene<'_>, claim: &Claim) -> String {
 }
 
 /// Moves the scene to the next pose of a coherent sequence.
-fn moved(scene: &mut Scene<'_>, rng: &mut Pcg64) {
-    let step = lesser(magnitude(rng, -16.0, -2.0), 0.01 * scene.gap);
+fn move_to_next_pose(scene: &mut Scene<'_>, rng: &mut Pcg64) {
+    let step = lesser(random_magnitude(rng, -16.0, -2.0), 0.01 * scene.gap);
     scene.gap -= 8.0 * step;
-    let turn = DQuat::from_scaled_axis(step * direction(rng));
+    let turn = DQuat::from_scaled_axis(step * random_direction(rng));
     let about = scene.b_to_a.point(scene.b.shape.points[0]);
     let frame = &mut scene.b_to_a;
     frame.rotation = ccd_core::glam::DMat3::from_quat(turn) * frame.rotation;
-    frame.translation = about + turn * (frame.translation - about) + step * direction(rng);
+    frame.translation = about + turn * (frame.translation - about) + step * random_direction(rng);
 }
 
 #[rstest]
@@ -149,9 +149,9 @@ fn agrees_with_brute_force(
         (Vmarch::default(), Tally::default(), Cache::default());
     // Those of a thousand corners take brute force a while.
     let cases = if kind == PairKind::Balls {
-        cases() / 10
+        case_count() / 10
     } else {
-        cases()
+        case_count()
     };
     for _ in 0..cases {
         let mut scene = scene::draw(kind, &pool, &mut rng);
@@ -159,12 +159,15 @@ fn agrees_with_brute_force(
         tally.add(&scene, oracle.separation(&scene.pair(), &mut cache));
         tally.add(&scene, oracle.separation(&scene.pair(), &mut foreign));
         if scene.gap > 0.0 {
-            moved(&mut scene, &mut rng);
+            move_to_next_pose(&mut scene, &mut rng);
             tally.add(&scene, oracle.separation(&scene.pair(), &mut cache));
         }
     }
     report(kind, &tally, oracle);
-    assert!(tally.give_ups * 10_000 <= tally.claims, "{tally:?}");
+    assert!(
+        tally.give_up_count * 10_000 <= tally.claim_count,
+        "{tally:?}"
+    );
 }
 
 #[allow(
@@ -184,8 +187,8 @@ fn claims_are_the_same_bits_for_prepared_bodies() {
     let prepared = fresh.clone();
     Vmarch::prepare(&prepared);
     for _ in 0..200 {
-        let translation = magnitude(&mut rng, -1.0, 1.0) * direction(&mut rng);
-        let turn = DQuat::from_rotation_arc(DVec3::Z, direction(&mut rng));
+        let translation = random_magnitude(&mut rng, -1.0, 1.0) * random_direction(&mut rng);
+        let turn = DQuat::from_rotation_arc(DVec3::Z, random_direction(&mut rng));
         let b_to_a = Frame {
             translation,
             rotation: DMat3::from_quat(turn),

@@ -26,16 +26,16 @@ pub(crate) const MAX_PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The distance, in units of the pair's size, above which a tie between features needs no certificate. Rounding, 16u of
 /// the size, tilts a direction of that length at a cost of at most 64u of the size.
-pub(crate) const MIN_CERTAIN_DISTANCE: f64 = 1.0 / 4.0;
+pub(crate) const MIN_CERTAIN_DISTANCE_RATIO: f64 = 1.0 / 4.0;
 
 /// The largest difference between the distance and the support gap at which the distance counts as certified, in units
 /// of the pair's size. It equals [`PLACEMENT_ERROR`], the error of that distance. A larger value would accept a tie with
 /// a nearer pair around it; a smaller one would search around in vain.
-pub(crate) const MAX_CERTIFIED_EXCESS: f64 = 16.0 * UNIT_ROUNDOFF;
+pub(crate) const MAX_CERTIFIED_GAP_DEFICIT: f64 = 16.0 * UNIT_ROUNDOFF;
 
-/// The excess of the distance over the support gap that is allowed beyond [`MAX_CERTIFIED_EXCESS`], in units of the
+/// The excess of the distance over the support gap that is allowed beyond [`MAX_CERTIFIED_GAP_DEFICIT`], in units of the
 /// distance. It is for pieces that are much farther apart than they are large.
-pub(crate) const MAX_RELATIVE_CERTIFIED_EXCESS: f64 = 32.0 * UNIT_ROUNDOFF;
+pub(crate) const MAX_RELATIVE_CERTIFIED_GAP_DEFICIT: f64 = 32.0 * UNIT_ROUNDOFF;
 
 /// The distance from a plane or a line up to which points count as on it, in units of the largest coordinate. Corners
 /// have input rounding of 1u each, a plane through three of them passes the others by up to 4u, and heights over it are

@@ -11,12 +11,16 @@ use ccd_core::Claim;
 ///
 /// Its axis is the normal of the crossed face or, if the point is on the border of its features, the best separating
 /// axis nearby: the pieces may only touch.
-pub(crate) fn common(placed: &PlacedPair<'_>, which: WhichPolytope, crossing: &Crossing) -> Claim {
-    let claim = witness::common(placed, which, crossing);
+pub(crate) fn common_point_claim(
+    placed: &PlacedPair<'_>,
+    which: WhichPolytope,
+    crossing: &Crossing,
+) -> Claim {
+    let claim = witness::claim_along_crossed_face(placed, which, crossing);
     let Some(pair) = touching_features(placed, which, crossing) else {
         return claim;
     };
-    let normal = Axis::along(placed, claim.axis);
+    let normal = Axis::from_direction(placed, claim.axis);
     let best = best_axis(placed, pair, &Witness::new(placed, pair));
     // Written so that NaN changes nothing.
     if best.gap > normal.gap {
@@ -50,7 +54,7 @@ fn features<X: PlacedPolytope, Y: PlacedPolytope>(
     scale: RoundingScale,
 ) -> Option<(Feature, Feature)> {
     let Crossing {
-        on_edge,
+        edge_ends: on_edge,
         face_corners: on_face,
         face,
     } = crossing;

@@ -33,7 +33,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     if (corner - y.vertex(edge.ends[1])).dot(line.along) > 0.0 {
         return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
     }
-    let offset = line.at(parameter) - corner;
+    let offset = line.point_at(parameter) - corner;
     let rounding = scale.rounding();
     if offset.length_squared() <= rounding * rounding {
         return MarchStep::Stop(Tied);

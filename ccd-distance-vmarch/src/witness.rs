@@ -57,9 +57,19 @@ impl Witness {
 }
 
 /// Returns the claim about a proven common point, along the normal of the crossed face.
-pub(crate) fn common(placed: &PlacedPair<'_>, which: WhichPolytope, crossing: &Crossing) -> Claim {
+pub(crate) fn claim_along_crossed_face(
+    placed: &PlacedPair<'_>,
+    which: WhichPolytope,
+    crossing: &Crossing,
+) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
-    let on_edge = |shape| combination(shape, crossing.on_edge.vertices, crossing.on_edge.weights);
+    let on_edge = |shape| {
+        combination(
+            shape,
+            crossing.edge_ends.vertices,
+            crossing.edge_ends.weights,
+        )
+    };
     let on_face = |shape| {
         combination(
             shape,
@@ -107,8 +117,8 @@ fn vertex_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
     e: u32,
 ) -> Witness {
     let (point, line) = (x.vertex(v), y.line(e));
-    let parameter = line.nearest(point);
-    let foot = line.at(parameter);
+    let parameter = line.nearest_parameter(point);
+    let foot = line.point_at(parameter);
     let offset = foot - point;
     Witness {
         points: [point, foot],
@@ -129,9 +139,9 @@ fn edge_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
     scale: RoundingScale,
 ) -> Witness {
     let (one, other) = (x.line(e), y.line(f));
-    let near = edge_edge::nearest(&one, &other);
+    let near = edge_edge::nearest_parameters(&one, &other);
     let [s, t] = near.parameters;
-    let points = [one.at(s), other.at(t)];
+    let points = [one.point_at(s), other.point_at(t)];
     let offset = points[1] - points[0];
     let axis = near.axis(offset, scale).unwrap_or(offset);
     Witness {
@@ -229,7 +239,7 @@ fn project_onto_face<Y: PlacedPolytope>(
     let k = 1 + past.count();
     let corners = [0, k, k + 1];
     let triangle = [first, at(k), at(k + 1)];
-    let weights = foot(point, triangle, normal);
+    let weights = clamped_foot_weights(point, triangle, normal);
     let [_, p, q] = triangle;
     let spot = combination(y.shape(), corners.map(|k| sides[k].vertex), weights);
     (
@@ -243,7 +253,7 @@ fn project_onto_face<Y: PlacedPolytope>(
 /// The weights are computed across the longest side first, then along it with the residual
 /// corrected. For a needle, the first is as accurate as rounding permits, and the second as the
 /// needle's width.
-fn foot(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f64; 3] {
+fn clamped_foot_weights(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f64; 3] {
     let square = |k: usize| triangle[(k + 1) % 3].distance_squared(triangle[k]);
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
     let (end, apex) = ((start + 1) % 3, (start + 2) % 3);

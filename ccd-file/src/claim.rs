@@ -73,7 +73,7 @@ impl Claim {
     }
 
     /// Returns the length in bytes of what an earlier process left in the file.
-    pub fn left(&self) -> u64 {
+    pub fn left_length(&self) -> u64 {
         self.left_length
     }
 
@@ -102,7 +102,7 @@ impl Claim {
     /// # Errors
     /// Errors of `fill` and of [`Claim::place`].
     pub fn write(mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-        self.cut(0)?;
+        self.truncate(0)?;
         write_buffered(&mut self.temp_file.file, fill)?;
         self.place()
     }
@@ -111,7 +111,7 @@ impl Claim {
     ///
     /// # Errors
     /// Errors of the operating system.
-    pub fn cut(&mut self, bytes: u64) -> io::Result<()> {
+    pub fn truncate(&mut self, bytes: u64) -> io::Result<()> {
         let TempFile {
             file,
             is_kept_on_drop: is_kept,

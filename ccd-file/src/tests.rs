@@ -33,7 +33,7 @@ impl Drop for Folder {
     }
 }
 
-fn text(path: &Path) -> String {
+fn read_text(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
@@ -51,11 +51,11 @@ fn a_write_that_fails_leaves_the_older_file() {
     fs::write(&file, "good").unwrap();
     let error = write(&file, write_until_full).unwrap_err();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);
-    assert_eq!(text(&file), "good");
+    assert_eq!(read_text(&file), "good");
     assert!(write(folder.path("new"), write_until_full).is_err());
     assert_eq!(folder.names(), ["good"]);
     write(&file, |out| out.write_all(b"better")).unwrap();
-    assert_eq!(text(&file), "better");
+    assert_eq!(read_text(&file), "better");
     assert_eq!(folder.names(), ["good"]);
     for bad in [folder.0.clone(), folder.path("none/x"), "".into()] {
         assert!(write(&bad, |_| Ok(())).is_err(), "{}", bad.display());
@@ -78,7 +78,7 @@ fn a_claimed_file_is_given_to_one() {
     }
     first.file().write_all(b"rows").unwrap();
     first.place().unwrap();
-    assert_eq!(text(&target), "rows");
+    assert_eq!(read_text(&target), "rows");
     assert_eq!(folder.names(), ["table"]);
 
     // Dropped: removed, unless it is kept or was there before.
@@ -90,11 +90,11 @@ fn a_claimed_file_is_given_to_one() {
     drop(kept);
     drop(claim(target.clone()).unwrap());
     let mut again = claim(target.clone()).unwrap();
-    assert_eq!(again.left(), 9);
-    again.cut(4).unwrap();
+    assert_eq!(again.left_length(), 9);
+    again.truncate(4).unwrap();
     again.file().write_all(b"over").unwrap();
     again.place().unwrap();
-    assert_eq!(text(&target), "moreover");
+    assert_eq!(read_text(&target), "moreover");
     assert!(
         claim(target.clone())
             .unwrap()
@@ -102,14 +102,14 @@ fn a_claimed_file_is_given_to_one() {
             .is_err()
     );
     assert_eq!(
-        (text(&target).as_str(), folder.names().len()),
+        (read_text(&target).as_str(), folder.names().len()),
         ("moreover", 1)
     );
     claim(target.clone())
         .unwrap()
         .write(|out| out.write_all(b"all"))
         .unwrap();
-    assert_eq!(text(&target), "all");
+    assert_eq!(read_text(&target), "all");
 }
 
 /// Tests that a claimed file is not renamed to its target if its temporary file was removed or replaced.
@@ -146,7 +146,7 @@ fn threads_have_a_claimed_file_one_after_the_other() {
                         Err(error) if error.kind() == io::ErrorKind::ResourceBusy => continue,
                         Err(error) => panic!("{error}"),
                     };
-                    assert_eq!(claim.left(), 0);
+                    assert_eq!(claim.left_length(), 0);
                     for _ in 0..10 {
                         claim.file().write_all(&[b'0' + number as u8]).unwrap();
                     }
@@ -181,7 +181,7 @@ mod unix {
         fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).unwrap();
         symlink("target", &link).unwrap();
         write(&link, |out| out.write_all(b"new")).unwrap();
-        assert_eq!(text(&target), "new");
+        assert_eq!(read_text(&target), "new");
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         let mode = fs::metadata(&target).unwrap().permissions().mode();
         assert_eq!(mode & 0o777, 0o640);
@@ -189,7 +189,7 @@ mod unix {
         let early = folder.path("early");
         symlink("late", &early).unwrap();
         write(&early, |out| out.write_all(b"late")).unwrap();
-        assert_eq!(text(&folder.path("late")), "late");
+        assert_eq!(read_text(&folder.path("late")), "late");
         assert!(fs::symlink_metadata(&early).unwrap().is_symlink());
         let round = folder.path("round");
         symlink("round", &round).unwrap();
@@ -214,7 +214,7 @@ mod unix {
         let name = format!("/proc/self/fd/{}", std::os::fd::AsRawFd::as_raw_fd(&open));
         if Path::new(&name).exists() {
             write(name, |out| out.write_all(b"done")).unwrap();
-            assert_eq!(text(&file), "begun, done");
+            assert_eq!(read_text(&file), "begun, done");
         }
     }
 }

@@ -49,7 +49,7 @@ impl Keyframe {
         Keyframe {
             time,
             place: place.to_array(),
-            rotation: rows(pose),
+            rotation: rotation_rows(pose),
             turn: turn.to_array(),
         }
     }
@@ -63,12 +63,12 @@ impl From<&Motion> for ShownMotion {
             from: from.to_array(),
             velocity: motion.velocity().to_array(),
             spin: motion.spin().to_array(),
-            rotation: rows(&motion.start()),
+            rotation: rotation_rows(&motion.start()),
         }
     }
 }
 
-fn rows(pose: &Pose) -> [f64; 9] {
+fn rotation_rows(pose: &Pose) -> [f64; 9] {
     // Columns of the transpose.
     DMat3::from_quat(pose.rotation())
         .transpose()

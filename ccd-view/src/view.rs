@@ -33,7 +33,7 @@ pub struct View {
     /// The times at which moving bodies are also drawn, translucent.
     pub ghost_times: Vec<f64>,
     /// The distance between two bodies over time, if it is known.
-    pub gap: Option<Gap>,
+    pub gap: Option<GapCurve>,
     /// The contacts, in order of time.
     pub contacts: Vec<ShownContact>,
 }
@@ -53,7 +53,7 @@ pub struct ShownBody {
 
 /// The distance between two bodies over time.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Gap {
+pub struct GapCurve {
     /// The measured distances, in order of time.
     pub points: Vec<GapSample>,
     /// A proven lower bound of the distance, as pairs of time and bound, in order of time.

@@ -17,7 +17,7 @@ const WASM_TARGET: &str = "wasm32-unknown-unknown";
 /// Builds the WebAssembly module, and writes the page.
 pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(build()?).no_modules(true)?;
+    bindgen.input_path(build_wasm_module()?).no_modules(true)?;
     bindgen
         .typescript(false)
         .remove_name_section(true)
@@ -65,7 +65,7 @@ fn gzip(bytes: &[u8]) -> Result<Vec<u8>> {
 }
 
 /// Builds this crate as a WebAssembly module, and returns the module's path.
-fn build() -> Result<PathBuf> {
+fn build_wasm_module() -> Result<PathBuf> {
     // This command is at TARGET_DIR/PROFILE/ccd-web.
     let command = env::current_exe()?;
     let folder = command

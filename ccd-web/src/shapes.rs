@@ -76,7 +76,7 @@ pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Result<TriangleMesh, MeshE
             [8 + k, 12 + k, 12 + next, 8 + next],
         ]
     });
-    let faces: Vec<[u32; 3]> = faces.flat_map(halves).collect();
+    let faces: Vec<[u32; 3]> = faces.flat_map(quad_triangles).collect();
     TriangleMesh::new(vertices.concat(), &faces)
 }
 
@@ -95,7 +95,7 @@ fn sheet(
     let number = |row: u32, column: u32| (row % rows) * around + column % around;
     let cells = (0..along).flat_map(|row| (0..around).map(move |column| (row, column)));
     let faces = cells.flat_map(|(row, column)| {
-        halves([
+        quad_triangles([
             number(row, column),
             number(row, column + 1),
             number(row + 1, column + 1),
@@ -108,6 +108,6 @@ fn sheet(
     TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
-fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+fn quad_triangles([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }

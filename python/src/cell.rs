@@ -8,7 +8,7 @@ use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
 use crate::path_array::PathArray;
 use crate::robot::PyRobot;
-use crate::settings::{CONTACT_SETTINGS, DISTANCE_SETTINGS, read, read_thread_count};
+use crate::settings::{CONTACT_SETTING_NAMES, DISTANCE_SETTING_NAMES, read, read_thread_count};
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -105,7 +105,7 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let settings = read(settings, CONTACT_SETTINGS)?;
+        let settings = read(settings, CONTACT_SETTING_NAMES)?;
         let path = PathArray::read(path, "path")?;
         let found = py.detach(|| {
             self.lock()
@@ -125,7 +125,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let settings = read(settings, CONTACT_SETTINGS)?;
+        let settings = read(settings, CONTACT_SETTING_NAMES)?;
         let path = PathArray::read(path, "path")?;
         let found = py.detach(|| {
             self.lock().ask(settings, |solver| {
@@ -154,7 +154,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = read(settings, DISTANCE_SETTINGS)?;
+        let settings = read(settings, DISTANCE_SETTING_NAMES)?;
         let path = PathArray::read(path, "path")?;
         let found = py.detach(|| {
             self.lock().ask(settings, |solver| {
@@ -208,7 +208,7 @@ impl PyCell {
         let threads = read_thread_count(threads)?;
         let cell = Arc::clone(self.lock().cell());
         let array = PathArray::read(paths, "paths")?;
-        let joints = cell.robot().joint_names().len();
+        let joints = cell.robot().free_joint_names().len();
         array.check_many(joints)?;
         let work = |stop: &Arc<_>| {
             let settings = Settings {

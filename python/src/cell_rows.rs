@@ -1,7 +1,7 @@
 //! Answers about paths in a cell: as objects, and as rows of a table.
 
 use crate::errors::input_error;
-use crate::settings::{CONTACT_SETTINGS, DISTANCE_SETTINGS};
+use crate::settings::{CONTACT_SETTING_NAMES, DISTANCE_SETTING_NAMES};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt64Array};
 use arrow_schema::ArrowError;
 use pyo3::prelude::*;
@@ -49,8 +49,8 @@ impl Ask {
 
     pub(crate) fn known_settings(self) -> &'static [&'static str] {
         match self {
-            Ask::IsFree | Ask::FirstContact => CONTACT_SETTINGS,
-            Ask::ClosestApproach => DISTANCE_SETTINGS,
+            Ask::IsFree | Ask::FirstContact => CONTACT_SETTING_NAMES,
+            Ask::ClosestApproach => DISTANCE_SETTING_NAMES,
         }
     }
 

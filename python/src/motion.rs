@@ -50,14 +50,14 @@ impl PyMotion {
         let start = GivenPose(given(position, "position")?, turned);
         let velocity = given(velocity, "velocity")?;
         let (spin, center) = (given(spin, "spin")?, given(center, "center")?);
-        PyMotion::moving(py, start, velocity, spin, center)
+        PyMotion::from_velocities(py, start, velocity, spin, center)
     }
 
     /// Makes the motion of a body at rest; the pose takes the same forms as in `Motion.between`.
     #[classmethod]
     fn still(class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
         let start = read_given_pose(pose, "pose")?;
-        PyMotion::moving(class.py(), start, [0.0; 3], [0.0; 3], [0.0; 3])
+        PyMotion::from_velocities(class.py(), start, [0.0; 3], [0.0; 3], [0.0; 3])
     }
 
     /// Makes the motion from one pose to another: the centre moves in a straight line, and the body rotates the
@@ -109,7 +109,7 @@ impl PyMotion {
 }
 
 impl PyMotion {
-    fn moving(
+    fn from_velocities(
         py: Python<'_>,
         start: GivenPose,
         velocity: [f64; 3],

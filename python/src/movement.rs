@@ -105,7 +105,7 @@ impl Pair<'_> {
         })
     }
 
-    pub(crate) fn moving(&self) -> [MovingBody<'_>; 2] {
+    pub(crate) fn moving_bodies(&self) -> [MovingBody<'_>; 2] {
         [&self.a, &self.b].map(|(body, course)| (*body, course.trajectory()).into())
     }
 }

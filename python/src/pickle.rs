@@ -6,7 +6,7 @@ use pyo3::types::{PyTuple, PyType};
 /// The constructor of an object and its arguments.
 pub(crate) struct ConstructorCall {
     /// The name of the class method; `None` for the class itself.
-    constructor: Option<&'static str>,
+    constructor_name: Option<&'static str>,
     arguments: Py<PyTuple>,
 }
 
@@ -24,7 +24,7 @@ impl ConstructorCall {
     {
         let arguments = arguments.into_pyobject(py).map_err(Into::into)?.unbind();
         Ok(ConstructorCall {
-            constructor,
+            constructor_name: constructor,
             arguments,
         })
     }
@@ -32,7 +32,7 @@ impl ConstructorCall {
     /// Returns the constructor and the arguments of an object of `class`, as its `__reduce__` returns them.
     pub(crate) fn reduce_tuple<'py>(&self, class: Bound<'py, PyType>) -> PyResult<Reduced<'py>> {
         let arguments = self.arguments.bind(class.py()).clone();
-        let constructor = match self.constructor {
+        let constructor = match self.constructor_name {
             Some(name) => class.getattr(name)?,
             None => class.into_any(),
         };

@@ -6,7 +6,9 @@ use crate::errors::{input_error, panic_error, unresolved_distance_error, unresol
 use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
 use crate::movement::{GivenMovement, Pair};
-use crate::settings::{APPROACH_SETTINGS, CONTACT_SETTINGS, DISTANCE_SETTINGS, read};
+use crate::settings::{
+    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_SETTING_NAMES, read,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::answer::{Limit, Unresolved};
@@ -128,7 +130,7 @@ fn ask(
     let duration = pair.duration(duration)?;
     warn(py, pair.remarks(duration), 1)?;
     warn_of_tolerance([a, b], settings.tolerance, 1)?;
-    let bodies = pair.moving();
+    let bodies = pair.moving_bodies();
     let asked = PairQuestion {
         question,
         bodies,
@@ -189,7 +191,7 @@ pub(crate) fn first_contact<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let settings = read(settings, CONTACT_SETTINGS)?;
+    let settings = read(settings, CONTACT_SETTING_NAMES)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::FirstContact, bodies, duration, &settings)?;
     let hit = hit(py, answer)?;
@@ -211,7 +213,7 @@ pub(crate) fn is_free(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
-    let settings = read(settings, CONTACT_SETTINGS)?;
+    let settings = read(settings, CONTACT_SETTING_NAMES)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::IsFree, bodies, duration, &settings)?;
     Ok(hit(py, answer)?.is_none())
@@ -242,7 +244,7 @@ pub(crate) fn closest_approach<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = read(settings, APPROACH_SETTINGS)?;
+    let settings = read(settings, APPROACH_SETTING_NAMES)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::ClosestApproach, bodies, duration, &settings)?;
     distance_of_answer(py, &answer, &settings)
@@ -269,7 +271,7 @@ pub(crate) fn distance<'py>(
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
-    let settings = read(settings, DISTANCE_SETTINGS)?;
+    let settings = read(settings, DISTANCE_SETTING_NAMES)?;
     warn_of_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (extract_body(a, "a")?, extract_body(b, "b")?);
     let asked = PairQuestion {

@@ -6,7 +6,7 @@ use crate::motion::pose_matrix;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
-use rigid_ccd_robot::{Geometry, LinkPairs, MeshModel, Robot, Urdf};
+use rigid_ccd_robot::{BodyElements, LinkPairs, MeshModel, Robot, Urdf};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -44,8 +44,8 @@ impl PyRobot {
         meshes: &str,
     ) -> PyResult<Self> {
         let geometry = match geometry {
-            "collision" => Geometry::Collision,
-            "visual" => Geometry::Visual,
+            "collision" => BodyElements::Collision,
+            "visual" => BodyElements::Visual,
             _ => return Err(unknown("geometry", geometry, "collision or visual")),
         };
         let meshes = match meshes {
@@ -73,7 +73,7 @@ impl PyRobot {
     /// The names of the joints that have a position of their own, in the order of a configuration.
     #[getter]
     fn joint_names(&self) -> Vec<&str> {
-        self.robot.joint_names().collect()
+        self.robot.free_joint_names().collect()
     }
 
     /// The names of the links.
@@ -95,7 +95,7 @@ impl PyRobot {
     #[getter]
     fn checked_pairs(&self) -> Vec<(&str, &str)> {
         let name = |link: usize| self.robot.links()[link].name.as_str();
-        let pairs = self.pairs.checked();
+        let pairs = self.pairs.checked_pairs();
         pairs.map(|[a, b]| (name(a), name(b))).collect()
     }
 

@@ -8,16 +8,17 @@ use rigid_ccd::Settings;
 use std::time::Duration;
 
 /// The names of the settings of a query about contacts.
-pub(crate) const CONTACT_SETTINGS: &[&str] = &["tolerance", "margin", "budget", "deadline"];
+pub(crate) const CONTACT_SETTING_NAMES: &[&str] = &["tolerance", "margin", "budget", "deadline"];
 
 /// The names of the settings of a query about the distance of bodies at rest.
-pub(crate) const DISTANCE_SETTINGS: &[&str] = &["tolerance", "budget", "deadline"];
+pub(crate) const DISTANCE_SETTING_NAMES: &[&str] = &["tolerance", "budget", "deadline"];
 
 /// The names of the settings of a query about the least distance of moving bodies.
-pub(crate) const APPROACH_SETTINGS: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
+pub(crate) const APPROACH_SETTING_NAMES: &[&str] =
+    &["tolerance", "clearance", "budget", "deadline"];
 
 /// The names of the settings that only a table query has, which are parameters of its function.
-pub(crate) const TABLE_SETTINGS: &[&str] = &["threads", "progress", "micros"];
+pub(crate) const TABLE_SETTING_NAMES: &[&str] = &["threads", "progress", "micros"];
 
 /// The maximum number of threads, the same as in the command.
 const MAX_THREADS: u16 = 1024;

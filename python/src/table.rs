@@ -43,7 +43,8 @@ impl PyTable {
         if reader.schema().fields().is_empty() {
             return Err(refuse("table: there is no column"));
         }
-        let (found, seen) = run_interruptibly(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
+        let (found, seen) =
+            run_interruptibly(py, |stop| batch::read_whole_table(reader, stop), |_| Ok(()))?;
         seen?;
         let batch = found.map_err(|error| input_error_or_interrupt(format!("table: {error}")))?;
         Ok(PyTable { batch })

@@ -6,7 +6,7 @@ use crate::errors::{
     wrong_type_error,
 };
 use crate::interruptible::run_interruptibly;
-use crate::settings::{self, APPROACH_SETTINGS, CONTACT_SETTINGS, TABLE_SETTINGS};
+use crate::settings::{self, APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, TABLE_SETTING_NAMES};
 use crate::table::answering::{TableAnswers, TableQuestion, answer};
 use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -36,7 +36,7 @@ pub(crate) fn answer_table(
     let question = self::question_named(question)?;
     let settings = Settings {
         clearance,
-        ..settings::read(settings, &known_settings(question))?
+        ..settings::read(settings, &allowed_setting_names(question))?
     };
     let asked = TableQuestion {
         bodies: Bodies {
@@ -55,7 +55,10 @@ pub(crate) fn answer_table(
     }
     let progress = progress.map(Bound::unbind);
     let reader = input::open(motions)?;
-    let (rows, done) = (input::rows(motions, &reader), AtomicUsize::new(0));
+    let (rows, done) = (
+        input::expected_answer_count(motions, &reader),
+        AtomicUsize::new(0),
+    );
     let mut reported = None;
     let mut report = |py: Python<'_>| {
         let now = done.load(Ordering::Relaxed);
@@ -104,13 +107,13 @@ fn question_named(name: &str) -> PyResult<Question> {
     })
 }
 
-fn known_settings(question: Question) -> Vec<&'static str> {
+fn allowed_setting_names(question: Question) -> Vec<&'static str> {
     let of_query = if question.is_for_a_distance() {
-        APPROACH_SETTINGS
+        APPROACH_SETTING_NAMES
     } else {
-        CONTACT_SETTINGS
+        CONTACT_SETTING_NAMES
     };
-    [of_query, TABLE_SETTINGS].concat()
+    [of_query, TABLE_SETTING_NAMES].concat()
 }
 
 /// Returns an error for settings that would be invalid for every row of the table.

@@ -61,23 +61,24 @@ fn main() -> Result<()> {
     println!("\n{:35}      parry   function     Caster  us", "");
     for (name, a) in &small {
         for (other, b) in &large {
-            let parry = micros(|| before(&flies, &**a, &rests, &**b, 0.0, 1.0, true));
+            let parry = median_micros(|| before(&flies, &**a, &rests, &**b, 0.0, 1.0, true));
             let function =
-                micros(|| cast_shapes_nonlinear(&flies, &**a, &rests, &**b, 0.0, 1.0, true));
-            let kept =
-                micros(|| caster.cast_shapes_nonlinear(&flies, a, &rests, b, 0.0, 1.0, true));
+                median_micros(|| cast_shapes_nonlinear(&flies, &**a, &rests, &**b, 0.0, 1.0, true));
+            let kept = median_micros(|| {
+                caster.cast_shapes_nonlinear(&flies, a, &rests, b, 0.0, 1.0, true)
+            });
             println!("{name:10} {other:24} {parry:10.1} {function:10.1} {kept:10.1}");
         }
     }
     for (name, shape) in small.iter().chain(&large) {
-        let made = micros(|| body(&**shape, &Options::default()));
+        let made = median_micros(|| body(&**shape, &Options::default()));
         println!("to make {name}: {made:.1} us");
     }
     Ok(())
 }
 
 /// Returns the median time of a call, in microseconds.
-fn micros<T>(mut call: impl FnMut() -> T) -> f64 {
+fn median_micros<T>(mut call: impl FnMut() -> T) -> f64 {
     call();
     let began = Instant::now();
     let mut times = Vec::new();

@@ -41,7 +41,7 @@ impl BodyCache {
             return last.map_or_else(|| BodyOfShape::new(&form).map(Arc::new), Ok);
         }
         let body = Arc::new(BodyOfShape::new(&form)?);
-        let bytes = body.bytes() + form.bytes();
+        let bytes = body.memory_usage() + form.memory_usage();
         self.evict_until_fits(bytes);
         if bytes <= self.max_bytes {
             self.bodies.push(CachedBody {

@@ -39,7 +39,7 @@ pub(crate) enum PreparedShape {
 struct MotionFromStart {
     motion: Motion,
     /// A bound on the motion's deviation due to rounding.
-    deviation: DeviationBound,
+    deviation_bound: DeviationBound,
 }
 
 impl Cast {
@@ -58,7 +58,7 @@ impl Cast {
         shapes: [&PreparedShape; 2],
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
-        let shifted = self.motions_from_start()?;
+        let shifted = self.relative_motions_from_start()?;
         match shapes {
             [PreparedShape::Body(a), PreparedShape::Body(b)] => {
                 then(&self.scene_of_bodies([a, b], shifted)?)
@@ -83,9 +83,10 @@ impl Cast {
         let frames = shifted.map(|shifted| shifted.motion);
         let shifted = [0, 1].map(|k| shifted[k].without_ball_rotation(bodies[k]));
         let sides = [0, 1].map(|k| shifted[k].motion_with_extent(bodies[k]));
-        let slack =
-            |k: usize| bodies[k].slack() + max_point_deviation(shifted[k].deviation, &sides[k]);
-        let rounded = self.velocity_rounding(max_relative_displacement(
+        let slack = |k: usize| {
+            bodies[k].slack() + max_point_deviation(shifted[k].deviation_bound, &sides[k])
+        };
+        let rounded = self.displacement_rounding(max_relative_displacement(
             &sides,
             self.target + self.tolerance(&bodies),
         ));
@@ -114,7 +115,7 @@ impl Cast {
     ) -> Result<T, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
         let side = shifted[1 - index].without_ball_rotation(body);
-        let stray = side.deviation;
+        let stray = side.deviation_bound;
         let side = side.motion_with_extent(body);
         let of_plane = shifted[index].plane_motion_with_extent(&side);
         let within = self.settings(&[body], body.slack())?;
@@ -126,9 +127,11 @@ impl Cast {
         // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);
         let away = length(of_plane.about - of_plane.motion.centre());
-        let off = shifted[index].deviation.at(4.0 * reach + away);
-        let slack =
-            body.slack() + max_point_deviation(stray, &side) + off + self.velocity_rounding(reach);
+        let off = shifted[index].deviation_bound.at(4.0 * reach + away);
+        let slack = body.slack()
+            + max_point_deviation(stray, &side)
+            + off
+            + self.displacement_rounding(reach);
         let settings = self.settings(&[body], slack)?;
         let stand_in = plane.covering_box(of_plane, 2.0 * reach).map_err(|error| {
             let which = index as u8 + 1;
@@ -171,14 +174,14 @@ impl Cast {
 
     /// Returns both motions from the start of the interval on, as seen by an observer who moves with the velocity of
     /// the second body. A large common velocity then costs no digits.
-    fn motions_from_start(&self) -> Result<[MotionFromStart; 2], CastError> {
+    fn relative_motions_from_start(&self) -> Result<[MotionFromStart; 2], CastError> {
         let along = self.motions[1].velocity();
         let shifted = |motion: &Motion| MotionFromStart::new(motion, self.interval.start, along);
         CastError::motions_or_error(self.motions.each_ref().map(shifted))
     }
 
     /// Bounds the rounding error of subtracting the velocities, for bodies that move `displacement` past each other.
-    fn velocity_rounding(&self, displacement: f64) -> f64 {
+    fn displacement_rounding(&self, displacement: f64) -> f64 {
         if self.motions[1].velocity() == DVec3::ZERO {
             0.0
         } else {
@@ -235,7 +238,7 @@ impl MotionFromStart {
         let velocity = motion.velocity() - along;
         Ok(MotionFromStart {
             motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,
-            deviation: stray,
+            deviation_bound: stray,
         })
     }
 

@@ -83,7 +83,7 @@ impl CastError {
 pub enum ShapeError {
     /// The type of the shape is not known to this crate.
     #[error("the shape is of a custom type, whose points are not known")]
-    Custom,
+    CustomShapeType,
     /// A half-space is a part of a compound, or is given where a bounded body is required.
     #[error("a half-space is served alone only, and not as a body")]
     HalfSpace,

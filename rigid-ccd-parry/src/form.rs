@@ -20,11 +20,11 @@ pub(crate) struct ShapeGeometry {
     vertices: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     /// The sub-shape index of each triangle.
-    triangle_sub_shapes: Vec<u32>,
+    triangle_sub_shape_indices: Vec<u32>,
     parts: Vec<Part>,
     /// A cylinder or a cone, the radius by which it is grown, and the allowed excess, if the geometry is that shape
     /// alone.
-    round: Option<(SolidOfRevolution, f64, Excess)>,
+    grown_solid_of_revolution: Option<(SolidOfRevolution, f64, Excess)>,
     volume: Volume,
     /// A bound on the rounding error of points, as a length.
     pub(crate) slack: f64,
@@ -48,9 +48,9 @@ impl ShapeGeometry {
     pub(crate) const EMPTY: ShapeGeometry = ShapeGeometry {
         vertices: Vec::new(),
         triangles: Vec::new(),
-        triangle_sub_shapes: Vec::new(),
+        triangle_sub_shape_indices: Vec::new(),
         parts: Vec::new(),
-        round: None,
+        grown_solid_of_revolution: None,
         volume: Volume::Surface,
         slack: 0.0,
         excess: 0.0,
@@ -64,14 +64,16 @@ impl ShapeGeometry {
         excess: Excess,
     ) -> Self {
         ShapeGeometry {
-            round: Some((round, radius, excess)),
+            grown_solid_of_revolution: Some((round, radius, excess)),
             ..ShapeGeometry::EMPTY
         }
     }
 
     /// Returns the geometry with a polytope in place of its cylinder or cone, or unchanged if it has neither.
-    pub(crate) fn with_polytope(&self) -> Result<Cow<'_, ShapeGeometry>, ShapeError> {
-        let Some((round, radius, excess)) = &self.round else {
+    pub(crate) fn with_round_shape_as_polytope(
+        &self,
+    ) -> Result<Cow<'_, ShapeGeometry>, ShapeError> {
+        let Some((round, radius, excess)) = &self.grown_solid_of_revolution else {
             return Ok(Cow::Borrowed(self));
         };
         let about = polytope_around(round, *excess)?;
@@ -150,7 +152,7 @@ impl ShapeGeometry {
         self.vertices.extend(vertices);
         let corners = |face: &[u32; 3]| face.map(|corner| first.saturating_add(corner));
         self.triangles.extend(faces.iter().map(corners));
-        (self.triangle_sub_shapes).extend(numbers.into_iter().take(faces.len()));
+        (self.triangle_sub_shape_indices).extend(numbers.into_iter().take(faces.len()));
     }
 
     /// Returns the geometry of the solid whose surface the triangles are.
@@ -174,7 +176,7 @@ impl ShapeGeometry {
         inner: &ShapeGeometry,
         number: u32,
     ) -> Result<(), ShapeError> {
-        let inner = inner.with_polytope()?;
+        let inner = inner.with_round_shape_as_polytope()?;
         let place = |point: &DVec3| pose.transform_point(*point);
         let reach = (inner.points()).fold(0.0, |most, point| greater(most, length(*point)));
         let moved = if *pose == Pose::IDENTITY {
@@ -198,7 +200,7 @@ impl ShapeGeometry {
     }
 
     /// Returns the approximate memory use in bytes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_usage(&self) -> usize {
         let of_facet = |facet: &Facet| 32 + 4 * facet.corners.len();
         let of_part = |Part { polytope, .. }: &Part| {
             let facets: usize = polytope.facets.iter().map(of_facet).sum();
@@ -216,10 +218,11 @@ impl ShapeGeometry {
                 (low.min(*p), high.max(*p))
             });
         let middle = 0.5 * low + 0.5 * high;
-        let of_part =
-            |part: &Part| farthest(part.polytope.points.iter(), middle) + part.polytope.radius;
+        let of_part = |part: &Part| {
+            max_distance_from(part.polytope.points.iter(), middle) + part.polytope.radius
+        };
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
-        let radius = greater(parts, farthest(self.vertices.iter(), middle));
+        let radius = greater(parts, max_distance_from(self.vertices.iter(), middle));
         (middle, radius * crate::tolerance::ENLARGEMENT_FACTOR)
     }
 
@@ -246,14 +249,16 @@ impl ShapeGeometry {
     pub(crate) fn body(&self) -> Result<(Body, Vec<u32>), ShapeError> {
         let made = match (&self.parts[..], self.triangles.is_empty()) {
             (parts, true) => self.body_of_parts(parts),
-            ([], false) => {
-                Pieces::triangles(&self.vertices, &self.triangles, &self.triangle_sub_shapes)
-                    .and_then(|pieces| Body::new(&pieces, self.volume))
-            }
+            ([], false) => Pieces::triangles(
+                &self.vertices,
+                &self.triangles,
+                &self.triangle_sub_shape_indices,
+            )
+            .and_then(|pieces| Body::new(&pieces, self.volume)),
             (parts, false) => self.body_of_parts(&self.parts_and_triangles(parts)),
         };
         let body = made.map_err(|error| self.shape_error(error))?;
-        let numbers = (0..body.pieces().len()).map(|k| self.sub_shape_of_piece(&body, k));
+        let numbers = (0..body.pieces().len()).map(|k| self.sub_shape_index_of_piece(&body, k));
         let numbers = numbers.collect();
         Ok((body, numbers))
     }
@@ -293,13 +298,13 @@ impl ShapeGeometry {
         let faces = self
             .triangles
             .iter()
-            .zip(&self.triangle_sub_shapes)
+            .zip(&self.triangle_sub_shape_indices)
             .map(of_face);
         parts.iter().cloned().chain(faces).collect()
     }
 
     /// Returns the sub-shape index of a piece of the body.
-    fn sub_shape_of_piece(&self, body: &Body, piece: usize) -> u32 {
+    fn sub_shape_index_of_piece(&self, body: &Body, piece: usize) -> u32 {
         let inside = if body.pieces().are_all_triangles() {
             let mut inside = ConvexCombination::segment([0, 1], 0.5);
             inside.push(2, 0.5);
@@ -329,7 +334,7 @@ impl ShapeGeometry {
         let number = |piece: usize| match self.parts.get(piece) {
             Some(part) => Some(part.number),
             None => self
-                .triangle_sub_shapes
+                .triangle_sub_shape_indices
                 .get(piece - self.parts.len())
                 .copied(),
         };
@@ -375,7 +380,7 @@ const BOX_FACES: [[u32; 4]; 6] = [
     [4, 5, 7, 6],
 ];
 
-fn farthest<'a>(points: impl Iterator<Item = &'a DVec3>, from: DVec3) -> f64 {
+fn max_distance_from<'a>(points: impl Iterator<Item = &'a DVec3>, from: DVec3) -> f64 {
     points.fold(0.0, |most, point| greater(most, length(*point - from)))
 }
 

@@ -6,7 +6,7 @@
 use crate::form::ShapeGeometry;
 use crate::horizon::{MotionWithExtent, QueryDuration, repetition_time, rotation_period};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
+use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_PLANE_EXTENT_RATIO, PLANE_ROUNDING};
 use crate::{BodyOfShape, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
@@ -49,7 +49,7 @@ impl HalfSpace {
         // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
         let size = body.reach + within + length(body.start_position() - plane.start_position());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let most = LARGEST_PLANE_EXTENT * size / speed;
+        let most = LARGEST_PLANE_EXTENT_RATIO * size / speed;
         if speed > 0.0 && horizon.duration() > most {
             QueryDuration::Part(most)
         } else {

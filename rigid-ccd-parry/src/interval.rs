@@ -40,7 +40,7 @@ impl Interval {
     }
 
     /// Returns the sum of the start and `after`, rounded down and clamped to the interval.
-    pub(crate) fn time_after_start(self, after: f64) -> f64 {
+    pub(crate) fn cast_time_at_offset(self, after: f64) -> f64 {
         let time = if self.start == 0.0 {
             after
         } else {

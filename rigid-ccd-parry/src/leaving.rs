@@ -8,7 +8,7 @@ mod direction;
 use crate::form::ShapeGeometry;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
-use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_SLIDING_RATE};
+use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_SLIDING_RATE_SHARE};
 use crate::{BodyOfShape, CastError};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
@@ -144,7 +144,7 @@ fn pieces_begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solve
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
     // The comparison is false for NaN, which does not part.
-    let least = -LARGEST_SLIDING_RATE * length(velocity);
+    let least = -LARGEST_SLIDING_RATE_SHARE * length(velocity);
     direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= least)
 }
 

@@ -27,7 +27,7 @@ pub struct BodyOfShape {
 impl BodyOfShape {
     /// Makes the body from the geometry of a shape.
     pub(crate) fn new(form: &ShapeGeometry) -> Result<Self, ShapeError> {
-        let form = form.with_polytope()?;
+        let form = form.with_round_shape_as_polytope()?;
         let (body, numbers) = form.body()?;
         let together = if form.slack > 0.0 {
             (form.slack + form.excess).next_up()
@@ -73,7 +73,7 @@ impl BodyOfShape {
     }
 
     /// Returns the approximate memory use in bytes.
-    pub fn bytes(&self) -> usize {
+    pub fn memory_usage(&self) -> usize {
         self.body.memory_usage()
             + size_of_val(self.sub_shape_indices.as_slice())
             + size_of::<Self>()

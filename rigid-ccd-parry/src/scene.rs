@@ -91,14 +91,16 @@ impl Scene<'_> {
                 Overlap::Pieces(contact) => {
                     self.hit_from_contact(0.0, &contact, CastStatus::Overlap)
                 }
-                Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
+                Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.hit_when_inside(point),
             }),
-            Outcome::Unresolved(known) => Some(self.hit_at_limit(known.safe_until, solver)),
+            Outcome::Unresolved(known) => Some(self.search_hit_at_limit(known.safe_until, solver)),
             // A first contact has no other outcomes.
             Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 match self.horizon {
                     QueryDuration::WholeCast(_) => None,
-                    QueryDuration::Part(duration) => Some(self.hit_at_limit(duration, solver)),
+                    QueryDuration::Part(duration) => {
+                        Some(self.search_hit_at_limit(duration, solver))
+                    }
                 }
             }
         }
@@ -111,7 +113,7 @@ impl Scene<'_> {
         let normals = [separation.normal, -separation.normal];
         let poses = self.poses(after);
         CastHit {
-            time: self.interval.time_after_start(after),
+            time: self.interval.cast_time_at_offset(after),
             witnesses: [0, 1].map(|k| poses[k].inverse().transform_point(points[k])),
             normals: [0, 1].map(|k| poses[k].rotation().conjugate() * normals[k]),
             sub_shape_indices: [
@@ -123,7 +125,7 @@ impl Scene<'_> {
     }
 
     /// Returns the hit for one body inside the other at the start; `point` is a common point in the world frame.
-    fn inside(&self, point: DVec3) -> CastHit {
+    fn hit_when_inside(&self, point: DVec3) -> CastHit {
         let witnesses = self
             .poses(0.0)
             .map(|pose| pose.inverse().transform_point(point));
@@ -134,7 +136,7 @@ impl Scene<'_> {
     }
 
     /// Returns the hit for a limit reached at the time `after` the start, with the nearest points if they can be found.
-    fn hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
+    fn search_hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
             budget: lesser(self.settings.budget, NEAREST_POINTS_BUDGET),
             deadline: self.settings.deadline,
@@ -153,7 +155,7 @@ impl Scene<'_> {
         match contact {
             Some(contact) => self.hit_from_contact(after, &contact, CastStatus::Limit),
             None => CastHit::hit_without_points(
-                self.interval.time_after_start(after),
+                self.interval.cast_time_at_offset(after),
                 CastStatus::Limit,
             ),
         }

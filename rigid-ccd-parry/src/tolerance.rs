@@ -42,7 +42,7 @@ pub(crate) const PLANE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// The maximum extent of the box that stands for a half-space, in units of the sum of the body's size and its distance
 /// at the start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
-pub(crate) const LARGEST_PLANE_EXTENT: f64 = (1 << 26) as f64;
+pub(crate) const LARGEST_PLANE_EXTENT_RATIO: f64 = (1 << 26) as f64;
 
 /// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of
 /// that displacement. The subtraction is one operation; the displacement's own rounding adds as much.
@@ -63,4 +63,4 @@ pub(crate) const NEAREST_POINTS_BUDGET: u64 = 1 << 16;
 
 /// The largest approach rate of overlapping bodies that counts as sliding, relative to their speed. The direction of
 /// least overlap has an error of some thousand `u`.
-pub(crate) const LARGEST_SLIDING_RATE: f64 = 1.0 / (1u64 << 40) as f64;
+pub(crate) const LARGEST_SLIDING_RATE_SHARE: f64 = 1.0 / (1u64 << 40) as f64;

@@ -60,12 +60,12 @@ pub enum RobotError {
         joint: String,
     },
     /// Several links are the child of no joint, so that the tree has several parts.
-    #[error("links `{first}` and `{second}` both hang on no joint; a robot has one base")]
+    #[error("links `{first_base}` and `{second_base}` both hang on no joint; a robot has one base")]
     TwoBases {
         /// The name of the first base.
-        first: String,
+        first_base: String,
         /// The name of the second base.
-        second: String,
+        second_base: String,
     },
     /// A joint is [reversed](rigid_ccd::trajectory::Joint::reversed).
     #[error("joint `{joint}` is reversed; exchange its parent and its child instead")]
@@ -80,20 +80,20 @@ pub enum RobotError {
         link: String,
     },
     /// A joint follows another joint that does not exist, has no position, or follows the first joint in turn.
-    #[error("joint `{joint}` follows `{followed}`, which has no position of its own")]
+    #[error("joint `{joint}` follows `{followed_joint}`, which has no position of its own")]
     UnfollowableJoint {
         /// The name of the joint that was to follow another joint.
         joint: String,
         /// The name of the joint that was to be followed.
-        followed: String,
+        followed_joint: String,
     },
     /// A configuration does not have exactly one position for each joint with a position of its own.
-    #[error("{given} positions for {expected} joints: {names}")]
+    #[error("{given_count} positions for {expected_count} joints: {names}")]
     WrongPositionCount {
         /// The number of positions in the configuration.
-        given: usize,
+        given_count: usize,
         /// The number of joints with a position of their own.
-        expected: usize,
+        expected_count: usize,
         /// The names of the joints with a position of their own, separated by commas.
         names: String,
     },

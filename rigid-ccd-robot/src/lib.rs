@@ -15,7 +15,7 @@
 //!     position: Position::Free,
 //! }];
 //! let robot = Robot::new(links, joints)?;
-//! assert_eq!(robot.joint_names().collect::<Vec<_>>(), ["hinge"]);
+//! assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["hinge"]);
 //! assert_eq!(robot.pose("arm", &[0.5])?.translation().z, 1.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -44,7 +44,7 @@ pub use error::{PathError, RobotError};
 pub use pairs::{LinkPairs, SkipReason};
 pub use robot::{ChainBetween, Joint, Link, LinkBody, Position, Robot};
 pub use solver::{CellSolver, ClosestApproach, PathContact, PathOutcome, PathPoint};
-pub use urdf::{Geometry, MeshModel, Urdf, UrdfError};
+pub use urdf::{BodyElements, MeshModel, Urdf, UrdfError};
 
 /// The example in the README, run as a doctest.
 #[cfg(doctest)]

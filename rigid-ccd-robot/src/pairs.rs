@@ -36,7 +36,7 @@ impl LinkPairs {
             skip_reasons: BTreeMap::new(),
             links_with_bodies: links,
         };
-        for [one, other] in pairs.all().collect::<Vec<_>>() {
+        for [one, other] in pairs.all_pairs().collect::<Vec<_>>() {
             let is_parent = |link, other| robot.parent_link(link) == Some(other);
             let reason = if is_parent(one, other) || is_parent(other, one) {
                 Some(SkipReason::Adjacent)
@@ -59,7 +59,7 @@ impl LinkPairs {
     }
 
     /// Includes a pair in the check again that was excluded before.
-    pub fn check(&mut self, one: usize, other: usize) {
+    pub fn include(&mut self, one: usize, other: usize) {
         self.skip_reasons.remove(&ordered_pair(one, other));
     }
 
@@ -73,8 +73,8 @@ impl LinkPairs {
     }
 
     /// Iterates over the pairs that are checked, the lower number first.
-    pub fn checked(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.all()
+    pub fn checked_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.all_pairs()
             .filter(|pair| !self.skip_reasons.contains_key(pair))
     }
 
@@ -84,7 +84,7 @@ impl LinkPairs {
     }
 
     /// Iterates over all pairs of links with bodies.
-    fn all(&self) -> impl Iterator<Item = [usize; 2]> {
+    fn all_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let links = self.links_with_bodies.iter().enumerate();
         links.flat_map(|(k, &one)| {
             self.links_with_bodies[k + 1..]

@@ -15,7 +15,7 @@ use tree::Tree;
 ///
 /// A *configuration* has one position for each joint that has a position of its own: in radians for joints that turn, a
 /// length for those that slide. Fixed joints have none, and joints that follow another one neither. Positions are in the
-/// order of [`Robot::joint_names`], which is that in which joints were given.
+/// order of [`Robot::free_joint_names`], which is that in which joints were given.
 #[derive(Clone, Debug)]
 pub struct Robot {
     links: Vec<Link>,
@@ -152,7 +152,7 @@ impl Robot {
     }
 
     /// Returns the names of the joints that have a position of their own, in the order of a configuration.
-    pub fn joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
+    pub fn free_joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
         let free = self.free_joints.iter();
         free.map(|&joint| self.joints[joint].name.as_str())
     }
@@ -236,9 +236,9 @@ impl Robot {
         let expected = self.free_joints.len();
         if configuration.len() != expected {
             return Err(RobotError::WrongPositionCount {
-                given: configuration.len(),
-                expected,
-                names: self.joint_names().collect::<Vec<_>>().join(", "),
+                given_count: configuration.len(),
+                expected_count: expected,
+                names: self.free_joint_names().collect::<Vec<_>>().join(", "),
             });
         }
         for (&joint, &position) in self.free_joints.iter().zip(configuration) {
@@ -305,7 +305,7 @@ fn position_sources_and_free_joints(
 fn unfollowable_joint_error(joint: &Joint, followed: &str) -> RobotError {
     RobotError::UnfollowableJoint {
         joint: joint.name.clone(),
-        followed: followed.to_owned(),
+        followed_joint: followed.to_owned(),
     }
 }
 

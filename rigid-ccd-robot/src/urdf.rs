@@ -33,20 +33,20 @@ use urdf_rs::JointType;
 /// let robot = urdf.read()?;
 /// let pairs = urdf.link_pairs(&robot, None)?;
 /// assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.5]]);
-/// assert_eq!(pairs.checked().count(), 0);
+/// assert_eq!(pairs.checked_pairs().count(), 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Urdf {
     path: PathBuf,
-    packages: SearchFolders,
-    body_elements: Geometry,
+    search_folders: SearchFolders,
+    body_elements: BodyElements,
     meshes: MeshModel,
 }
 
 /// The kind of XML elements of a URDF's links that become bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Geometry {
+pub enum BodyElements {
     /// The elements `collision` of each link: the shapes for collision checks.
     #[default]
     Collision,
@@ -60,9 +60,9 @@ impl Urdf {
     pub fn at(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Urdf {
-            packages: SearchFolders::for_urdf(&path),
+            search_folders: SearchFolders::for_urdf(&path),
             path,
-            body_elements: Geometry::default(),
+            body_elements: BodyElements::default(),
             meshes: MeshModel::default(),
         }
     }
@@ -70,13 +70,13 @@ impl Urdf {
     /// Adds a folder that is searched first for `package://` names. The folder is a package, or holds packages.
     #[must_use]
     pub fn with_package_folder(mut self, folder: impl Into<PathBuf>) -> Self {
-        self.packages.prepend_folder(folder.into());
+        self.search_folders.prepend_folder(folder.into());
         self
     }
 
     /// Sets whether the `collision` or the `visual` elements of links become bodies.
     #[must_use]
-    pub fn with_body_elements(self, geometry: Geometry) -> Self {
+    pub fn with_body_elements(self, geometry: BodyElements) -> Self {
         Urdf {
             body_elements: geometry,
             ..self
@@ -102,7 +102,7 @@ impl Urdf {
             file: self.path.clone(),
             error: error.to_string(),
         })?;
-        let reader = BodyReader::new(&self.packages, self.meshes);
+        let reader = BodyReader::new(&self.search_folders, self.meshes);
         let links = urdf.links.iter().map(|link| self.link(&reader, link));
         let joints = urdf
             .joints
@@ -137,12 +137,12 @@ impl Urdf {
 
     fn link(&self, reader: &BodyReader<'_>, link: &urdf_rs::Link) -> Result<Link, UrdfError> {
         let elements: Vec<(&urdf_rs::Pose, &urdf_rs::Geometry)> = match self.body_elements {
-            Geometry::Collision => link
+            BodyElements::Collision => link
                 .collision
                 .iter()
                 .map(|c| (&c.origin, &c.geometry))
                 .collect(),
-            Geometry::Visual => link
+            BodyElements::Visual => link
                 .visual
                 .iter()
                 .map(|v| (&v.origin, &v.geometry))

@@ -15,12 +15,12 @@ pub use question::Question;
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub(crate) use timed::{TimedQuestion, time};
+pub(crate) use timed::{TimedQuestion, answer_timed};
 
 use crate::ParallelSolver;
 use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
-use crate::table::results::{ClearanceComparison, ResultRow};
+use crate::table::results::{ClearanceAndExcess, ResultRow};
 use ccd_core::{Answer, Body, InputError, Query, Settings};
 use std::num::NonZeroUsize;
 
@@ -62,7 +62,7 @@ impl<'q> Bodies<'q> {
         course: &Movements,
         answer: &Result<TimedAnswer, RowProblem>,
     ) -> ResultRow {
-        let compared = self.clearance_comparison(settings.clearance);
+        let compared = self.clearance_and_excess(settings.clearance);
         match answer {
             Ok(timed) => ResultRow::new(course, (question, &timed.answer), timed.micros, compared),
             Err(problem) => ResultRow::error(course.id(), problem),
@@ -70,8 +70,8 @@ impl<'q> Bodies<'q> {
     }
 
     /// Returns the clearance that distances are compared with, together with the sum of both bodies' excess.
-    pub fn clearance_comparison(self, clearance: Option<f64>) -> ClearanceComparison {
-        ClearanceComparison {
+    pub fn clearance_and_excess(self, clearance: Option<f64>) -> ClearanceAndExcess {
+        ClearanceAndExcess {
             clearance,
             excess: self.a.excess() + self.b.excess(),
         }

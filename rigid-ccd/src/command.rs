@@ -95,7 +95,7 @@ pub fn main() -> ExitCode {
     let given = Cli::command().get_matches();
     let cli = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
     let of_command = given.subcommand().map_or(&given, |(_, options)| options);
-    exit_code(match cli.command {
+    print_error_and_get_exit_code(match cli.command {
         Command::Query(args) => query::run(&args, of_command),
         Command::View(args) => view::run(&args),
         Command::Scene(args) => scene::run(&args),
@@ -107,7 +107,7 @@ pub fn main() -> ExitCode {
 
 /// Returns the exit code of a run, and prints its error, if there is one. The code is 0 for success, 1 for results that
 /// cannot be written, 2 for bad input, and 3 for rows that fail `--check`.
-pub fn exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
+pub fn print_error_and_get_exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
     match outcome {
         Ok(RunOutcome::AllAnswered) => ExitCode::SUCCESS,
         Ok(RunOutcome::SomeRowsBad) => ExitCode::from(2),
@@ -127,12 +127,12 @@ pub fn exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
 
 /// Writes a message to standard error, after the program's name.
 pub fn print_error(message: &str) {
-    print_line(&format!("{}: {message}", program_name()));
+    print_escaped_to_stderr(&format!("{}: {message}", program_name()));
 }
 
 /// Writes a line to standard error, with control characters escaped. So a cell or a file name in the line cannot move
 /// the cursor, change colours or end the line.
-pub(crate) fn print_line(line: &str) {
+pub(crate) fn print_escaped_to_stderr(line: &str) {
     // A message that cannot be written is not a failure.
     let _ = writeln!(io::stderr(), "{}", PrintableText(line));
 }

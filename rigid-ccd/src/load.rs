@@ -22,7 +22,7 @@ use std::path::Path;
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
-    let source = BodySource::from_file(path.as_ref().into());
+    let source = BodySource::from_path(path.as_ref().into());
     Ok(source.load(Detail::Auto)?.body)
 }
 
@@ -38,7 +38,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load_in_unit(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
-    let source = BodySource::from_file(path.as_ref().into());
+    let source = BodySource::from_path(path.as_ref().into());
     Ok(source.load_in_unit(unit, Detail::Auto)?.body)
 }
 
@@ -57,7 +57,7 @@ pub fn load_in_unit(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyErro
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Result<Body, BodyError> {
-    let source = BodySource::from_file(path.as_ref().into());
+    let source = BodySource::from_path(path.as_ref().into());
     Ok(source.load_adjusted(adjustments, Detail::Auto)?.body)
 }
 

@@ -179,7 +179,7 @@ impl<S: Send> ParallelSolver<S> {
             let index = counter.0.fetch_add(1, Ordering::Relaxed);
             Some((index, queries.get(index)?))
         };
-        self.call_on_each(queries.len(), next, answer)
+        self.answer_on_threads(queries.len(), next, answer)
     }
 
     /// Calls `answer` with a solver and each query of an iterator, in parallel, and returns the results in the order of
@@ -214,12 +214,12 @@ impl<S: Send> ParallelSolver<S> {
         let queries = Mutex::new(queries.fuse().enumerate());
         // The lock is poisoned if the iterator panicked; no work is left then.
         let next = || queries.lock().ok()?.next();
-        self.call_on_each(most, next, answer)
+        self.answer_on_threads(most, next, answer)
     }
 
     /// Calls `answer` on each query that `next` returns, on at most `most` threads, and returns the results in the
     /// order of the queries' indices.
-    fn call_on_each<Q, R: Send>(
+    fn answer_on_threads<Q, R: Send>(
         &mut self,
         most: usize,
         next: impl Fn() -> Option<(usize, Q)> + Sync,

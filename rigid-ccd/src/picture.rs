@@ -48,16 +48,16 @@ pub enum ViewError {
     Input(#[from] InputError),
     /// The bodies are farther apart than the row says, so the row is about other bodies or other motions.
     #[error(
-        "at {time} the bodies are at least {measured_distance} apart, but the row says at most {reported_distance}: it is the answer about \
+        "at {time} the bodies are at least {least_distance} apart, but the row says at most {reported_distance_upper}: it is the answer about \
          other bodies, or other motions"
     )]
     BodiesMismatch {
         /// The time at which the distances are compared.
         time: f64,
         /// A lower bound of the distance of the given bodies at that time.
-        measured_distance: f64,
+        least_distance: f64,
         /// The upper bound of the distance according to the row.
-        reported_distance: f64,
+        reported_distance_upper: f64,
     },
 }
 
@@ -122,7 +122,7 @@ impl<'a> Painter<'a> {
             let found = gap(&mut self.solver, self.bodies, query, floor)?;
             view.ghost_times = found.ghost_times(duration);
             proven = found.least();
-            nearest = found.nearest();
+            nearest = found.nearest_time();
             view.gap = Some(found.gap);
         }
         view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
@@ -161,8 +161,8 @@ impl<'a> Painter<'a> {
         if measured > told + found.tolerance {
             return Err(ViewError::BodiesMismatch {
                 time,
-                measured_distance: measured,
-                reported_distance: told,
+                least_distance: measured,
+                reported_distance_upper: told,
             });
         }
         Ok(())

@@ -81,7 +81,7 @@ impl Remark {
     /// # Complexity
     /// Linear in the body's points.
     pub fn size(body: &Body) -> f64 {
-        sides(corners(body))
+        sides(point_box_corners(body))
             .to_array()
             .into_iter()
             .fold(0.0, greater)
@@ -149,7 +149,7 @@ impl Remark {
 }
 
 /// Returns two opposite corners of a box about each point of a body. The box holds the ball of the piece's radius.
-pub(crate) fn corners(body: &Body) -> impl Iterator<Item = DVec3> {
+pub(crate) fn point_box_corners(body: &Body) -> impl Iterator<Item = DVec3> {
     body.pieces().iter().flat_map(|piece| {
         let radius = DVec3::splat(piece.radius);
         let both = move |&point: &DVec3| [point - radius, point + radius];

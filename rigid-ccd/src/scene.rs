@@ -81,7 +81,7 @@ pub struct FixedBodyError {
 }
 
 /// The number of pairs for each thread that is started: starting a thread takes as long as a few tens of pairs.
-const PAIRS_PER_THREAD: usize = 32;
+const MIN_PAIRS_PER_THREAD: usize = 32;
 
 /// A box that meets the box of every valid motion: coordinates and displacements are at most 1e12.
 const EVERYWHERE_BOX: SweptBox = SweptBox {
@@ -252,7 +252,7 @@ impl<'a> Scene<'a> {
     /// Finds the contacts and errors of the pairs, as far as `goal` needs them, and returns them in arbitrary order.
     fn find_events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = TimeLimits::new(duration, &self.settings);
-        let pairs = self.pairs(duration);
+        let pairs = self.candidate_pairs(duration);
         self.run_pair_queue(&pairs, &clock, goal)
     }
 
@@ -264,14 +264,14 @@ impl<'a> Scene<'a> {
     ) -> Vec<Event> {
         let (members, settings) = (&self.members, &self.settings);
         let query = |pair: [usize; 2]| -> Result<Query<'_>, InputError> {
-            let [a, b] = pair.map(|index| members[index].moving());
+            let [a, b] = pair.map(|index| members[index].moving_body());
             Ok(Query::new(a, b, clock.duration, settings)?.with_deadline(clock.left()))
         };
         let pair_queue = PairQueue::new(pairs, &query, clock.duration, goal);
         let threads = self
             .workers
             .threads()
-            .min(pairs.len().div_ceil(PAIRS_PER_THREAD));
+            .min(pairs.len().div_ceil(MIN_PAIRS_PER_THREAD));
         let events = self
             .workers
             .map(&vec![(); threads], |worker, ()| worker.run(&pair_queue));
@@ -279,9 +279,9 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns the pairs that the filters accept and whose swept boxes meet.
-    fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
+    fn candidate_pairs(&self, duration: f64) -> Vec<[usize; 2]> {
         let swept = |member: &SceneBody<'_>| {
-            let swept = member.moving().swept_box(duration, &self.settings);
+            let swept = member.moving_body().swept_box(duration, &self.settings);
             // Each pair of such a body reports its error.
             swept.unwrap_or(EVERYWHERE_BOX)
         };
@@ -303,7 +303,7 @@ impl Default for Scene<'_> {
 }
 
 impl<'a> SceneBody<'a> {
-    fn moving(&self) -> MovingBody<'a> {
+    fn moving_body(&self) -> MovingBody<'a> {
         (self.body, self.movement).into()
     }
 }

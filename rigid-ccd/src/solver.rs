@@ -121,7 +121,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = query_with_settings(a, b, duration, &self.settings)?;
+        let query = build_query(a, b, duration, &self.settings)?;
         self.best_first.first_contact(&query, &mut self.oracle)
     }
 
@@ -162,7 +162,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = query_with_settings(a, b, duration, &self.settings)?;
+        let query = build_query(a, b, duration, &self.settings)?;
         self.depth_first.any_contact(&query, &mut self.oracle)
     }
 
@@ -189,7 +189,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = query_with_settings(a, b, duration, &self.settings)?;
+        let query = build_query(a, b, duration, &self.settings)?;
         self.best_first.contact_interval(&query, &mut self.oracle)
     }
 
@@ -226,7 +226,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = query_with_settings(a, b, duration, &self.settings)?;
+        let query = build_query(a, b, duration, &self.settings)?;
         self.depth_first.closest_approach(&query, &mut self.oracle)
     }
 
@@ -271,7 +271,7 @@ impl<O: DistanceOracle> Solver<O> {
 }
 
 /// Builds the query of two moving bodies, which borrows the solver's settings.
-fn query_with_settings<'s, 'b: 's>(
+fn build_query<'s, 'b: 's>(
     a: impl Into<MovingBody<'b>>,
     b: impl Into<MovingBody<'b>>,
     duration: f64,

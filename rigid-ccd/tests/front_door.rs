@@ -17,12 +17,12 @@ fn cuboid() -> Body {
     Body::cuboid([0.5, 0.4, 0.3]).unwrap()
 }
 
-fn at(x: f64) -> Pose {
+fn pose_at(x: f64) -> Pose {
     Pose::at([x, 0.1, 0.05]).unwrap()
 }
 
-fn moving(x: f64, speed: f64) -> Motion {
-    Motion::new(at(x), [speed, 0.0, 0.1], [0.3, 2.0, 1.0]).unwrap()
+fn motion_along_x(x: f64, speed: f64) -> Motion {
+    Motion::new(pose_at(x), [speed, 0.0, 0.1], [0.3, 2.0, 1.0]).unwrap()
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn hits_are_the_engines_bit_for_bit() {
     let (mut schedule, mut oracle) = (BestFirst::default(), Direct::default());
     let (mut hits, mut misses) = (0, 0);
     for k in 0..50 {
-        let flies = moving(-3.0, 0.1 * f64::from(k));
+        let flies = motion_along_x(-3.0, 0.1 * f64::from(k));
         let query = Query::new((&a, flies), (&b, Motion::STILL), 1.0, &config).unwrap();
         let answer = schedule.first_contact(&query, &mut oracle).unwrap();
         let found = solver.first_contact((&a, flies), (&b, Motion::STILL), 1.0);
@@ -91,7 +91,7 @@ fn a_limit_is_an_error_with_a_certified_time() {
         budget: 1,
         ..Settings::DEFAULT
     });
-    let found = solver.first_contact((&a, moving(-3.0, 4.0)), (&b, Motion::STILL), 1.0);
+    let found = solver.first_contact((&a, motion_along_x(-3.0, 4.0)), (&b, Motion::STILL), 1.0);
     let known = found.unwrap().hit().unwrap_err();
     let (safe_until, limit) = (known.safe_until, known.limit);
     assert_eq!(limit, Limit::Budget);
@@ -112,15 +112,15 @@ fn invalid_input_is_an_error() {
 #[test]
 fn vectors_are_arrays_or_convert_into_them() {
     let (v, w) = ([1.0, 2.0, 3.0], [0.1, 0.2, 0.3]);
-    let arrays = Motion::new(at(0.0), v, w).unwrap();
-    let vectors = Motion::new(at(0.0), DVec3::from(v), DVec3::from(w)).unwrap();
+    let arrays = Motion::new(pose_at(0.0), v, w).unwrap();
+    let vectors = Motion::new(pose_at(0.0), DVec3::from(v), DVec3::from(w)).unwrap();
     assert_eq!(arrays, vectors);
 }
 
 #[test]
 fn backends_agree() {
     let (a, b) = (capsule(), cuboid());
-    let query = ((&a, moving(-3.0, 4.0)), (&b, Motion::STILL));
+    let query = ((&a, motion_along_x(-3.0, 4.0)), (&b, Motion::STILL));
     let time = |found: Result<Answer, InputError>| found.unwrap().hit().unwrap().unwrap().time;
     let by_default = time(first_contact(query.0, query.1, 1.0));
     let mut gjk = Solver::with_oracle(Gjk);

@@ -15,7 +15,7 @@ static COUNTING_ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 const QUERY_COUNT: u64 = 3_000;
 
 /// Answers all queries, and returns the number of queries whose bodies are in contact at the start.
-fn answer_all<O: DistanceOracle>(mixed: &MixedBodies, solver: &mut Solver<O>) -> u64 {
+fn count_start_contacts<O: DistanceOracle>(mixed: &MixedBodies, solver: &mut Solver<O>) -> u64 {
     let mut at_start = 0;
     for number in 0..QUERY_COUNT {
         let query = mixed.query(number);
@@ -40,12 +40,12 @@ fn queries_do_not_allocate_once_the_solver_is_warm() {
 fn assert_no_allocations_when_warm<O: DistanceOracle>(mixed: &MixedBodies, oracle: O) {
     let mut solver = Solver::with_oracle(oracle);
     let cold = Region::new(COUNTING_ALLOCATOR);
-    let at_start = answer_all(mixed, &mut solver);
+    let at_start = count_start_contacts(mixed, &mut solver);
     // The check can fail: the first round allocates.
     assert!(cold.change().allocations > 0);
     assert!(at_start > QUERY_COUNT / 100, "{at_start}");
     let warm = Region::new(COUNTING_ALLOCATOR);
-    answer_all(mixed, &mut solver);
+    count_start_contacts(mixed, &mut solver);
     let change = warm.change();
     assert_eq!(
         (change.allocations, change.reallocations),

@@ -36,7 +36,7 @@ fn no_files_import_each_other_in_a_circle() {
         let root = workspace.join(name).join("src/lib.rs");
         let texts = parsed_modules(&root);
         files += texts.len();
-        let circles = import_cycles(&imports_by_module(&texts));
+        let circles = imports_leading_to_cycles(&imports_by_module(&texts));
         assert!(circles.is_empty(), "{name}: {circles:#?}");
     }
     assert!(files > 500, "{files}");
@@ -53,7 +53,7 @@ fn a_circle_is_found() {
             let file = syn::parse_file(text).expect("valid Rust");
             (names.map(str::to_owned).collect(), file)
         });
-        import_cycles(&imports_by_module(&BTreeMap::from(texts))).len()
+        imports_leading_to_cycles(&imports_by_module(&BTreeMap::from(texts))).len()
     };
     for end in [
         "use crate::a::{self, Thing};",
@@ -194,7 +194,7 @@ impl<'f> Visit<'f> for PathCollector {
 
 /// Returns the modules in import circles, and the modules that import these. Removes modules without imports until no
 /// such module is left.
-fn import_cycles(imports: &Imports) -> Imports {
+fn imports_leading_to_cycles(imports: &Imports) -> Imports {
     let mut left = imports.clone();
     loop {
         let before = left.len();

@@ -33,10 +33,10 @@ fn normals_are_in_the_cones_of_both_surfaces() {
             let settings = touch.config();
             let problem = touch.query.problem(&bodies, &settings);
             let pairs = problem.contacts_at(0.0).unwrap();
-            assert!(!pairs.is_empty(), "{round} {:?}", bodies.kinds);
+            assert!(!pairs.is_empty(), "{round} {:?}", bodies.piece_kinds);
             for pair in &pairs {
                 if let Some(way) = touch.check(&pair.separation) {
-                    checked[touch.feature_dimension] += 1;
+                    checked[touch.larger_feature_dimension] += 1;
                     blurred += usize::from(way < MIN_WITNESS_DISTANCE);
                 }
             }
@@ -66,20 +66,24 @@ struct FeatureContactCase {
     query: Query,
     gap: f64,
     /// The larger dimension of both features: 0 for a vertex, 1 for an edge, 2 for a face.
-    feature_dimension: usize,
+    larger_feature_dimension: usize,
 }
 
 impl FeatureContactCase {
     fn draw(rng: &mut Pcg64) -> Self {
-        let shape_b = shape(rng);
+        let shape_b = random_shape(rng);
         let same = rng.random_bool(0.4);
-        let shape_a = if same { shape_b.clone() } else { shape(rng) };
+        let shape_a = if same {
+            shape_b.clone()
+        } else {
+            random_shape(rng)
+        };
         let [a, b] = [&shape_a, &shape_b].map(|shape| Support::draw(rng, shape));
         let gap = TESTED_GAPS[rng.random_range(0..TESTED_GAPS.len())];
         let frame = if rng.random_bool(0.3) {
             Pose::IDENTITY
         } else {
-            Pose::new(random_direction(rng), rotation(rng)).unwrap()
+            Pose::new(random_direction(rng), random_rotation(rng)).unwrap()
         };
         // A's support touches B's from the other side; its edge is parallel to B's, or arbitrary.
         let aligned = b.rotation_to_frame() * a.rotation_to_frame().conjugate();
@@ -90,7 +94,7 @@ impl FeatureContactCase {
         };
         let turn = (DQuat::from_axis_angle(b.normal, twist) * facing).normalize();
         let place = b.point + gap * b.normal - turn * a.point;
-        let start = pose_in_frame(&frame, turn, place);
+        let start = pose_from_frame(&frame, turn, place);
         let still = |shape, pose| MovingShape {
             shape,
             motion: Motion::still(pose),
@@ -98,7 +102,7 @@ impl FeatureContactCase {
         FeatureContactCase {
             query: Query::new(still(shape_a, start), still(shape_b, frame)),
             gap,
-            feature_dimension: a.dimension.max(b.dimension),
+            larger_feature_dimension: a.dimension.max(b.dimension),
         }
     }
 
@@ -256,7 +260,7 @@ impl Support {
 }
 
 /// Returns a random box, cube, skewed box, or non-convex shape.
-fn shape(rng: &mut Pcg64) -> Shape {
+fn random_shape(rng: &mut Pcg64) -> Shape {
     let mut half = || rng.random_range(0.3..1.0);
     let half = DVec3::new(half(), half(), half());
     match rng.random_range(0..5) {
@@ -269,18 +273,18 @@ fn shape(rng: &mut Pcg64) -> Shape {
                 .into_iter()
                 .map(|p| p + p.z * lean.with_z(0.0))
                 .collect();
-            Shape::convex(Mesh { vertices, faces })
+            Shape::from_convex_mesh(Mesh { vertices, faces })
         }
         3 => l_prism(),
         _ => dented_cube(0.5, 0.2),
     }
 }
 
-fn pose_in_frame(frame: &Pose, turn: DQuat, place: DVec3) -> Pose {
+fn pose_from_frame(frame: &Pose, turn: DQuat, place: DVec3) -> Pose {
     let rotation = (frame.rotation() * turn).normalize();
     Pose::new(frame.transform_point(place), rotation).unwrap()
 }
 
-fn rotation(rng: &mut Pcg64) -> DQuat {
+fn random_rotation(rng: &mut Pcg64) -> DQuat {
     DQuat::from_axis_angle(random_direction(rng), rng.random_range(0.0..TAU))
 }

@@ -8,7 +8,7 @@ use ccd_tests::backends::Backend;
 use ccd_tests::case::Case;
 use ccd_tests::checks::CheckResult;
 use ccd_tests::distances::distance_to_mesh_feature;
-use ccd_tests::models::Kind;
+use ccd_tests::models::PieceKind;
 use ccd_tests::query::{Bodies, MovingShape, Query};
 use ccd_tests::strategies::{cases, check_cases, scaled_and_remote_cases};
 use std::cell::Cell;
@@ -24,14 +24,17 @@ fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
 }
 
 /// Returns the contacts of the scene with a given name, for every kind of pieces.
-fn scene_contacts(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
+fn scene_contacts(name: &str) -> Vec<([PieceKind; 2], Vec<FeaturePair>)> {
     let scenes = scenes_with_name_prefix(name);
     let query = &scenes[0].query;
     let bodies = query.bodies_of_all_kinds();
     let of_kind = |bodies: &Bodies| {
         let problem = query.problem(bodies, &Settings::DEFAULT);
         let (time, _) = first_contact(&problem).expect("a hit");
-        (bodies.kinds, problem.contacts_at(time).expect("contacts"))
+        (
+            bodies.piece_kinds,
+            problem.contacts_at(time).expect("contacts"),
+        )
     };
     bodies.iter().map(of_kind).collect()
 }
@@ -131,19 +134,21 @@ fn contacts_of_random_cases_hold() {
                 .contacts_at(time)
                 .map_err(|error| error.to_string())?;
             let apart = case.config().margin + problem.tolerance();
-            check_pairs(&query, &pairs, [time, upper, apart], bodies.kinds)?;
+            check_pairs(&query, &pairs, [time, upper, apart], bodies.piece_kinds)?;
             reported.set(reported.get() + pairs.len());
             let names = pairs.iter().map(|pair| [pair.feature_a, pair.feature_b]);
             let names: BTreeSet<Names> = names.collect();
             let exact = match &exact {
-                None if bodies.kinds == [Kind::Triangles; 2] => exact.insert(names.clone()),
-                Some(exact) if !bodies.kinds.contains(&Kind::Parts) => exact,
+                None if bodies.piece_kinds == [PieceKind::Triangles; 2] => {
+                    exact.insert(names.clone())
+                }
+                Some(exact) if !bodies.piece_kinds.contains(&PieceKind::Parts) => exact,
                 _ => continue,
             };
             let count = if *exact == names { &same } else { &coarser };
             count.set(count.get() + 1);
-            if !same_feature_names(&query, &names, exact) {
-                return Err(format!("{:?}: {exact:?}, {names:?}", bodies.kinds));
+            if !are_equivalent_feature_names(&query, &names, exact) {
+                return Err(format!("{:?}: {exact:?}, {names:?}", bodies.piece_kinds));
             }
         }
         Ok(())
@@ -161,7 +166,11 @@ type Names = [Feature; 2];
 
 /// Returns true if `names` and `exact`, the names for triangles, name the same features. A corner or an edge without a
 /// number in a patch may have the name of an adjacent face.
-fn same_feature_names(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
+fn are_equivalent_feature_names(
+    query: &Query,
+    names: &BTreeSet<Names>,
+    exact: &BTreeSet<Names>,
+) -> bool {
     let meshes = [&query.a, &query.b].map(|actor| &actor.shape.mesh);
     let fits = |name: &Names, exact: &Names| {
         (0..2).all(|k| {
@@ -188,7 +197,7 @@ fn check_pairs(
     query: &Query,
     pairs: &[FeaturePair],
     [time, upper, apart]: [f64; 3],
-    kinds: [Kind; 2],
+    kinds: [PieceKind; 2],
 ) -> CheckResult {
     let rounding = query.rounding();
     let nearest = pairs
@@ -208,7 +217,7 @@ fn check_pairs(
             && (it.normal.length() - 1.0).abs() <= 1e-12;
         let off_a = distance_from_feature(&query.a, time, pair.feature_a, it.witness_a);
         let off_b = distance_from_feature(&query.b, time, pair.feature_b, it.witness_b);
-        let parts = kinds.contains(&Kind::Parts);
+        let parts = kinds.contains(&PieceKind::Parts);
         if !good || !parts && !(greater(off_a, off_b) <= rounding) {
             return Err(format!(
                 "{kinds:?}: {pair:?} at {time}: off by {off_a}, {off_b}"

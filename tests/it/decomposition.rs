@@ -3,7 +3,7 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::{DecomposeError, Decomposition, PatchOrder, decompose};
-use ccd_tests::exact::{Effort, Solid};
+use ccd_tests::exact::{SampleCounts, Solid};
 use ccd_tests::models::{
     Mesh, Model, Shape, boulder, convex_solids, cuboid, dented_cube, flat_faced_solids, hollow,
     pile, solids, terrain, torus, torus_knot,
@@ -36,7 +36,11 @@ fn claimed_patches(decomposition: &Decomposition) -> Vec<Claim<'_>> {
 
 /// Checks that the patches cover the mesh, and that their polytopes are valid and inside the solid. Returns the number
 /// of sampled points.
-fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<usize, String> {
+fn check(
+    mesh: &Mesh,
+    decomposition: &Decomposition,
+    effort: SampleCounts,
+) -> Result<usize, String> {
     let solid = Solid::new(mesh);
     let claims = claimed_patches(decomposition);
     check_cover(mesh, &claims)?;
@@ -50,14 +54,14 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
 
 /// Checks the decomposition of a model in every order of patches: the default order with the given effort, the others
 /// quickly.
-fn check_model(model: &Model, effort: Effort) {
-    check_order(PatchOrder::Cresting, model, effort);
+fn check_model(model: &Model, effort: SampleCounts) {
+    check_model_in_order(PatchOrder::Cresting, model, effort);
     for order in [PatchOrder::BreadthFirst, PatchOrder::DepthFirst] {
-        check_order(order, model, Effort::QUICK);
+        check_model_in_order(order, model, SampleCounts::QUICK);
     }
 }
 
-fn check_order(order: PatchOrder, model: &Model, effort: Effort) {
+fn check_model_in_order(order: PatchOrder, model: &Model, effort: SampleCounts) {
     let name = &model.name;
     decompose_shape(&model.shape, order)
         .map_err(|error| error.to_string())
@@ -68,14 +72,18 @@ fn check_order(order: PatchOrder, model: &Model, effort: Effort) {
 #[test]
 fn patches_of_solids() {
     for model in solids() {
-        check_model(&model, Effort::THOROUGH);
+        check_model(&model, SampleCounts::THOROUGH);
     }
 }
 
 #[test]
 fn patches_of_solids_in_general_position() {
     for model in solids() {
-        check_order(PatchOrder::Cresting, &model.turned(), Effort::THOROUGH);
+        check_model_in_order(
+            PatchOrder::Cresting,
+            &model.turned(),
+            SampleCounts::THOROUGH,
+        );
     }
 }
 
@@ -88,7 +96,7 @@ fn patches_of_thousands_of_faces() {
     for (rings, sides) in knots {
         let name = format!("knot of {rings} rings");
         let shape = torus_knot(rings, sides);
-        check_model(&Model { name, shape }, Effort::QUICK);
+        check_model(&Model { name, shape }, SampleCounts::QUICK);
     }
 }
 
@@ -129,7 +137,7 @@ fn patches_of_random_solids() {
             match decompose_shape(&shape, order) {
                 Ok(it) => {
                     whole.set(whole.get() + 1);
-                    let law = check(&shape.mesh, &it, Effort::THOROUGH);
+                    let law = check(&shape.mesh, &it, SampleCounts::THOROUGH);
                     law.map(drop).map_err(TestCaseError::fail)
                 }
                 Err(error) if sound && grid.is_none() => {
@@ -171,7 +179,7 @@ fn coplanar_triangles_go_together() {
 #[test]
 fn a_convex_solid_is_one_patch() {
     for model in convex_solids() {
-        check_model(&model, Effort::QUICK);
+        check_model(&model, SampleCounts::QUICK);
         for order in ORDERS {
             let patches = decompose_shape(&model.shape, order)
                 .expect(&model.name)
@@ -207,7 +215,7 @@ fn the_same_mesh_gives_the_same_patches() {
 #[test]
 fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
     for model in solids() {
-        let flipped = Shape::closed(model.shape.mesh.clone().flipped());
+        let flipped = Shape::from_closed_mesh(model.shape.mesh.clone().flipped());
         for order in ORDERS {
             let (here, there) = (
                 decompose_shape(&model.shape, order).expect(&model.name),
@@ -222,7 +230,7 @@ fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
             if order != PatchOrder::Cresting {
                 continue;
             }
-            check(&flipped.mesh, &there, Effort::QUICK)
+            check(&flipped.mesh, &there, SampleCounts::QUICK)
                 .unwrap_or_else(|why| panic!("{}, {order:?}: {why}", model.name));
         }
     }

@@ -6,7 +6,7 @@ use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::case::Case;
-use ccd_tests::models::Kind;
+use ccd_tests::models::PieceKind;
 use ccd_tests::strategies::{cases, check_cases, runner};
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -57,10 +57,10 @@ fn check_reused_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>(
         let shapes = [&query.a.shape, &query.b.shape];
         let solid = shapes
             .iter()
-            .all(|shape| shape.can_be_made_of(Kind::Patches));
-        let as_patches = solid.then(|| query.bodies([Kind::Patches; 2]));
-        for bodies in as_patches.into_iter().chain([query.triangles()]) {
-            if bodies.pairs() > 1_000 {
+            .all(|shape| shape.can_be_made_of(PieceKind::Patches));
+        let as_patches = solid.then(|| query.bodies([PieceKind::Patches; 2]));
+        for bodies in as_patches.into_iter().chain([query.bodies_of_triangles()]) {
+            if bodies.piece_pair_count() > 1_000 {
                 continue;
             }
             let settings = case.config();

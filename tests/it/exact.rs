@@ -4,7 +4,7 @@ use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_tests::exact::{
-    ConvexCombination, Effort, Location, Solid, samples, side_of, triangle_contains_point,
+    ConvexCombination, Location, SampleCounts, Solid, samples, side_of, triangle_contains_point,
 };
 use ccd_tests::models::{Mesh, convex_solids, cuboid, hollow, l_prism, solids};
 use ccd_tests::referee::{contains, nearest_on_triangle};
@@ -150,10 +150,10 @@ fn solid_angles_give_the_same_locations() {
         let mesh = &model.shape.mesh;
         let solid = Solid::new(mesh);
         let (mut inside, mut outside) = (0, 0);
-        let effort = Effort {
+        let effort = SampleCounts {
             points_per_facet: 0,
-            points_on_chords: 300,
-            inner_points: 300,
+            chord_point_count: 300,
+            inner_point_count: 300,
         };
         for p in samples(&hull(mesh), effort, 1) {
             let near = p.rounded();

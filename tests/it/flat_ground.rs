@@ -4,7 +4,7 @@ use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::{Body, Limit, Motion, Outcome, Pose, Settings, StartPolicy};
 use ccd_tests::backends::for_each_setup;
-use ccd_tests::models::{Kind, Mesh, Shape, cuboid, dented_cube, divided_l_prism, icosphere};
+use ccd_tests::models::{Mesh, PieceKind, Shape, cuboid, dented_cube, divided_l_prism, icosphere};
 use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::strategies::seeds;
 use rand::{RngExt, SeedableRng};
@@ -87,9 +87,9 @@ fn random_ground(rng: &mut Pcg64) -> Shape {
     let cuts = rng.random_range(0..4);
     let sheet = ground_cut_along_lines(rng, cuts);
     if rng.random() {
-        Shape::open(sheet)
+        Shape::from_open_mesh(sheet)
     } else {
-        Shape::closed(slab(sheet))
+        Shape::from_closed_mesh(slab(sheet))
     }
 }
 
@@ -98,10 +98,10 @@ fn random_solid(rng: &mut Pcg64) -> Shape {
     let half = || dvec3(0.3, 0.4, 0.5);
     let shape = match rng.random_range(0..5) {
         0 => cuboid(half()),
-        1 => Shape::closed(cuboid(half()).mesh),
+        1 => Shape::from_closed_mesh(cuboid(half()).mesh),
         2 => divided_l_prism(2),
         3 => dented_cube(0.5, 0.3),
-        _ => Shape::closed(icosphere(0.5, 1).mesh),
+        _ => Shape::from_closed_mesh(icosphere(0.5, 1).mesh),
     };
     let tilt = match rng.random_range(0..3) {
         0 => DQuat::from_rotation_x(rng.random_range(-1.0..1.0)),
@@ -171,16 +171,19 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
         let block = cuboid(dvec3(0.5, 7.0, 0.5 * height));
         let block = block.placed(DQuat::IDENTITY, dvec3(3.0, 0.0, 0.5 * height));
         let cuts = rng.random_range(0..4);
-        let ground = Shape::union([Shape::open(ground_cut_along_lines(rng, cuts)), block]);
+        let ground = Shape::union([
+            Shape::from_open_mesh(ground_cut_along_lines(rng, cuts)),
+            block,
+        ]);
         let half = dvec3(0.3, 0.4, 0.5);
         let mover = if rng.random() {
             cuboid(half)
         } else {
-            Shape::closed(cuboid(half).mesh)
+            Shape::from_closed_mesh(cuboid(half).mesh)
         };
         let speed = rng.random_range(5.0..9.0);
         let query = Query {
-            a: MovingShape::straight(mover, at + 0.5 * DVec3::Z, speed * DVec3::X),
+            a: MovingShape::translating_shape(mover, at + 0.5 * DVec3::Z, speed * DVec3::X),
             b: MovingShape::still(ground, DVec3::ZERO),
             duration: 2.0,
         };
@@ -209,9 +212,10 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
 #[test]
 fn ground_of_a_thousand_triangles_is_as_one() {
     for_random_cases(4, |rng, seed| {
-        let ground = Shape::open(ground_cut_along_lines(rng, 22)).body(Kind::Triangles);
+        let ground =
+            Shape::from_open_mesh(ground_cut_along_lines(rng, 22)).body(PieceKind::Triangles);
         for mover in [random_solid(rng), random_solid(rng), random_solid(rng)] {
-            let mover = mover.body(Kind::Triangles);
+            let mover = mover.body(PieceKind::Triangles);
             let velocity = dvec3(
                 rng.random_range(-6.0..6.0),
                 rng.random_range(-6.0..6.0),
@@ -238,9 +242,9 @@ fn ground_of_a_thousand_triangles_is_as_one() {
 fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     for_random_cases(16, |rng, seed| {
         let wall = cuboid(dvec3(0.5, 7.0, 1.0)).placed(DQuat::IDENTITY, dvec3(3.0, 0.0, 1.0));
-        let sheet = Shape::open(ground_cut_along_lines(rng, 6));
-        let [open, walled] =
-            [&sheet, &Shape::union([sheet.clone(), wall])].map(|shape| shape.body(Kind::Triangles));
+        let sheet = Shape::from_open_mesh(ground_cut_along_lines(rng, 6));
+        let [open, walled] = [&sheet, &Shape::union([sheet.clone(), wall])]
+            .map(|shape| shape.body(PieceKind::Triangles));
         let ball = Body::sphere(0.5).expect("a ball");
         let at = dvec3(
             rng.random_range(-6.0..-2.0),
@@ -279,7 +283,7 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
 fn sheets_within_one_plane_meet() {
     let sheet = |from: f64, to: f64| {
         let corner = |x, y| dvec3(x, y, 0.0);
-        Shape::open(Mesh {
+        Shape::from_open_mesh(Mesh {
             vertices: vec![
                 corner(from, -1.0),
                 corner(to, -1.0),
@@ -290,7 +294,7 @@ fn sheets_within_one_plane_meet() {
         })
     };
     let query = Query {
-        a: MovingShape::straight(sheet(0.0, 1.0), DVec3::ZERO, DVec3::X),
+        a: MovingShape::translating_shape(sheet(0.0, 1.0), DVec3::ZERO, DVec3::X),
         b: MovingShape::still(
             Shape::union([sheet(-1.0, 0.0), sheet(3.0, 4.0)]),
             DVec3::ZERO,

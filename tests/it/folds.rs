@@ -38,8 +38,9 @@ fn loses_edge<const N: usize>(at: usize) -> bool {
     let (mut low, mut high) = ([edge(2.0); N], [edge(1.0); N]);
     (low[at], high[at]) = (edge(1.0), edge(2.0));
     let points = [DVec3::ZERO; 2];
-    let least = fold_edge_distances(black_box(points), &black_box(low), f64::INFINITY, lesser);
-    let most = fold_edge_distances(
+    let least =
+        fold_squared_edge_distances(black_box(points), &black_box(low), f64::INFINITY, lesser);
+    let most = fold_squared_edge_distances(
         black_box(points),
         &black_box(high),
         f64::NEG_INFINITY,
@@ -67,7 +68,7 @@ fn long_computation(x: f64) -> f64 {
 }
 
 #[inline(never)]
-fn fold_edge_distances<const N: usize>(
+fn fold_squared_edge_distances<const N: usize>(
     points: [DVec3; 2],
     edges: &[[DVec3; 2]; N],
     start: f64,

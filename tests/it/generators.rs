@@ -8,7 +8,7 @@ use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn cases_hit_and_miss() {
-    let shares = OutcomeCounts::count(&cases());
+    let shares = OutcomeCounts::count_outcomes(&cases());
     assert!(
         shares.hit_count >= 60 && shares.miss_count >= 50,
         "{shares:?}"
@@ -18,7 +18,7 @@ fn cases_hit_and_miss() {
 
 #[test]
 fn convex_cases_hit_and_miss() {
-    let shares = OutcomeCounts::count(&convex_cases());
+    let shares = OutcomeCounts::count_outcomes(&convex_cases());
     assert!(
         shares.hit_count >= 60 && shares.miss_count >= 50,
         "{shares:?}"
@@ -27,7 +27,7 @@ fn convex_cases_hit_and_miss() {
 
 #[test]
 fn crowded_cases_overlap() {
-    let shares = OutcomeCounts::count(&crowded_cases());
+    let shares = OutcomeCounts::count_outcomes(&crowded_cases());
     assert!(
         shares.start_contact_count >= 50 && shares.nested_count >= 2 && shares.hit_count >= 20,
         "{shares:?}"
@@ -36,7 +36,7 @@ fn crowded_cases_overlap() {
 
 #[test]
 fn remote_cases_hit_and_miss() {
-    let shares = OutcomeCounts::count(&scaled_and_remote_cases());
+    let shares = OutcomeCounts::count_outcomes(&scaled_and_remote_cases());
     assert!(
         shares.hit_count >= 60 && shares.miss_count >= 50,
         "{shares:?}"
@@ -50,12 +50,12 @@ struct OutcomeCounts {
     miss_count: u32,
     start_contact_count: u32,
     nested_count: u32,
-    near_count: u32,
+    too_near_count: u32,
     undecided_count: u32,
 }
 
 impl OutcomeCounts {
-    fn count(strategy: &impl Strategy<Value = Case>) -> OutcomeCounts {
+    fn count_outcomes(strategy: &impl Strategy<Value = Case>) -> OutcomeCounts {
         let mut shares = OutcomeCounts::default();
         let mut runner = runner(1);
         for _ in 0..200 {
@@ -63,11 +63,11 @@ impl OutcomeCounts {
             let query = case.query();
             let judge = Judge::new(&query, &case.config());
             let share = match judge.finding() {
-                _ if judge.nested() => &mut shares.nested_count,
+                _ if judge.are_nested() => &mut shares.nested_count,
                 Finding::ContactAtStart => &mut shares.start_contact_count,
                 Finding::Hit { .. } => &mut shares.hit_count,
                 Finding::Free { .. } => &mut shares.miss_count,
-                Finding::Near { .. } => &mut shares.near_count,
+                Finding::TooNear { .. } => &mut shares.too_near_count,
                 Finding::Undecided { .. } => &mut shares.undecided_count,
             };
             *share += 1;

@@ -61,7 +61,7 @@ fn check_every_breach(case: &Case, count: impl Fn(&Answer)) -> CheckResult {
                 Outcome::Unresolved(_) => judge.check_time(&answer, 0.0),
                 _ => judge.check(&answer, &bodies),
             };
-            law.map_err(|why| format!("{why}\n{lie:?} {:?}\n{answer:?}", bodies.kinds))?;
+            law.map_err(|why| format!("{why}\n{lie:?} {:?}\n{answer:?}", bodies.piece_kinds))?;
         }
     }
     Ok(())

@@ -55,7 +55,7 @@ fn the_certified_time_grows_with_the_budget() {
     let grown = Cell::new(0);
     check_cases(100, cases(), |case| {
         let query = case.query();
-        let bodies = query.triangles();
+        let bodies = query.bodies_of_triangles();
         let mut last = 0.0;
         for budget in [1, 4, 16, 64, 256, 1024] {
             let config = Settings {
@@ -105,7 +105,7 @@ fn a_stopped_query_keeps_what_it_has_proven() {
     let (stopped, advanced) = (Cell::new(0), Cell::new(0));
     check_cases(100, cases(), |case| {
         let query = case.query();
-        let bodies = query.triangles();
+        let bodies = query.bodies_of_triangles();
         let judge = Judge::new(&query, &case.config());
         for calls in [0, 3, 30] {
             let stop = Arc::new(AtomicBool::new(false));

@@ -37,7 +37,7 @@ fn random_cases_keep_any_margin() {
 #[test]
 fn a_falling_cube_stops_at_the_margin() {
     let query = Query::new(
-        MovingShape::straight(cuboid(DVec3::splat(0.5)), 3.0 * DVec3::Z, -4.0 * DVec3::Z),
+        MovingShape::translating_shape(cuboid(DVec3::splat(0.5)), 3.0 * DVec3::Z, -4.0 * DVec3::Z),
         MovingShape::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
     );
     for margin in [0.0, 1e-3, 0.25, 1.5] {

@@ -12,7 +12,7 @@ use ccd_tests::query::{MovingShape, Query};
 fn falling_plate_answer(cells: usize, backend: Backend, tolerance: f64) -> Answer {
     let high = DVec3::new(0.3, 0.2, 0.5);
     let query = Query::new(
-        MovingShape::straight(square_plate(cells), high, -DVec3::Z),
+        MovingShape::translating_shape(square_plate(cells), high, -DVec3::Z),
         MovingShape::still(square_plate(cells), DVec3::ZERO),
     );
     let config = Settings {
@@ -20,7 +20,7 @@ fn falling_plate_answer(cells: usize, backend: Backend, tolerance: f64) -> Answe
         budget: u64::MAX,
         ..Settings::DEFAULT
     };
-    let bodies = query.triangles();
+    let bodies = query.bodies_of_triangles();
     backend.solve(&query.problem(&bodies, &config))
 }
 
@@ -63,7 +63,7 @@ fn combs_of_many_teeth() {
     else {
         panic!("combs meet");
     };
-    let bodies = scene.query.triangles();
+    let bodies = scene.query.bodies_of_triangles();
     let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &Settings::DEFAULT));
     let Outcome::Contact { time, .. } = answer.outcome else {
         panic!("{answer:?}");
@@ -79,7 +79,7 @@ fn combs_of_many_teeth() {
 #[test]
 fn a_fine_screw() {
     let scene = screw_in_nut("T18 fine screw", PITCH, if is_slow_run() { 4 } else { 2 });
-    let bodies = scene.query.triangles();
+    let bodies = scene.query.bodies_of_triangles();
     let config = Settings {
         budget: u64::MAX,
         ..Settings::DEFAULT

@@ -6,7 +6,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_tests::models::cuboid;
 use ccd_tests::query::{MovingShape, Query};
-use ccd_tests::referee::Placement;
+use ccd_tests::referee::RelativeMotion;
 use ccd_tests::strategies::{direction, rotation, runner};
 use proptest::prelude::*;
 
@@ -60,9 +60,9 @@ fn the_referee_moves_bodies_as_the_engine_does() {
                     .expect("finite"),
             };
             let query = Query::new(moving(start_a, 1.0), moving(start_b, -1.0));
-            let [a, b] = Placement::pair(&query);
+            let [a, b] = RelativeMotion::pair(&query);
             for corner in &query.a.shape.mesh.vertices {
-                let seen = b.at(t, *corner) - a.at(t, *corner);
+                let seen = b.point_position_at(t, *corner) - a.point_position_at(t, *corner);
                 let [x, y] =
                     [&query.a, &query.b].map(|actor| actor.motion.pose(t).transform_point(*corner));
                 prop_assert!(seen.distance(y - x) <= query.rounding());

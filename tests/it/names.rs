@@ -3,7 +3,7 @@
 use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Outcome, Settings};
 use ccd_tests::backends::Backend;
-use ccd_tests::models::Kind;
+use ccd_tests::models::PieceKind;
 use ccd_tests::query::MovingShape;
 use ccd_tests::referee::{nearest_on_segment, nearest_on_triangle};
 use ccd_tests::strategies::{cases, check_cases};
@@ -21,11 +21,11 @@ fn contacts_of_patches_name_the_mesh() {
         let shapes = [&query.a.shape, &query.b.shape];
         if !shapes
             .iter()
-            .all(|shape| shape.can_be_made_of(Kind::Patches))
+            .all(|shape| shape.can_be_made_of(PieceKind::Patches))
         {
             return Ok(());
         }
-        let bodies = query.bodies([Kind::Patches; 2]);
+        let bodies = query.bodies([PieceKind::Patches; 2]);
         let config = Settings {
             tolerance: 1e-6,
             ..Settings::DEFAULT
@@ -56,7 +56,7 @@ fn contacts_of_patches_name_the_mesh() {
 
 /// The relation of a contact's feature name to the mesh features that contain the witness.
 #[derive(Clone, Copy)]
-enum NameKind {
+enum NamePrecision {
     /// The name is that of the smallest feature that contains the witness: a vertex before an edge, an edge before a
     /// face.
     SmallestFeature,
@@ -67,13 +67,13 @@ enum NameKind {
 }
 
 /// Returns how a feature name relates to the mesh features that contain the witness; `None` for a wrong name.
-fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NameKind> {
+fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NamePrecision> {
     match (feature, holding.first()) {
-        (Feature::Piece(_), None) => Some(NameKind::None),
-        (named, Some(&least)) if named == least => Some(NameKind::SmallestFeature),
+        (Feature::Piece(_), None) => Some(NamePrecision::None),
+        (named, Some(&least)) if named == least => Some(NamePrecision::SmallestFeature),
         (Feature::Face(_), Some(Feature::Edge(..))) => holding
             .contains(&feature)
-            .then_some(NameKind::LargerFeature),
+            .then_some(NamePrecision::LargerFeature),
         _ => None,
     }
 }

@@ -12,7 +12,7 @@ fn triangles_of_any_shape() {
     check_cases(800, cases(), |case| {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
-        let bodies = query.triangles();
+        let bodies = query.bodies_of_triangles();
         let answer = Backend::DEFAULT.solve(&query.problem(&bodies, &case.config()));
         judge.check(&answer, &bodies)
     });

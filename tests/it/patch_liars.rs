@@ -3,7 +3,7 @@
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Facet, FacetOrigin, Polytope};
-use ccd_tests::exact::{Effort, Solid};
+use ccd_tests::exact::{SampleCounts, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
 use ccd_tests::patches::{Claim, check_cover, check_hull_in_solid, check_polytope};
 
@@ -18,13 +18,13 @@ fn cube() -> (Mesh, Polytope) {
     (shape.mesh, polytope)
 }
 
-const ALL: [u32; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
+const ALL_FACES: [u32; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
 fn assert_refused(lie: impl Fn(&mut Polytope), why: &str) {
     let (mesh, mut polytope) = cube();
     lie(&mut polytope);
     let claim = Claim {
-        faces: &ALL,
+        faces: &ALL_FACES,
         polytope: &polytope,
     };
     let law = check_polytope(&mesh, &claim);
@@ -38,11 +38,11 @@ fn assert_refused(lie: impl Fn(&mut Polytope), why: &str) {
 fn an_honest_patch_keeps_every_law() {
     let (mesh, polytope) = cube();
     let claim = Claim {
-        faces: &ALL,
+        faces: &ALL_FACES,
         polytope: &polytope,
     };
     assert_eq!(check_polytope(&mesh, &claim), Ok(()));
-    let points = check_hull_in_solid(&Solid::new(&mesh), &claim, Effort::THOROUGH, 0);
+    let points = check_hull_in_solid(&Solid::new(&mesh), &claim, SampleCounts::THOROUGH, 0);
     assert!(points.is_ok_and(|count| count > 100));
     assert_eq!(check_cover(&mesh, &[claim]), Ok(()));
 }
@@ -84,9 +84,9 @@ fn an_invalid_cover_is_found() {
         polytope: &polytope,
     };
     for (faces, why) in [
-        (&[&ALL[..11]][..], "face 11 is of 0"),
-        (&[&ALL[..], &ALL[3..4]], "face 3 is of 2"),
-        (&[&ALL[..], &[12]], "no face 12"),
+        (&[&ALL_FACES[..11]][..], "face 11 is of 0"),
+        (&[&ALL_FACES[..], &ALL_FACES[3..4]], "face 3 is of 2"),
+        (&[&ALL_FACES[..], &[12]], "no face 12"),
     ] {
         let claims: Vec<Claim<'_>> = faces.iter().map(|faces| claim(*faces)).collect();
         let law = check_cover(&mesh, &claims);
@@ -121,7 +121,7 @@ fn count_leaving_hulls(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -
             faces: &faces,
             polytope: &polytope,
         };
-        let law = check_hull_in_solid(&solid, &claim, Effort::THOROUGH, 0);
+        let law = check_hull_in_solid(&solid, &claim, SampleCounts::THOROUGH, 0);
         if let Some(leaves) = leaves(faces) {
             assert_eq!(law.is_err(), leaves, "{faces:?} {law:?}");
         }
@@ -185,6 +185,6 @@ fn a_hull_a_rounding_out_of_the_solid_is_found() {
         faces: &[],
         polytope: &lid,
     };
-    let law = check_hull_in_solid(&Solid::new(&mesh), &claim, Effort::QUICK, 0);
+    let law = check_hull_in_solid(&Solid::new(&mesh), &claim, SampleCounts::QUICK, 0);
     assert!(law.is_err(), "{law:?}");
 }

@@ -7,7 +7,7 @@ use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{Answer, Motion, Outcome, Pose, Schedule, Settings};
 use ccd_distance_gjk::Gjk;
 use ccd_tests::analytic::{ExpectedOutcome, scenes_with_name_prefix};
-use ccd_tests::models::{Kind, cuboid};
+use ccd_tests::models::{PieceKind, cuboid};
 use ccd_tests::query::{Bodies, MovingShape, Query};
 use ccd_tests::referee::{Finding, Referee};
 use rand::RngExt;
@@ -18,7 +18,7 @@ fn schedules(bound: VelocityBound) -> [Box<dyn Schedule<Gjk>>; 2] {
     [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
 }
 
-fn answers(problem: &ccd_core::Query<'_>, bound: VelocityBound) -> [Answer; 2] {
+fn solve_by_both_schedules(problem: &ccd_core::Query<'_>, bound: VelocityBound) -> [Answer; 2] {
     schedules(bound).map(|mut schedule| schedule.first_contact(problem, &mut Gjk).unwrap())
 }
 
@@ -33,8 +33,8 @@ fn delay_after_contact(answer: &Answer, contact: f64) -> f64 {
 
 fn bodies(query: &Query) -> Bodies {
     let kind = |actor: &MovingShape| {
-        let kinds: Vec<Kind> = actor.shape.kinds().collect();
-        *[Kind::Patches, Kind::Parts]
+        let kinds: Vec<PieceKind> = actor.shape.kinds().collect();
+        *[PieceKind::Patches, PieceKind::Parts]
             .iter()
             .find(|kind| kinds.contains(kind))
             .expect("convex pieces")
@@ -54,17 +54,17 @@ fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_on
     };
     let bodies = bodies(&scenes[0].query);
     let problem = scenes[0].query.problem(&bodies, &Settings::DEFAULT);
-    for answer in answers(&problem, VelocityBound::Published) {
+    for answer in solve_by_both_schedules(&problem, VelocityBound::Published) {
         assert!(delay_after_contact(&answer, latest) > 0.1, "{answer:?}");
     }
-    for answer in answers(&problem, VelocityBound::Sound) {
+    for answer in solve_by_both_schedules(&problem, VelocityBound::Sound) {
         let late = delay_after_contact(&answer, latest);
         assert!((-1e-3..=1e-12).contains(&late), "{late}: {answer:?}");
     }
 }
 
 /// Returns a query of two thin rods in random orientations, of which one flies at the other and rotates.
-fn random_rods(rng: &mut Pcg64) -> Query {
+fn random_rod_query(rng: &mut Pcg64) -> Query {
     let mut vector = |size: f64| {
         let mut coordinate = || rng.random_range(-size..size);
         DVec3::new(coordinate(), coordinate(), coordinate())
@@ -89,14 +89,14 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
     let mut rng = Pcg64::new(9, 0);
     let (mut hits, mut late) = (0, [0; 2]);
     for _ in 0..300 {
-        let query = random_rods(&mut rng);
+        let query = random_rod_query(&mut rng);
         let Finding::Hit { hi, .. } = Referee::new(&query).finding() else {
             continue;
         };
         hits += 1;
         let bodies = bodies(&query);
         let problem = query.problem(&bodies, &Settings::DEFAULT);
-        for answer in answers(&problem, VelocityBound::Sound) {
+        for answer in solve_by_both_schedules(&problem, VelocityBound::Sound) {
             assert!(
                 delay_after_contact(&answer, hi) <= 1e-9,
                 "{answer:?}: {query:?}"
@@ -104,7 +104,7 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
         }
         for (late, answer) in late
             .iter_mut()
-            .zip(answers(&problem, VelocityBound::Published))
+            .zip(solve_by_both_schedules(&problem, VelocityBound::Published))
         {
             *late += usize::from(delay_after_contact(&answer, hi) > 1e-4);
         }

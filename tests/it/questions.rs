@@ -48,7 +48,7 @@ fn check_every_question(case: &Case) -> CheckResult {
     for_each_trajectory_answer_set(&query, &config, |bodies, asked, answers| {
         if law.is_ok() {
             law = (judge.check(&answers.first_contact, bodies))
-                .and_then(|()| judge.check_any_contact(&answers.any, bodies))
+                .and_then(|()| judge.check_any_contact(&answers.any_contact, bodies))
                 .and_then(|()| judge.check_closest_approach(&answers.closest_approach, bodies))
                 .and_then(|()| judge.check_clearance(&answers.clearance_check, bodies))
                 .and_then(|()| judge.check_contact_interval(&answers.contact_interval, bodies))

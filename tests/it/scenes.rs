@@ -109,7 +109,7 @@ fn check_finding(
             assert!(seen >= gap - query.rounding(), "{name}: {seen} < {gap}");
         }
         // The distance is below that at which the referee can exclude touching.
-        (ExpectedOutcome::Free { gap }, Finding::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
+        (ExpectedOutcome::Free { gap }, Finding::TooNear { .. }) => assert!(*gap <= 2e-9, "{name}"),
         // Sliding at a small distance takes the referee more steps than its limit.
         (ExpectedOutcome::Free { gap }, Finding::Undecided { .. }) => {
             assert!(*gap < 2e-6, "{name}");
@@ -120,7 +120,7 @@ fn check_finding(
                 latest_time: latest,
                 ..
             },
-            Finding::Near { lo },
+            Finding::TooNear { lo },
         ) => {
             assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
         }
@@ -130,7 +130,7 @@ fn check_finding(
             assert_eq!(free, name.contains("right"), "{name}: {finding:?}");
         }
         (ExpectedOutcome::Overlap, Finding::ContactAtStart) | (ExpectedOutcome::Unknown, _) => {}
-        (ExpectedOutcome::Overlap, finding) => assert!(judge.nested(), "{name}: {finding:?}"),
+        (ExpectedOutcome::Overlap, finding) => assert!(judge.are_nested(), "{name}: {finding:?}"),
         (_, finding) => panic!("{name}: {finding:?}"),
     }
 }
@@ -220,7 +220,7 @@ fn check_trajectory_answers(
 ) -> CheckResult {
     check_answer(judge, scene, expect, (bodies, &answers.first_contact))?;
     let TrajectoryAnswers {
-        any,
+        any_contact: any,
         closest_approach: closest,
         contact_interval: interval,
         ..

@@ -130,7 +130,7 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
         let dive = |velocity: DVec3| {
             Query::new(
                 MovingShape::still(cube(), DVec3::ZERO),
-                MovingShape::straight(cube(), side, velocity),
+                MovingShape::translating_shape(cube(), side, velocity),
             )
         };
         for velocity in [-side, -side + 0.5 * DVec3::new(side.y, side.z, side.x)] {
@@ -180,7 +180,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
             let at = |velocity: DVec3| {
                 Query::new(
                     MovingShape::still(floor.clone(), DVec3::ZERO),
-                    MovingShape::straight(
+                    MovingShape::translating_shape(
                         cuboid(half),
                         DVec3::new(0.25, -0.97, half.z + gap),
                         velocity,
@@ -209,7 +209,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
 /// Tests that bodies that touch and approach are not reported free if the oracle claims a wrong axis.
 #[test]
 fn a_liar_cannot_release_a_pair() {
-    let spike = Shape::open(Mesh {
+    let spike = Shape::from_open_mesh(Mesh {
         vertices: vec![
             DVec3::ZERO,
             DVec3::new(0.1, 0.0, 1.0),
@@ -217,7 +217,7 @@ fn a_liar_cannot_release_a_pair() {
         ],
         faces: vec![[0, 1, 2]],
     });
-    let floor = Shape::open(Mesh {
+    let floor = Shape::from_open_mesh(Mesh {
         vertices: vec![
             DVec3::new(-4.0, -4.0, 0.0),
             DVec3::new(4.0, -4.0, 0.0),
@@ -227,9 +227,9 @@ fn a_liar_cannot_release_a_pair() {
     });
     let query = Query::new(
         MovingShape::still(floor, DVec3::ZERO),
-        MovingShape::straight(spike, DVec3::ZERO, -DVec3::Z),
+        MovingShape::translating_shape(spike, DVec3::ZERO, -DVec3::Z),
     );
-    let bodies = query.triangles();
+    let bodies = query.bodies_of_triangles();
     let settings = leave_settings(1e-3);
     let problem = query.problem(&bodies, &settings);
     for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
@@ -265,7 +265,7 @@ fn a_released_contact_may_come_back() {
     let post = cuboid(DVec3::new(0.1, 1.0, 1.0)).moved(DVec3::new(-1.6, 0.0, 0.5));
     let slab = cuboid(DVec3::new(3.0, 3.0, 0.5)).moved(-0.5 * DVec3::Z);
     let query = Query::new(
-        MovingShape::straight(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X),
+        MovingShape::translating_shape(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X),
         MovingShape::still(Shape::union([slab, post]), DVec3::ZERO),
     );
     check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {

@@ -4,7 +4,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
 use ccd_tests::backends::{default_answer, for_each_setup};
 use ccd_tests::models::{
-    Kind, Mesh, Shape, boulder, cuboid, hollow, icosphere, merged_solids, torus,
+    Mesh, PieceKind, Shape, boulder, cuboid, hollow, icosphere, merged_solids, torus,
 };
 use ccd_tests::query::{MovingShape, Query};
 use std::cell::Cell;
@@ -20,16 +20,19 @@ fn check_outcomes(query: &Query, check: impl Fn(Outcome) -> bool) {
     check_outcomes_by_kind(query, |_, outcome| check(outcome));
 }
 
-fn check_outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
+fn check_outcomes_by_kind(query: &Query, check: impl Fn([PieceKind; 2], Outcome) -> bool) {
     for_each_setup(query, &Settings::DEFAULT, |_, setup, answer| {
-        assert!(check(setup.kinds, answer.outcome), "{setup:?}\n{answer:?}");
+        assert!(
+            check(setup.piece_kinds, answer.outcome),
+            "{setup:?}\n{answer:?}"
+        );
     });
 }
 
 /// Returns true if `check` accepts the reported overlap. If pieces may fill the inside of a body, an overlap of pieces
 /// is also right.
 fn is_accepted_overlap(
-    kinds: [Kind; 2],
+    kinds: [PieceKind; 2],
     outcome: Outcome,
     check: impl Fn(Overlap) -> bool,
 ) -> bool {
@@ -37,13 +40,13 @@ fn is_accepted_overlap(
         Outcome::Overlapping {
             overlap: Overlap::Pieces(_),
             ..
-        } => kinds.into_iter().any(Kind::may_fill_interior),
+        } => kinds.into_iter().any(PieceKind::may_fill_interior),
         Outcome::Overlapping { overlap, .. } => check(overlap),
         _ => false,
     }
 }
 
-fn is_b_in_a(kinds: [Kind; 2], outcome: Outcome) -> bool {
+fn is_accepted_b_in_a(kinds: [PieceKind; 2], outcome: Outcome) -> bool {
     is_accepted_overlap(kinds, outcome, |o| matches!(o, Overlap::BInsideA(_)))
 }
 
@@ -129,7 +132,7 @@ fn octahedron(radius: f64) -> Shape {
             _ => [x, z, y],
         }
     };
-    Shape::convex(Mesh {
+    Shape::from_convex_mesh(Mesh {
         vertices: points,
         faces: (0..8).map(face).collect(),
     })
@@ -144,7 +147,7 @@ fn needles_that_cross_overlap() {
             let (sin, cos) = (2.0 * std::f64::consts::FRAC_PI_3 * k as f64).sin_cos();
             DVec3::new(cos, thickness * sin, 0.0)
         };
-        Shape::open(Mesh {
+        Shape::from_open_mesh(Mesh {
             vertices: (0..3).map(corner).collect(),
             faces: vec![[0, 1, 2]],
         })
@@ -202,8 +205,8 @@ fn bodies_far_smaller_than_the_tolerance_are_answered() {
 #[test]
 fn a_solid_inside_a_solid_overlaps() {
     let (small, big) = (
-        || Shape::closed(cube(0.5).mesh),
-        || Shape::closed(cube(2.0).mesh),
+        || Shape::from_closed_mesh(cube(0.5).mesh),
+        || Shape::from_closed_mesh(cube(2.0).mesh),
     );
     let query_of = |a, b| query(a, b, 0.3 * DVec3::ONE);
     check_outcomes_by_kind(&query_of(big(), small()), |kinds, outcome| {
@@ -222,28 +225,33 @@ fn a_solid_inside_a_solid_overlaps() {
 
 #[test]
 fn a_surface_inside_a_solid_overlaps_but_not_inside_a_surface() {
-    let (small, big) = (Shape::open(cube(0.5).mesh), cube(2.0).mesh);
-    let in_solid = query(Shape::closed(big.clone()), small.clone(), DVec3::ZERO);
-    check_outcomes_by_kind(&in_solid, is_b_in_a);
-    check_outcomes(&query(Shape::open(big), small, DVec3::ZERO), |o| {
-        matches!(o, Outcome::Free { .. })
-    });
+    let (small, big) = (Shape::from_open_mesh(cube(0.5).mesh), cube(2.0).mesh);
+    let in_solid = query(
+        Shape::from_closed_mesh(big.clone()),
+        small.clone(),
+        DVec3::ZERO,
+    );
+    check_outcomes_by_kind(&in_solid, is_accepted_b_in_a);
+    check_outcomes(
+        &query(Shape::from_open_mesh(big), small, DVec3::ZERO),
+        |o| matches!(o, Outcome::Free { .. }),
+    );
 }
 
 #[test]
 fn the_hole_of_a_torus_is_outside() {
     let ring = torus(1.0, 0.25, 16, 8);
-    let ball = |r| Shape::closed(icosphere(r, 1).mesh);
+    let ball = |r| Shape::from_closed_mesh(icosphere(r, 1).mesh);
     let free = |o| matches!(o, Outcome::Free { .. });
     check_outcomes(&query(ring.clone(), ball(0.3), DVec3::ZERO), free);
-    check_outcomes_by_kind(&query(ring, ball(0.1), DVec3::X), is_b_in_a);
+    check_outcomes_by_kind(&query(ring, ball(0.1), DVec3::X), is_accepted_b_in_a);
 }
 
 #[test]
 fn the_second_of_two_shells_is_found_inside() {
     let two = merged_solids(&cube(0.2).moved(9.0 * DVec3::X), &cube(0.2));
-    let big = Shape::closed(cube(1.0).mesh);
-    check_outcomes_by_kind(&query(big, two, DVec3::ZERO), is_b_in_a);
+    let big = Shape::from_closed_mesh(cube(1.0).mesh);
+    check_outcomes_by_kind(&query(big, two, DVec3::ZERO), is_accepted_b_in_a);
 }
 
 /// Tests that a body in the middle of a solid is reported inside it, although the solid's patches do not fill its
@@ -253,15 +261,15 @@ fn a_body_inside_a_solid_that_its_patches_do_not_fill_overlaps() {
     let found = Cell::new(0);
     for seed in 0..4 {
         let rough = boulder(2, 0.4, seed);
-        let inside_out = Shape::closed(rough.mesh.clone().flipped());
+        let inside_out = Shape::from_closed_mesh(rough.mesh.clone().flipped());
         for big in [rough, inside_out] {
             let query = query(big, icosphere(0.05, 0), DVec3::ZERO);
             check_outcomes_by_kind(&query, |kinds, outcome| {
-                let by_winding = is_b_in_a([Kind::Triangles; 2], outcome);
-                if by_winding && kinds == [Kind::Patches; 2] {
+                let by_winding = is_accepted_b_in_a([PieceKind::Triangles; 2], outcome);
+                if by_winding && kinds == [PieceKind::Patches; 2] {
                     found.set(found.get() + 1);
                 }
-                is_b_in_a(kinds, outcome)
+                is_accepted_b_in_a(kinds, outcome)
             });
         }
     }
@@ -286,7 +294,7 @@ fn a_cavity_is_outside() {
         icosphere(0.1, 1),
         0.75 * DVec3::Y,
     );
-    check_outcomes_by_kind(&wall, is_b_in_a);
+    check_outcomes_by_kind(&wall, is_accepted_b_in_a);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Calls a check for every backend, schedule and kind of piece.
 
-use crate::models::Kind;
+use crate::models::PieceKind;
 use crate::query::{Bodies, Query};
 use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, Body, DistanceOracle, Schedule, Settings};
@@ -54,7 +54,7 @@ pub struct BackendSetup {
     /// The backend that gave the answer.
     pub backend: Backend,
     /// The kinds of pieces of bodies A and B.
-    pub kinds: [Kind; 2],
+    pub piece_kinds: [PieceKind; 2],
 }
 
 /// The largest number of pairs of pieces for which the naive schedule is tested.
@@ -90,9 +90,10 @@ impl Backend {
             ScheduleKind::BestFirst => true,
             // Without trees, the answer would be that of another schedule.
             ScheduleKind::Fast => {
-                bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree)
+                bodies.piece_pair_count() > 1
+                    && [bodies.a(), bodies.b()].iter().all(has_tree_or_one_piece)
             }
-            ScheduleKind::Naive => bodies.pairs() <= MAX_NAIVE_PAIRS,
+            ScheduleKind::Naive => bodies.piece_pair_count() <= MAX_NAIVE_PAIRS,
         };
         fit && self.oracle.supports(bodies)
     }
@@ -125,7 +126,7 @@ impl Backend {
     }
 }
 
-fn has_tree(body: &&Body) -> bool {
+fn has_tree_or_one_piece(body: &&Body) -> bool {
     body.pieces().len() == 1 || body.hull_tree().is_some()
 }
 
@@ -140,7 +141,7 @@ pub fn for_each_setup(
         for backend in Backend::all().filter(|backend| backend.suits_bodies(&bodies)) {
             let setup = BackendSetup {
                 backend,
-                kinds: bodies.kinds,
+                piece_kinds: bodies.piece_kinds,
             };
             check(&bodies, setup, backend.solve(&problem));
         }
@@ -149,6 +150,6 @@ pub fn for_each_setup(
 
 /// Returns the answer of the default backend to a query, with both bodies made of triangles.
 pub fn default_answer(query: &Query, config: &Settings) -> Answer {
-    let bodies = query.triangles();
+    let bodies = query.bodies_of_triangles();
     Backend::DEFAULT.solve(&query.problem(&bodies, config))
 }

@@ -26,17 +26,17 @@ pub struct Case {
     pub margin: f64,
     /// The policy for contacts at the start, for [`Settings::start`].
     #[serde(default)]
-    pub start: Start,
+    pub start: StartPolicyText,
     /// Body A and its motion.
-    pub a: Part,
+    pub a: MovingModel,
     /// Body B and its motion.
-    pub b: Part,
+    pub b: MovingModel,
 }
 
 /// The text form of a [`StartPolicy`] in a file.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Start {
+pub enum StartPolicyText {
     /// Stands for [`StartPolicy::Report`].
     #[default]
     Report,
@@ -47,7 +47,7 @@ pub enum Start {
 /// A body of a [`Case`], with its motion.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct Part {
+pub struct MovingModel {
     /// The shape of the body, as a model with its parameters.
     pub shape: Model,
     /// The factor by which every coordinate of the shape is multiplied.
@@ -142,8 +142,8 @@ impl Case {
             tolerance: self.tolerance,
             margin: self.margin,
             start: match self.start {
-                Start::Report => StartPolicy::Report,
-                Start::Leave => StartPolicy::Leave,
+                StartPolicyText::Report => StartPolicy::Report,
+                StartPolicyText::Leave => StartPolicy::Leave,
             },
             ..Settings::DEFAULT
         }
@@ -155,10 +155,10 @@ impl Case {
     }
 }
 
-impl Part {
+impl MovingModel {
     /// Returns a body with the given shape, at rest at the origin.
     pub fn new(shape: Model) -> Self {
-        Part {
+        MovingModel {
             shape,
             scale: 1.0,
             position: [0.0; 3],
@@ -211,7 +211,7 @@ impl Model {
                 models::pile(*size, u64::from(*seed)).scaled(unit)
             }
             Model::Gear { spokes } => models::gear(*spokes),
-            Model::Soup { triangles } => Shape::open(soup(triangles)),
+            Model::Soup { triangles } => Shape::from_open_mesh(soup(triangles)),
             Model::Plate { cells } => models::square_plate(*cells),
             Model::Needles { count, width } => models::needles(*count, *width),
         }

@@ -5,9 +5,9 @@ mod questions;
 use crate::distances::{
     distance_to_mesh, distance_to_mesh_feature, distance_to_part_feature, distance_to_piece,
 };
-use crate::models::Kind;
+use crate::models::PieceKind;
 use crate::query::{Bodies, MovingShape, Query};
-use crate::referee::{Finding, Placement, Referee};
+use crate::referee::{Finding, Referee, RelativeMotion};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Answer, Body, Contact, Feature, Outcome, Overlap, Piece, Separation, Settings};
@@ -72,7 +72,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns true if one solid contains the other at the start.
-    pub fn nested(&self) -> bool {
+    pub fn are_nested(&self) -> bool {
         self.are_nested
     }
 
@@ -116,7 +116,7 @@ impl<'a> Judge<'a> {
             }
             Outcome::Free { proven_gap } => {
                 law!(
-                    self.finding.latest_contact_time().is_none(),
+                    self.finding.proven_contact_time().is_none(),
                     "missed: {:?}",
                     self.finding
                 );
@@ -155,12 +155,12 @@ impl<'a> Judge<'a> {
 
     /// Returns true if a point of a piece at the start is inside its body's solid or on its mesh. The body is A (0) or
     /// B (1). Parts are not checked, because they need not be closed together.
-    fn is_in_solid(&self, body: usize, point: DVec3, kind: Kind) -> bool {
-        let placements = Placement::pair(self.query);
-        let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();
+    fn may_lie_in_body(&self, body: usize, point: DVec3, kind: PieceKind) -> bool {
+        let placements = RelativeMotion::pair(self.query);
+        let to_world = |p| placements[body].point_position_at(0.0, p) + placements[0].origin();
         let mesh = &[&self.query.a, &self.query.b][body].shape.mesh;
-        kind == Kind::Parts
-            || kind != Kind::Triangles && self.referee.holds(body, point)
+        kind == PieceKind::Parts
+            || kind != PieceKind::Triangles && self.referee.contains_at_start(body, point)
             || distance_to_mesh(point, mesh, to_world) <= self.query.rounding()
     }
 
@@ -169,7 +169,8 @@ impl<'a> Judge<'a> {
             Overlap::Pieces(contact) => {
                 let gap = self.referee.gap(0.0);
                 let both = [contact.separation.witness_a, contact.separation.witness_b];
-                let inside = || (0..2).all(|k| self.is_in_solid(k, both[k], bodies.kinds[k]));
+                let inside =
+                    || (0..2).all(|k| self.may_lie_in_body(k, both[k], bodies.piece_kinds[k]));
                 law!(
                     gap <= self.query.rounding() || inside(),
                     "false: overlap at distance {gap}"
@@ -181,11 +182,11 @@ impl<'a> Judge<'a> {
                 check_contact(self.query, 0.0, contact, bodies, f64::INFINITY)
             }
             Overlap::AInsideB(p) => {
-                law!(self.referee.holds(1, *p), "{p} is not inside B");
+                law!(self.referee.contains_at_start(1, *p), "{p} is not inside B");
                 Ok(())
             }
             Overlap::BInsideA(p) => {
-                law!(self.referee.holds(0, *p), "{p} is not inside A");
+                law!(self.referee.contains_at_start(0, *p), "{p} is not inside A");
                 Ok(())
             }
         }
@@ -212,22 +213,22 @@ pub fn check_contact(
         witness_b,
         ..
     } = contact.separation;
-    let placements = Placement::pair(query);
+    let placements = RelativeMotion::pair(query);
     // Placements are relative to A's centre, but witnesses are not.
     let drift = placements[0].origin() + time * query.a.motion.velocity();
     let side_a = ContactSide {
         moving_shape: &query.a,
         body: bodies.a(),
-        kind: bodies.kinds[0],
+        kind: bodies.piece_kinds[0],
         piece: contact.piece_a,
-        to_world: &|p| placements[0].at(time, p) + drift,
+        to_world: &|p| placements[0].point_position_at(time, p) + drift,
     };
     let side_b = ContactSide {
         moving_shape: &query.b,
         body: bodies.b(),
-        kind: bodies.kinds[1],
+        kind: bodies.piece_kinds[1],
         piece: contact.piece_b,
-        to_world: &|p| placements[1].at(time, p) + drift,
+        to_world: &|p| placements[1].point_position_at(time, p) + drift,
     };
     side_a
         .check_witness(witness_a, contact.feature_a, [reach, rounding])
@@ -279,7 +280,7 @@ fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Che
 struct ContactSide<'a> {
     moving_shape: &'a MovingShape,
     body: &'a Body,
-    kind: Kind,
+    kind: PieceKind,
     piece: u32,
     to_world: &'a dyn Fn(DVec3) -> DVec3,
 }
@@ -311,7 +312,7 @@ impl ContactSide<'_> {
         law!(off <= rounding, "the witness is {off} off its piece");
         let shape = &self.moving_shape.shape;
         let off = match self.kind {
-            Kind::Patches | Kind::Hull if matches!(feature, Feature::Piece(_)) => {
+            PieceKind::Patches | PieceKind::Hull if matches!(feature, Feature::Piece(_)) => {
                 // A virtual facet is inside the surface, which is then nearer to the other body.
                 let off = distance_to_mesh(witness, &shape.mesh, self.to_world);
                 law!(
@@ -320,10 +321,12 @@ impl ContactSide<'_> {
                 );
                 0.0
             }
-            Kind::Triangles | Kind::Patches | Kind::Hull => {
+            PieceKind::Triangles | PieceKind::Patches | PieceKind::Hull => {
                 distance_to_mesh_feature(witness, feature, &shape.mesh, self.to_world)?
             }
-            Kind::Parts => distance_to_part_feature(witness, feature, &shape.parts, self.to_world)?,
+            PieceKind::Parts => {
+                distance_to_part_feature(witness, feature, &shape.parts, self.to_world)?
+            }
         };
         law!(
             off <= rounding,

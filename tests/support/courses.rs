@@ -43,14 +43,14 @@ fn random_trajectory(
     reach: f64,
 ) -> Result<Box<dyn Trajectory>, InputError> {
     Ok(match kind {
-        "motion" => Box::new(motion(rng, reach)?),
+        "motion" => Box::new(random_motion(rng, reach)?),
         "still" => Box::new(Motion::still(pose(rng, reach)?)),
         "screw" => {
-            let axis = vector(rng, 1.0);
+            let axis = random_vector(rng, 1.0);
             let [turns, advance] = [rng.random_range(-3.0..3.0), rng.random_range(-reach..reach)];
             Box::new(screw(
                 pose(rng, reach)?,
-                vector(rng, reach),
+                random_vector(rng, reach),
                 axis,
                 turns,
                 advance,
@@ -63,8 +63,8 @@ fn random_trajectory(
         }
         "poses" => poses(rng, reach)?,
         "thrown" => Box::new(Ballistic::new(
-            motion(rng, reach)?,
-            vector(rng, 4.0 * reach),
+            random_motion(rng, reach)?,
+            random_vector(rng, 4.0 * reach),
         )?),
         "Bézier curve, slerp" => bezier_trajectory(rng, reach)?,
         "B-spline, slerp" => {
@@ -77,10 +77,10 @@ fn random_trajectory(
         }
         "link" => last_link_trajectory(rng, reach)?,
         "smooth" => Box::new(Oscillation {
-            place: vector(rng, reach),
-            amplitude: vector(rng, reach),
+            place: random_vector(rng, reach),
+            amplitude: random_vector(rng, reach),
             rate: rng.random_range(0.5..20.0),
-            axis: vector(rng, 1.0).normalize(),
+            axis: random_vector(rng, 1.0).normalize(),
             angle_amplitude: rng.random_range(0.0..3.0),
         }),
         _ => Box::new(Zigzag {
@@ -103,7 +103,7 @@ fn poses(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError>
         time += [0.01, 0.15, 0.4][rng.random_range(0..3)] * rng.random_range(0.5..1.5);
     }
     Ok(Box::new(
-        Poses::new(stops)?.about(vector(rng, 0.3 * reach))?,
+        Poses::new(stops)?.about(random_vector(rng, 0.3 * reach))?,
     ))
 }
 
@@ -113,7 +113,7 @@ fn bezier_trajectory(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>,
     let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
     Ok(Box::new(
         Spline::new(curve, OrientationCurve::slerp(&random_orientations(rng))?)
-            .about(vector(rng, 0.3 * reach))?,
+            .about(random_vector(rng, 0.3 * reach))?,
     ))
 }
 
@@ -128,41 +128,48 @@ fn last_link_trajectory(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajector
     }))
 }
 
-fn vector(rng: &mut Pcg64, size: f64) -> DVec3 {
+fn random_vector(rng: &mut Pcg64, size: f64) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| rng.random_range(-size..size)))
 }
 
 fn pose(rng: &mut Pcg64, size: f64) -> Result<Pose, InputError> {
-    let turn = DQuat::from_scaled_axis(vector(rng, 3.0));
-    Pose::new(vector(rng, size), turn)
+    let turn = DQuat::from_scaled_axis(random_vector(rng, 3.0));
+    Pose::new(random_vector(rng, size), turn)
 }
 
-fn motion(rng: &mut Pcg64, reach: f64) -> Result<Motion, InputError> {
+fn random_motion(rng: &mut Pcg64, reach: f64) -> Result<Motion, InputError> {
     // Some rotate so often that they repeat their poses.
     let turns = [0.0, 1.0, 6.0, 90.0][rng.random_range(0..4)];
-    let spin = vector(rng, 1.0) * turns;
-    let centre = vector(rng, 0.3 * reach);
-    Motion::about(pose(rng, reach)?, vector(rng, 2.0 * reach), spin, centre)
+    let spin = random_vector(rng, 1.0) * turns;
+    let centre = random_vector(rng, 0.3 * reach);
+    Motion::about(
+        pose(rng, reach)?,
+        random_vector(rng, 2.0 * reach),
+        spin,
+        centre,
+    )
 }
 
 fn points(rng: &mut Pcg64, count: usize, reach: f64) -> Vec<[f64; 3]> {
-    (0..count).map(|_| vector(rng, reach).to_array()).collect()
+    (0..count)
+        .map(|_| random_vector(rng, reach).to_array())
+        .collect()
 }
 
 /// Returns random orientations at even times from 0 to 1, with rotations of less than 1 radian from one to the next.
 fn random_orientations(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
     let count = rng.random_range(2..6);
-    let mut at = DQuat::from_scaled_axis(vector(rng, 3.0));
+    let mut at = DQuat::from_scaled_axis(random_vector(rng, 3.0));
     let key = |k| {
-        at = DQuat::from_scaled_axis(vector(rng, 0.5)) * at;
+        at = DQuat::from_scaled_axis(random_vector(rng, 0.5)) * at;
         (f64::from(k) / f64::from(count - 1), at.to_array())
     };
     (0..count).map(key).collect()
 }
 
 fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
-    let origin = Pose::at(vector(rng, 0.7 * reach))?;
-    let axis = vector(rng, 1.0);
+    let origin = Pose::at(random_vector(rng, 0.7 * reach))?;
+    let axis = random_vector(rng, 1.0);
     if rng.random_bool(0.8) {
         Joint::revolute(origin, axis)
     } else {
@@ -221,7 +228,7 @@ struct Zigzag {
 }
 
 impl Zigzag {
-    fn at(&self, time: f64) -> DVec3 {
+    fn position_at(&self, time: f64) -> DVec3 {
         let last = self.corners.len() - 1;
         let place = time.clamp(0.0, 1.0) * last as f64;
         let k = (place as usize).min(last - 1);
@@ -237,14 +244,17 @@ impl Zigzag {
 
 impl Trajectory for Zigzag {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let ends = [from, to].map(|time| self.at(time));
+        let ends = [from, to].map(|time| self.position_at(time));
         let velocity = if to > from {
             (ends[1] - ends[0]) / (to - from)
         } else {
             DVec3::ZERO
         };
         // It is farthest from the chord at a corner.
-        let off = |time: f64| self.at(time).distance(ends[0] + velocity * (time - from));
+        let off = |time: f64| {
+            self.position_at(time)
+                .distance(ends[0] + velocity * (time - from))
+        };
         let shift =
             (self.inner_corner_times(from, to).map(off)).fold(0.0, ccd_core::order::greater);
         let motion = Motion::new(Pose::at(ends[0])?, velocity, DVec3::ZERO)?;

@@ -8,7 +8,7 @@ mod samples;
 
 pub use blend::ConvexCombination;
 use ccd_core::order::{greater, lesser};
-pub use samples::{Effort, samples};
+pub use samples::{SampleCounts, samples};
 
 use crate::models::Mesh;
 use blend::LazyPoint;
@@ -90,7 +90,9 @@ impl<'a> Solid<'a> {
         for &face in self.columns.candidate_faces(&p) {
             let triangle = self.mesh.triangle(face as usize);
             let top = greater(greater(triangle[0].z, triangle[1].z), triangle[2].z);
-            if top < p.rounded_point.z - p.rounding() || is_outside_projection(triangle, &p) {
+            if top < p.rounded_point.z - p.rounding()
+                || is_certainly_outside_projected_box(triangle, &p)
+            {
                 continue;
             }
             if triangle_contains(triangle, &p) {
@@ -106,7 +108,7 @@ impl<'a> Solid<'a> {
 }
 
 /// Returns true if the projection of a point onto the xy-plane is certainly outside that of a triangle.
-fn is_outside_projection([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
+fn is_certainly_outside_projected_box([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
             lesser(lesser(a[axis], b[axis]), c[axis]),

@@ -2,7 +2,7 @@
 //! by a number.
 
 use crate::models::{
-    Kind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
+    PieceKind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
 };
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Motion, MovingBody, Pose, Settings, StartPolicy};
@@ -30,18 +30,18 @@ impl MixedBodies {
     pub fn new() -> Self {
         let cube = || cuboid(DVec3::splat(0.5));
         let shapes = vec![
-            (cube(), Kind::Triangles),
-            (cube(), Kind::Hull),
-            (rod(1.5, 0.1), Kind::Hull),
-            (l_prism(), Kind::Patches),
-            (comb(6), Kind::Triangles),
-            (needles(20, 1e-3), Kind::Triangles),
-            (icosphere(0.6, 1), Kind::Hull),
-            (icosphere(0.6, 3), Kind::Triangles),
-            (torus(0.7, 0.2, 24, 12), Kind::Triangles),
-            (torus_knot(60, 6), Kind::Triangles),
-            (blob(2), Kind::Triangles),
-            (boulder(2, 0.3, 7), Kind::Triangles),
+            (cube(), PieceKind::Triangles),
+            (cube(), PieceKind::Hull),
+            (rod(1.5, 0.1), PieceKind::Hull),
+            (l_prism(), PieceKind::Patches),
+            (comb(6), PieceKind::Triangles),
+            (needles(20, 1e-3), PieceKind::Triangles),
+            (icosphere(0.6, 1), PieceKind::Hull),
+            (icosphere(0.6, 3), PieceKind::Triangles),
+            (torus(0.7, 0.2, 24, 12), PieceKind::Triangles),
+            (torus_knot(60, 6), PieceKind::Triangles),
+            (blob(2), PieceKind::Triangles),
+            (boulder(2, 0.3, 7), PieceKind::Triangles),
         ];
         let bodies = shapes.iter().map(|(shape, kind)| shape.body(*kind));
         MixedBodies {
@@ -54,7 +54,7 @@ impl MixedBodies {
         let mut rng = Pcg64::seed_from_u64(number);
         let mut body = || rng.random_range(0..self.bodies.len());
         let bodies = [body(), body()];
-        let motions = [0.0, 3.0].map(|apart| motion(&mut rng, apart));
+        let motions = [0.0, 3.0].map(|apart| random_motion(&mut rng, apart));
         let config = Settings {
             tolerance: 10f64.powi(-rng.random_range(2..=7)),
             margin: if rng.random_bool(0.2) { 0.05 } else { 0.0 },
@@ -85,7 +85,7 @@ impl Default for MixedBodies {
 }
 
 /// Returns a random motion that starts near `apart` on the x axis, and in most cases flies towards the origin.
-fn motion(rng: &mut Pcg64, apart: f64) -> Motion {
+fn random_motion(rng: &mut Pcg64, apart: f64) -> Motion {
     let mut vector = |size: f64| DVec3::from_array([0; 3].map(|_| rng.random_range(-size..=size)));
     let (place, axis) = (apart * DVec3::X + vector(0.8), vector(1.0));
     let towards = -place + vector(2.0);

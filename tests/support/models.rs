@@ -49,7 +49,7 @@ pub struct Shape {
 
 /// The kind of pieces of which a body is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum PieceKind {
     /// Makes one piece of each triangle.
     Triangles,
     /// Makes one piece of each known convex part.
@@ -60,19 +60,24 @@ pub enum Kind {
     Hull,
 }
 
-impl Kind {
+impl PieceKind {
     /// All kinds of pieces.
-    pub const ALL: [Kind; 4] = [Kind::Triangles, Kind::Parts, Kind::Patches, Kind::Hull];
+    pub const ALL: [PieceKind; 4] = [
+        PieceKind::Triangles,
+        PieceKind::Parts,
+        PieceKind::Patches,
+        PieceKind::Hull,
+    ];
 
     /// Returns true if pieces of this kind may extend into the interior of the mesh.
     pub fn may_fill_interior(self) -> bool {
-        self != Kind::Triangles
+        self != PieceKind::Triangles
     }
 }
 
 impl Shape {
     /// Creates the solid of a closed mesh without known parts.
-    pub fn closed(mesh: Mesh) -> Self {
+    pub fn from_closed_mesh(mesh: Mesh) -> Self {
         Shape {
             mesh,
             parts: Vec::new(),
@@ -81,15 +86,15 @@ impl Shape {
     }
 
     /// Creates the shape of a mesh that encloses no solid.
-    pub fn open(mesh: Mesh) -> Self {
+    pub fn from_open_mesh(mesh: Mesh) -> Self {
         Shape {
             volume: Volume::Surface,
-            ..Shape::closed(mesh)
+            ..Shape::from_closed_mesh(mesh)
         }
     }
 
     /// Creates the solid of a closed convex mesh, with the whole solid as its only part.
-    pub fn convex(mesh: Mesh) -> Self {
+    pub fn from_convex_mesh(mesh: Mesh) -> Self {
         let facets = mesh.faces.iter().enumerate();
         let part = Polytope {
             points: mesh.vertices.clone(),
@@ -103,13 +108,13 @@ impl Shape {
         };
         Shape {
             parts: vec![part],
-            ..Shape::closed(mesh)
+            ..Shape::from_closed_mesh(mesh)
         }
     }
 
     /// Returns several shapes as one shape, a surface. Vertices and faces are numbered consecutively.
     pub fn union(shapes: impl IntoIterator<Item = Shape>) -> Self {
-        let mut out = Shape::open(Mesh {
+        let mut out = Shape::from_open_mesh(Mesh {
             vertices: Vec::new(),
             faces: Vec::new(),
         });
@@ -171,17 +176,17 @@ impl Shape {
     }
 
     /// Returns the kinds of pieces that the shape can be made of.
-    pub fn kinds(&self) -> impl Iterator<Item = Kind> {
-        Kind::ALL.into_iter().filter(|kind| match kind {
-            Kind::Triangles => !self.mesh.faces.is_empty(),
-            Kind::Parts => !self.parts.is_empty(),
-            Kind::Patches => self.is_solid() && !self.mesh.faces.is_empty(),
-            Kind::Hull => self.is_convex() && !self.mesh.faces.is_empty(),
+    pub fn kinds(&self) -> impl Iterator<Item = PieceKind> {
+        PieceKind::ALL.into_iter().filter(|kind| match kind {
+            PieceKind::Triangles => !self.mesh.faces.is_empty(),
+            PieceKind::Parts => !self.parts.is_empty(),
+            PieceKind::Patches => self.is_solid() && !self.mesh.faces.is_empty(),
+            PieceKind::Hull => self.is_convex() && !self.mesh.faces.is_empty(),
         })
     }
 
     /// Returns true if the shape can be made of a kind of pieces.
-    pub fn can_be_made_of(&self, kind: Kind) -> bool {
+    pub fn can_be_made_of(&self, kind: PieceKind) -> bool {
         self.kinds().any(|known| known == kind)
     }
 
@@ -189,20 +194,20 @@ impl Shape {
     ///
     /// # Panics
     /// If the shape cannot be built of these pieces.
-    pub fn body(&self, kind: Kind) -> Body {
+    pub fn body(&self, kind: PieceKind) -> Body {
         match kind {
-            Kind::Triangles => expect_body(self.mesh.pieces(), self.volume),
-            Kind::Parts => {
+            PieceKind::Triangles => expect_body(self.mesh.pieces(), self.volume),
+            PieceKind::Parts => {
                 let body = expect_body(Pieces::polytopes(&self.parts), Volume::Surface);
                 let tree = build_hull_tree(body.pieces()).expect("a hull tree");
                 body.with_hull_tree(tree).expect("its own hull tree")
             }
-            Kind::Patches => self.prepared(Detail::Patches(PatchOrder::Cresting)),
-            Kind::Hull => self.prepared(Detail::Hull),
+            PieceKind::Patches => self.prepare_body(Detail::Patches(PatchOrder::Cresting)),
+            PieceKind::Hull => self.prepare_body(Detail::Hull),
         }
     }
 
-    fn prepared(&self, detail: Detail) -> Body {
+    fn prepare_body(&self, detail: Detail) -> Body {
         let model = prepare(&self.mesh.to_triangle_mesh(), detail).expect("a closed mesh");
         let model = model.with_hull_tree().expect("a hull tree");
         model.body().expect("a good body")
@@ -277,12 +282,12 @@ fn expect_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
 
 /// Returns two triangles for each cell of a grid of `rows × columns` vertices, row by row. A closed direction wraps
 /// around. Faces are counter-clockwise seen from where rows run to the right and columns upwards.
-fn grid_faces(rows: GridDirection, columns: GridDirection) -> Vec<[u32; 3]> {
+fn grid_faces(rows: GridExtent, columns: GridExtent) -> Vec<[u32; 3]> {
     let vertex =
         |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;
     let mut faces = Vec::new();
-    for i in 0..rows.steps() {
-        for j in 0..columns.steps() {
+    for i in 0..rows.step_count() {
+        for j in 0..columns.step_count() {
             let [a, b, c, d] = [
                 vertex(i, j),
                 vertex(i + 1, j),
@@ -297,21 +302,21 @@ fn grid_faces(rows: GridDirection, columns: GridDirection) -> Vec<[u32; 3]> {
 
 /// The number of vertices of a grid in one direction, which may wrap around.
 #[derive(Clone, Copy)]
-enum GridDirection {
+enum GridExtent {
     Bounded(usize),
     Wrapping(usize),
 }
 
-impl GridDirection {
+impl GridExtent {
     fn count(self) -> usize {
-        let (GridDirection::Bounded(n) | GridDirection::Wrapping(n)) = self;
+        let (GridExtent::Bounded(n) | GridExtent::Wrapping(n)) = self;
         n
     }
 
-    fn steps(self) -> usize {
+    fn step_count(self) -> usize {
         match self {
-            GridDirection::Bounded(n) => n.saturating_sub(1),
-            GridDirection::Wrapping(n) => n,
+            GridExtent::Bounded(n) => n.saturating_sub(1),
+            GridExtent::Wrapping(n) => n,
         }
     }
 }

@@ -3,8 +3,8 @@
 
 use crate::checks::CheckResult;
 use crate::exact::{
-    ConvexCombination, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
-    triangle_contains_point,
+    ConvexCombination, Location, SampleCounts, Solid, is_convex_polygon, is_degenerate, samples,
+    side_of, triangle_contains_point,
 };
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
@@ -45,7 +45,7 @@ pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> CheckResult {
 pub fn check_hull_in_solid(
     solid: &Solid<'_>,
     claim: &Claim<'_>,
-    effort: Effort,
+    effort: SampleCounts,
     seed: u64,
 ) -> Result<usize, String> {
     let all = samples(claim.polytope, effort, seed);

@@ -1,6 +1,6 @@
 //! Queries that both the engine and the referee can answer.
 
-use crate::models::{Kind, Shape};
+use crate::models::{PieceKind, Shape};
 use crate::tolerance::rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -32,7 +32,7 @@ pub struct Bodies {
     a: Rc<Body>,
     b: Rc<Body>,
     /// The kinds of pieces of bodies A and B.
-    pub kinds: [Kind; 2],
+    pub piece_kinds: [PieceKind; 2],
 }
 
 impl Query {
@@ -79,13 +79,13 @@ impl Query {
     pub fn bodies_of_all_kinds(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
         let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
-        let both = |(ka, a): &(Kind, Rc<Body>), (kb, b): &(Kind, Rc<Body>)| {
+        let both = |(ka, a): &(PieceKind, Rc<Body>), (kb, b): &(PieceKind, Rc<Body>)| {
             let kinds = [*ka, *kb];
-            let plain = ka == kb || kinds.contains(&Kind::Triangles);
+            let plain = ka == kb || kinds.contains(&PieceKind::Triangles);
             (plain || kinds.map(Some) == fewest).then(|| Bodies {
                 a: Rc::clone(a),
                 b: Rc::clone(b),
-                kinds,
+                piece_kinds: kinds,
             })
         };
         let with_a = |a| all_b.iter().filter_map(move |b| both(a, b));
@@ -93,16 +93,16 @@ impl Query {
     }
 
     /// Returns the bodies made of triangles.
-    pub fn triangles(&self) -> Bodies {
-        self.bodies([Kind::Triangles; 2])
+    pub fn bodies_of_triangles(&self) -> Bodies {
+        self.bodies([PieceKind::Triangles; 2])
     }
 
     /// Returns the bodies made of given kinds of pieces.
-    pub fn bodies(&self, kinds: [Kind; 2]) -> Bodies {
+    pub fn bodies(&self, kinds: [PieceKind; 2]) -> Bodies {
         Bodies {
             a: Rc::new(self.a.shape.body(kinds[0])),
             b: Rc::new(self.b.shape.body(kinds[1])),
-            kinds,
+            piece_kinds: kinds,
         }
     }
 
@@ -119,7 +119,7 @@ impl Query {
 
 impl Bodies {
     /// Returns the number of pairs of pieces, one piece of each body.
-    pub fn pairs(&self) -> usize {
+    pub fn piece_pair_count(&self) -> usize {
         self.a.pieces().len() * self.b.pieces().len()
     }
 
@@ -141,12 +141,12 @@ impl MovingShape {
     }
 
     /// Returns a shape that starts unrotated at a position and moves at a constant velocity, without rotation.
-    pub fn straight(shape: Shape, at: DVec3, velocity: DVec3) -> Self {
+    pub fn translating_shape(shape: Shape, at: DVec3, velocity: DVec3) -> Self {
         MovingShape::moving(shape, at, velocity, DVec3::ZERO)
     }
 
     /// Returns a shape that starts unrotated at a position and rotates about it.
-    pub fn turning(shape: Shape, at: DVec3, spin: DVec3) -> Self {
+    pub fn rotating_shape(shape: Shape, at: DVec3, spin: DVec3) -> Self {
         MovingShape::moving(shape, at, DVec3::ZERO, spin)
     }
 
@@ -183,7 +183,7 @@ impl MovingShape {
     }
 
     /// Returns the engine's bodies of the shape, one for every kind of pieces that it can be made of.
-    fn bodies(&self) -> Vec<(Kind, Rc<Body>)> {
+    fn bodies(&self) -> Vec<(PieceKind, Rc<Body>)> {
         let built = |kind| (kind, Rc::new(self.shape.body(kind)));
         self.shape.kinds().map(built).collect()
     }

@@ -2,7 +2,7 @@
 //! trajectories, it asks all questions.
 
 use crate::backends::OracleKind;
-use crate::models::Kind;
+use crate::models::PieceKind;
 use crate::query::{Bodies, Query};
 use ccd_core::Schedule;
 use ccd_core::schedule::{BestFirst, DepthFirst};
@@ -14,11 +14,11 @@ use ccd_distance_vmarch::Vmarch;
 
 /// A motion in the form of a user-defined trajectory, by its tangent motions and accelerations of zero.
 #[derive(Clone, Copy, Debug)]
-pub struct UserTrajectory(pub Motion);
+pub struct MotionAsSmoothTrajectory(pub Motion);
 
-impl SmoothTrajectory for UserTrajectory {
+impl SmoothTrajectory for MotionAsSmoothTrajectory {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
-        let UserTrajectory(motion) = self;
+        let MotionAsSmoothTrajectory(motion) = self;
         let (velocity, spin) = (motion.velocity(), motion.spin());
         Motion::about(motion.pose(time), velocity, spin, motion.centre())
     }
@@ -34,12 +34,12 @@ pub struct OracleSetup {
     /// The distance oracle that gave the answer.
     pub oracle: OracleKind,
     /// The kinds of pieces of bodies A and B.
-    pub kinds: [Kind; 2],
+    pub piece_kinds: [PieceKind; 2],
 }
 
 /// The answers to all questions but the first contact, about two motions.
 #[derive(Clone, Copy, Debug)]
-pub struct Answers {
+pub struct MotionAnswers {
     /// The answer to whether the bodies touch at all.
     pub any_contact: Answer,
     /// The answer about the least distance.
@@ -54,7 +54,7 @@ pub struct TrajectoryAnswers {
     /// The answer about the first contact.
     pub first_contact: Answer,
     /// The answer to whether the bodies touch at all.
-    pub any: Answer,
+    pub any_contact: Answer,
     /// The answer about the least distance.
     pub closest_approach: Answer,
     /// A required distance, and the answer to whether the bodies keep it.
@@ -77,9 +77,9 @@ impl OracleKind {
 pub fn for_each_answer_set(
     query: &Query,
     config: &Settings,
-    mut check: impl FnMut(&Bodies, OracleSetup, Answers),
+    mut check: impl FnMut(&Bodies, OracleSetup, MotionAnswers),
 ) {
-    for_each_oracle(query, |bodies, asked| {
+    for_each_oracle_setup(query, |bodies, asked| {
         let answers = match asked.oracle {
             OracleKind::ClosedForm => motion_answers(query, bodies, config, ClosedForm::default()),
             OracleKind::Gjk => motion_answers(query, bodies, config, Gjk),
@@ -98,7 +98,7 @@ pub fn for_each_trajectory_answer_set(
     config: &Settings,
     mut check: impl FnMut(&Bodies, OracleSetup, TrajectoryAnswers),
 ) {
-    for_each_oracle(query, |bodies, asked| {
+    for_each_oracle_setup(query, |bodies, asked| {
         let answers = match asked.oracle {
             OracleKind::ClosedForm => {
                 trajectory_answers(query, bodies, config, ClosedForm::default())
@@ -113,14 +113,20 @@ pub fn for_each_trajectory_answer_set(
     });
 }
 
-fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
+fn for_each_oracle_setup(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
     for bodies in query.bodies_of_all_kinds() {
         for oracle in OracleKind::ALL
             .into_iter()
             .filter(|oracle| oracle.supports(&bodies))
         {
-            let kinds = bodies.kinds;
-            call(&bodies, OracleSetup { oracle, kinds });
+            let kinds = bodies.piece_kinds;
+            call(
+                &bodies,
+                OracleSetup {
+                    oracle,
+                    piece_kinds: kinds,
+                },
+            );
         }
     }
 }
@@ -148,7 +154,7 @@ fn motion_answers<O: DistanceOracle>(
     bodies: &Bodies,
     config: &Settings,
     mut oracle: O,
-) -> Answers {
+) -> MotionAnswers {
     let problem = query.problem(bodies, config);
     let mut schedule = DepthFirst::<O>::default();
     let well_posed = "motions within range";
@@ -157,7 +163,7 @@ fn motion_answers<O: DistanceOracle>(
         .expect(well_posed);
     let (required, keeping) = required_distance_near(&closest, config);
     let problem = query.problem(bodies, &keeping);
-    Answers {
+    MotionAnswers {
         any_contact: schedule
             .any_contact(&problem, &mut oracle)
             .expect(well_posed),
@@ -178,8 +184,8 @@ fn trajectory_answers<O: DistanceOracle>(
     mut oracle: O,
 ) -> TrajectoryAnswers {
     let (a, b) = (
-        UserTrajectory(query.a.motion),
-        UserTrajectory(query.b.motion),
+        MotionAsSmoothTrajectory(query.a.motion),
+        MotionAsSmoothTrajectory(query.b.motion),
     );
     let (a, b) = ((bodies.a(), &a), (bodies.b(), &b));
     let along = ccd_core::Query::new(a, b, query.duration, config).expect("a well-posed query");
@@ -192,7 +198,7 @@ fn trajectory_answers<O: DistanceOracle>(
     let cleared = (depth_first.closest_approach(&keeping, &mut oracle)).expect(well_posed);
     TrajectoryAnswers {
         first_contact: (best_first.first_contact(&along, &mut oracle)).expect(well_posed),
-        any: (depth_first.any_contact(&along, &mut oracle)).expect(well_posed),
+        any_contact: (depth_first.any_contact(&along, &mut oracle)).expect(well_posed),
         closest_approach: closest,
         clearance_check: (required, cleared),
         contact_interval: (best_first.contact_interval(&along, &mut oracle)).expect(well_posed),

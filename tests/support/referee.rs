@@ -8,7 +8,7 @@ mod placement;
 mod triangles;
 
 use ccd_core::order::{greater, lesser};
-pub use placement::Placement;
+pub use placement::RelativeMotion;
 pub(crate) use triangles::{Face, distance_squared};
 pub use triangles::{contains, nearest_on_segment, nearest_on_triangle};
 
@@ -30,7 +30,7 @@ pub enum Finding {
         hi: f64,
     },
     /// The surfaces are apart until `lo`, and later too near for a decision.
-    Near {
+    TooNear {
         /// The time until which the bodies are proven apart.
         lo: f64,
     },
@@ -49,7 +49,7 @@ pub enum Finding {
 /// The judge of the first contact in one query.
 pub struct Referee<'a> {
     query: &'a Query,
-    placements: [Placement; 2],
+    relative_motions: [RelativeMotion; 2],
     margin: f64,
 }
 
@@ -66,7 +66,7 @@ impl<'a> Referee<'a> {
     pub fn with_margin(query: &'a Query, margin: f64) -> Self {
         Referee {
             query,
-            placements: Placement::pair(query),
+            relative_motions: RelativeMotion::pair(query),
             margin,
         }
     }
@@ -90,18 +90,18 @@ impl<'a> Referee<'a> {
     }
 
     /// Returns true if a point in world coordinates lies inside body A (0) or B (1) at the start.
-    pub fn holds(&self, body: usize, point: DVec3) -> bool {
+    pub fn contains_at_start(&self, body: usize, point: DVec3) -> bool {
         let posed = &self.posed_meshes(0.0)[body];
         contains(
             posed.mesh(),
             posed.points(),
-            point - self.placements[0].origin(),
+            point - self.relative_motions[0].origin(),
         )
     }
 
     /// Searches for the first contact of the bodies.
     pub fn finding(&self) -> Finding {
-        let speed = self.speed();
+        let speed = self.distance_rate_bound();
         let close = TOUCHING_DISTANCE_FRACTION * self.size();
         let (mut time, mut least) = (0.0, f64::INFINITY);
         for _ in 0..MAX_STEPS {
@@ -122,8 +122,8 @@ impl<'a> Referee<'a> {
     }
 
     /// Returns an upper bound on the rate of change of the distance.
-    pub fn speed(&self) -> f64 {
-        let [a, b] = &self.placements;
+    pub fn distance_rate_bound(&self) -> f64 {
+        let [a, b] = &self.relative_motions;
         (b.velocity() - a.velocity()).length() + a.max_rotational_speed() + b.max_rotational_speed()
     }
 
@@ -140,7 +140,7 @@ impl<'a> Referee<'a> {
             }
             step *= 1.5;
         }
-        Finding::Near { lo }
+        Finding::TooNear { lo }
     }
 
     fn is_in_contact(&self, time: f64) -> bool {
@@ -153,9 +153,9 @@ impl<'a> Referee<'a> {
     }
 
     fn size(&self) -> f64 {
-        self.placements
+        self.relative_motions
             .iter()
-            .map(Placement::radius)
+            .map(RelativeMotion::radius)
             .fold(0.0, greater)
     }
 
@@ -166,7 +166,7 @@ impl<'a> Referee<'a> {
                 mesh,
                 mesh.vertices
                     .iter()
-                    .map(|&p| self.placements[k].at(time, p))
+                    .map(|&p| self.relative_motions[k].point_position_at(time, p))
                     .collect(),
             )
         };
@@ -176,7 +176,7 @@ impl<'a> Referee<'a> {
 
 impl Finding {
     /// Returns a time at which the bodies are certainly in contact; `None` if no contact is proven.
-    pub fn latest_contact_time(self) -> Option<f64> {
+    pub fn proven_contact_time(self) -> Option<f64> {
         match self {
             Finding::ContactAtStart => Some(0.0),
             Finding::Hit { hi, .. } => Some(hi),

@@ -99,7 +99,7 @@ pub struct PlacedSolid {
 impl PlacedSolid {
     /// Returns the distance of two placed solids; 0 if they overlap.
     pub fn distance(&self, other: &PlacedSolid) -> f64 {
-        if self.contains(other) || other.contains(self) {
+        if self.contains_first_corner(other) || other.contains_first_corner(self) {
             return 0.0;
         }
         let pairs = self.faces.iter().flat_map(|a| {
@@ -111,7 +111,7 @@ impl PlacedSolid {
     }
 
     /// Returns true if the polyhedron contains the first corner of the other one.
-    fn contains(&self, other: &PlacedSolid) -> bool {
+    fn contains_first_corner(&self, other: &PlacedSolid) -> bool {
         let [p, ..] = other.faces[0].corners;
         let below = |Face {
                          corners: [a, b, c], ..

@@ -1,6 +1,6 @@
 //! Generates random cases: shapes, poses and motions such that hits, misses and overlaps all occur.
 
-use crate::case::{Case, Model, Part, Start};
+use crate::case::{Case, Model, MovingModel, StartPolicyText};
 use ccd_core::glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
@@ -12,8 +12,8 @@ use std::f64::consts::{PI, TAU};
 /// The cases are always the same, unless `CCD_TEST_SEED` gives another seed.
 pub fn runner(cases: u32) -> TestRunner {
     TestRunner::new(ProptestConfig {
-        cases: cases * setting("CCD_TEST_CASES", 1),
-        rng_seed: RngSeed::Fixed(u64::from(setting("CCD_TEST_SEED", 0))),
+        cases: cases * number_from_env("CCD_TEST_CASES", 1),
+        rng_seed: RngSeed::Fixed(u64::from(number_from_env("CCD_TEST_SEED", 0))),
         failure_persistence: None,
         max_shrink_iters: 2_000,
         ..ProptestConfig::default()
@@ -23,11 +23,11 @@ pub fn runner(cases: u32) -> TestRunner {
 /// Returns the seeds of `cases` draws, multiplied by the variable `CCD_TEST_CASES`; the seeds depend on
 /// `CCD_TEST_SEED`.
 pub fn seeds(cases: u32) -> std::ops::Range<u64> {
-    let first = u64::from(setting("CCD_TEST_SEED", 0)) << 32;
-    first..first + u64::from(cases) * u64::from(setting("CCD_TEST_CASES", 1))
+    let first = u64::from(number_from_env("CCD_TEST_SEED", 0)) << 32;
+    first..first + u64::from(cases) * u64::from(number_from_env("CCD_TEST_CASES", 1))
 }
 
-fn setting(name: &str, default: u32) -> u32 {
+fn number_from_env(name: &str, default: u32) -> u32 {
     std::env::var(name)
         .ok()
         .and_then(|text| text.parse().ok())
@@ -111,25 +111,27 @@ fn aimed_cases(
         0.0..1.2f64,
         0.3..1.5f64,
     );
-    (part(a), part(b), aim, tolerance, drift()).prop_map(|(a, mut b, aim, tolerance, drift)| {
-        let (towards, apart, side, miss, haste) = aim;
-        let position = apart * towards;
-        // From the start of B to a point that misses A's centre by up to `miss`.
-        let travel = haste * (miss * side - position);
-        b.position = position.into();
-        let mut case = Case {
-            name: String::new(),
-            why: String::new(),
-            duration: 1.0,
-            tolerance,
-            margin: 0.0,
-            start: Start::Report,
-            a,
-            b,
-        };
-        assign_velocity(&mut case, travel, drift);
-        case
-    })
+    (moving_model(a), moving_model(b), aim, tolerance, drift()).prop_map(
+        |(a, mut b, aim, tolerance, drift)| {
+            let (towards, apart, side, miss, haste) = aim;
+            let position = apart * towards;
+            // From the start of B to a point that misses A's centre by up to `miss`.
+            let travel = haste * (miss * side - position);
+            b.position = position.into();
+            let mut case = Case {
+                name: String::new(),
+                why: String::new(),
+                duration: 1.0,
+                tolerance,
+                margin: 0.0,
+                start: StartPolicyText::Report,
+                a,
+                b,
+            };
+            assign_velocity(&mut case, travel, drift);
+            case
+        },
+    )
 }
 
 /// Gives the relative velocity to B, to A, or to B in addition to a common velocity along `drift`.
@@ -148,13 +150,13 @@ fn drift() -> impl Strategy<Value = Option<DVec3>> {
     prop_oneof![Just(None), direction().prop_map(Some)]
 }
 
-fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
+fn moving_model(model: impl Strategy<Value = Model>) -> impl Strategy<Value = MovingModel> {
     (model, vector_up_to_length(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| {
-        Part {
+        MovingModel {
             turned: turned.into(),
             spin: spin.into(),
             centre: centre.into(),
-            ..Part::new(shape)
+            ..MovingModel::new(shape)
         }
     })
 }

@@ -99,7 +99,7 @@ fn serve_standard_streams(solver: &mut dyn Solver, tolerance: f64) -> Result<()>
 
 fn reply_write_error(source: io::Error) -> OutputError {
     OutputError {
-        place: "the replies".to_owned(),
+        file_or_stream: "the replies".to_owned(),
         source,
     }
 }
@@ -121,4 +121,4 @@ fn exit_when_parent_ends() {
 }
 
 #[cfg(not(unix))]
-fn end_with_parent() {}
+fn exit_when_parent_ends() {}

@@ -68,9 +68,9 @@ Examples:
   ccd-bench chart --export scenes           # meshes and motions, for other programs";
 
 /// The tolerances at which methods are measured, from coarse to fine, for bodies of size 1.
-const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+const FULL_TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// The tolerances at which methods are measured without `--full`.
-const COMPARISON_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
+const QUICK_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
 
 /// The limits of each measurement with `--full`, chosen so that everything takes about half an hour.
 const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
@@ -106,7 +106,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<RunOutcome> {
         plan.tolerances.clone_from(&args.tolerances);
     }
     if let Some(folder) = &args.export {
-        export(&plan.listings, plan.models, folder)?;
+        export(&plan.listings, plan.model_folder, folder)?;
         return Ok(RunOutcome::AllAnswered);
     }
     let evaluated = if args.redraw {
@@ -133,9 +133,9 @@ fn plan_measurements(args: &ChartArgs) -> Result<MeasurementPlan> {
         );
     }
     let (allowance, tolerances) = if args.full {
-        (FULL_LIMITS, &TOLERANCES[..])
+        (FULL_LIMITS, &FULL_TOLERANCES[..])
     } else {
-        (QUICK_LIMITS, &COMPARISON_TOLERANCES[..])
+        (QUICK_LIMITS, &QUICK_TOLERANCES[..])
     };
     let methods = Method::built_in_methods().into_iter();
     let methods = methods.filter(|method| args.full || is_in_quick_plan(*method));
@@ -149,7 +149,7 @@ fn plan_measurements(args: &ChartArgs) -> Result<MeasurementPlan> {
             ..allowance
         },
         programs: args.programs.clone(),
-        models: args.models.clone(),
+        model_folder: args.models.clone(),
         folder: args.out.clone(),
     })
 }

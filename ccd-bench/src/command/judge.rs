@@ -1,7 +1,7 @@
 //! The command `ccd-bench judge`: runs one method, and compares its answers with the exact ones.
 
 use crate::method::Method;
-use crate::method::guarded::{GuardSettings, GuardedMethod, MethodPrograms};
+use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms};
 use crate::method::solver::ContactClaim;
 use crate::run::contest::{judge, judge_outcome};
 use crate::truth::{Referee, Surface, TruthRow};
@@ -61,7 +61,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
     let meshes = [read(&args.a)?, read(&args.b)?];
     let surfaces = meshes.each_ref().map(Surface::new);
     let referee = Referee::new(&surfaces[0], &surfaces[1]);
-    let setting = GuardSettings::new(method, args.tolerance);
+    let setting = GuardedMethodSettings::new(method, args.tolerance);
     let guarded = GuardedMethod::start(&args.programs, setting, meshes.each_ref());
     let mut guarded = guarded.with_context(|| name.clone())?;
     let mut table = TableWriter::create(&args.out, &VERDICT_COLUMNS)?;
@@ -71,7 +71,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
         let query = match row.with_context(|| input_name(&args.motions))? {
             Ok((_, query)) => query,
             Err(error) => {
-                bad_rows.report(error.position, &error.problem, &Progress::hidden());
+                bad_rows.report(error.position, &error.problem, &Progress::new_hidden());
                 continue;
             }
         };
@@ -86,7 +86,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
         let claim = asked.claim();
         let (answer, time) = (
             claim.map_or("none", ContactClaim::status),
-            claim.and_then(ContactClaim::time),
+            claim.and_then(ContactClaim::contact_or_safe_time),
         );
         let truth = TruthRow::new(query.id.clone(), query.duration, truth);
         table.write(|writer| writer.serialize((truth, verdict, answer, time)))?;

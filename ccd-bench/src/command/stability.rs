@@ -8,7 +8,8 @@ use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
 use crate::show::write;
 use crate::stability::{
-    Findings, Survey, cost_growth_map, families, first_failure_table, solved_range_map, summary,
+    Findings, Survey, cost_growth_heat_map, families, first_failure_table, solved_range_heat_map,
+    summary,
 };
 use anyhow::{Result, ensure};
 use clap::Args;
@@ -80,8 +81,8 @@ pub(super) fn run(args: &StabilityArgs) -> Result<RunOutcome> {
         "{} holds no answers to draw",
         args.out.display()
     );
-    let reach = solved_range_map(&findings).draw()?;
-    let growth = cost_growth_map(&findings).draw()?;
+    let reach = solved_range_heat_map(&findings).draw()?;
+    let growth = cost_growth_heat_map(&findings).draw()?;
     let limits = format!("{}\n", first_failure_table(&findings));
     let files = [
         ("limits.md", &limits),

@@ -92,7 +92,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
         if batch.is_empty() {
             break;
         }
-        progress.begin_batch(batch.len(), rows.bytes());
+        progress.begin_batch(batch.len(), rows.consumed_bytes());
         let judge = |row: MotionRow| {
             let truth = row.map(|(_, query)| {
                 let truth = referee.first_contact(&query);
@@ -106,7 +106,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
             match truth {
                 Ok(truth) => {
                     *counts.entry(truth.status).or_default() += 1;
-                    widest = greater(widest, truth.width());
+                    widest = greater(widest, truth.bracket_width());
                     table.write(|writer| writer.serialize((truth, "")))?;
                 }
                 Err(error) => {

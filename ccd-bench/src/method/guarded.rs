@@ -21,7 +21,7 @@ use tempfile::TempDir;
 #[derive(Debug)]
 pub struct GuardedMethod {
     program: PathBuf,
-    settings: GuardSettings,
+    settings: GuardedMethodSettings,
     /// The temporary folder with the mesh files of both bodies.
     mesh_folder: TempDir,
     /// The running process; `None` if none is running, so that the next query starts one.
@@ -30,7 +30,7 @@ pub struct GuardedMethod {
 
 /// A method with its tolerance, its margin, and the time limit for its preparation.
 #[derive(Clone, Copy, Debug)]
-pub struct GuardSettings {
+pub struct GuardedMethodSettings {
     /// The method that the process runs.
     pub method: Method,
     /// The tolerance, for methods that take one.
@@ -41,10 +41,10 @@ pub struct GuardSettings {
     pub preparation_limit: Duration,
 }
 
-impl GuardSettings {
+impl GuardedMethodSettings {
     /// Returns the default setting of a method at a tolerance: no margin, and two minutes of preparation.
     pub fn new(method: Method, tolerance: f64) -> Self {
-        GuardSettings {
+        GuardedMethodSettings {
             method,
             tolerance,
             margin: 0.0,
@@ -84,7 +84,7 @@ impl MethodPrograms {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
         let mesh = TriangleMesh::new(corners.to_vec(), &faces).map_err(io::Error::other)?;
-        let setting = GuardSettings::new(method, 1e-3);
+        let setting = GuardedMethodSettings::new(method, 1e-3);
         match GuardedMethod::start(self, setting, [&mesh, &mesh]) {
             Ok(_) => Ok(()),
             Err(error) => Err(io::Error::other(format!(
@@ -142,7 +142,7 @@ impl GuardedMethod {
     /// kind [`TimedOut`](io::ErrorKind::TimedOut) if it takes too long.
     pub fn start(
         programs: &MethodPrograms,
-        setting: GuardSettings,
+        setting: GuardedMethodSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         let mut guarded = GuardedMethod::new(programs, setting, meshes)?;
@@ -156,7 +156,7 @@ impl GuardedMethod {
     /// If the meshes cannot be written, or the method has no program.
     pub fn new(
         programs: &MethodPrograms,
-        setting: GuardSettings,
+        setting: GuardedMethodSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         let program = programs.program_of(setting.method)?;
@@ -169,7 +169,7 @@ impl GuardedMethod {
     /// If the meshes cannot be written.
     pub fn with_program(
         program: PathBuf,
-        setting: GuardSettings,
+        setting: GuardedMethodSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         let folder = TempDir::with_prefix("ccd-bench-")?;
@@ -198,7 +198,9 @@ impl GuardedMethod {
     /// # Errors
     /// Those of [`GuardedMethod::start`].
     pub fn run_query(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
-        let outcome = self.ensure_running_process()?.send_query(query, patience);
+        let outcome = self
+            .ensure_running_process()?
+            .query_and_await_reply(query, patience);
         if !matches!(outcome, QueryOutcome::Answered(_)) {
             self.process = None;
         }
@@ -274,7 +276,7 @@ impl MethodProcess {
         }
     }
 
-    fn send_query(&mut self, query: &Motions, patience: Duration) -> QueryOutcome {
+    fn query_and_await_reply(&mut self, query: &Motions, patience: Duration) -> QueryOutcome {
         let Some(input) = &mut self.input else {
             return QueryOutcome::Crashed;
         };

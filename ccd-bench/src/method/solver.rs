@@ -108,7 +108,7 @@ impl ContactClaim {
     }
 
     /// Returns the claimed time of a contact, or the time until which there is none.
-    pub fn time(self) -> Option<f64> {
+    pub fn contact_or_safe_time(self) -> Option<f64> {
         match self {
             ContactClaim::Contact { time } | ContactClaim::Unresolved { safe_until: time } => {
                 Some(time)

@@ -26,7 +26,7 @@ pub struct MeasurementPlan {
     /// The programs that run the methods: this program, and a script for some.
     pub programs: MethodPrograms,
     /// The folder of mesh files that replace the models made by code.
-    pub models: Option<PathBuf>,
+    pub model_folder: Option<PathBuf>,
     /// The folder into which the measurements are written.
     pub folder: PathBuf,
 }
@@ -45,7 +45,7 @@ impl MeasurementPlan {
     /// # Errors
     /// If a scene cannot be made.
     pub fn load_measurements(&self) -> Result<Evaluation> {
-        let mut models = ModelCache::new(self.models.clone());
+        let mut models = ModelCache::new(self.model_folder.clone());
         let scenes = self.listings.iter().map(|l| l.make_scene(&mut models));
         Ok(Evaluation {
             scenes: scenes.collect::<Result<_>>()?,
@@ -62,7 +62,7 @@ impl MeasurementPlan {
             self.programs.check_script_starts(method)?;
         }
         let mut journal = Journal::open(&self.folder, &self.stamp())?;
-        let mut models = ModelCache::new(self.models.clone());
+        let mut models = ModelCache::new(self.model_folder.clone());
         let scenes = self.scenes(&mut models)?;
         let cells: usize = self
             .methods
@@ -164,7 +164,7 @@ impl MeasurementPlan {
         format!(
             "{}models {}\nmethods {:?}\n",
             program_stamp(),
-            self.models
+            self.model_folder
                 .as_ref()
                 .map_or("by code".into(), |folder| folder.display().to_string()),
             self.limits

@@ -98,7 +98,7 @@ impl Trial {
             error: judged.time_error,
             time: outcome
                 .claim()
-                .and_then(ContactClaim::time)
+                .and_then(ContactClaim::contact_or_safe_time)
                 .filter(|time| !time.is_nan()),
             note,
         }

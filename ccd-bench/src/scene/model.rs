@@ -55,7 +55,7 @@ impl Model {
     ///
     /// # Errors
     /// If the file exists but is no mesh.
-    pub fn load(self, directory: Option<&Path>) -> Result<TriangleMesh, MeshError> {
+    pub fn load_or_generate(self, directory: Option<&Path>) -> Result<TriangleMesh, MeshError> {
         let file = directory.map(|directory| directory.join(self.name()).with_extension("obj"));
         match file.filter(|file| file.exists()) {
             Some(file) => TriangleMesh::read(file),

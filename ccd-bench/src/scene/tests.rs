@@ -4,7 +4,7 @@ use super::*;
 use ccd_core::Pose;
 use ccd_core::glam::DVec3;
 use rigid_ccd::table::motions::write;
-use shots::{ShotGenerator, drops_past_board};
+use shots::{ShotGenerator, drops_onto_or_past_board};
 
 fn shot_generator() -> ShotGenerator {
     ShotGenerator {
@@ -53,14 +53,14 @@ fn scenes_are_the_same_every_time_and_differ_by_seed() {
         other.queries().unwrap()
     );
     assert_eq!(
-        drops_past_board(9, 1).unwrap(),
-        drops_past_board(9, 1).unwrap()
+        drops_onto_or_past_board(9, 1).unwrap(),
+        drops_onto_or_past_board(9, 1).unwrap()
     );
 }
 
 #[test]
 fn boards_lie_across_the_path_or_just_next_to_it() {
-    let queries = drops_past_board(40, 1).unwrap();
+    let queries = drops_onto_or_past_board(40, 1).unwrap();
     let positions = queries.iter().map(|query| query.b.start().translation());
     let (next_to, across): (Vec<DVec3>, Vec<DVec3>) = positions.partition(|p| p.x != 0.0);
     assert_eq!((next_to.len(), across.len()), (10, 30));
@@ -98,7 +98,7 @@ fn the_stored_motions_are_those_of_their_seeds() {
     // Every tenth row keeps the proportion of both kinds of motion.
     let few: Vec<Motions> = knots.iter().step_by(10).cloned().collect();
     let drawn = [
-        ("santa.csv", drops_past_board(100, 1).unwrap()),
+        ("santa.csv", drops_onto_or_past_board(100, 1).unwrap()),
         ("bunnies.csv", bunnies.queries().unwrap()),
         ("knots.csv", knots),
         ("small-knots.csv", few),

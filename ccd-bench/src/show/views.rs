@@ -57,7 +57,7 @@ impl Views {
             if found[kind].len() < MAX_VIEWS_PER_SCENE[kind] {
                 let course = Movements::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
-                let row = ResultRow::new(&course, answer, 0.0, bodies.clearance_comparison(None));
+                let row = ResultRow::new(&course, answer, 0.0, bodies.clearance_and_excess(None));
                 let mut view = painter.view(&course, &row)?;
                 for (body, mesh) in view.bodies.iter_mut().zip(meshes) {
                     body.mesh = mesh;

@@ -55,7 +55,7 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_MOTION, expected)
+    step.with_query_and_rotations(falling, BodyMotion::SLAB_MOTION, expected)
 }
 
 /// The half length and the half width of a rod.
@@ -76,7 +76,7 @@ fn rod_angle_at_wall(wall: f64) -> f64 {
 fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyStep> {
     let step = FamilyStep::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
     let beside = BodyMotion::resting_motion((wall + 1.0) * DVec3::X);
-    step.with_rotated_queries(turning, beside, expected)
+    step.with_query_and_rotations(turning, beside, expected)
 }
 
 #[cfg(test)]

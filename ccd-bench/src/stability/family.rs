@@ -47,7 +47,7 @@ pub struct ExactCase {
 
 impl Family {
     /// Returns the same family with the given description and values of its parameter.
-    pub(super) fn with_parameter_values(self, parameter: &'static str, values: Vec<f64>) -> Self {
+    pub(super) fn with_parameter(self, parameter: &'static str, values: Vec<f64>) -> Self {
         Family {
             parameter,
             parameter_values: values,
@@ -59,7 +59,7 @@ impl Family {
 /// The motion of one body; the velocities are the displacement and the rotation vector over the whole duration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyMotion {
-    pub(super) at: DVec3,
+    pub(super) start_position: DVec3,
     pub(super) orientation: DQuat,
     pub(super) velocity: DVec3,
     pub(super) angular_velocity: DVec3,
@@ -86,7 +86,7 @@ pub(super) fn contact_at(time: f64, slack: f64) -> Truth {
 
 impl BodyMotion {
     pub(super) const STILL_MOTION: BodyMotion = BodyMotion {
-        at: DVec3::ZERO,
+        start_position: DVec3::ZERO,
         orientation: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
         angular_velocity: DVec3::ZERO,
@@ -95,14 +95,14 @@ impl BodyMotion {
 
     /// The motion of a body that falls from z = 3 to z = −1.
     pub(super) const FALLING_MOTION: BodyMotion = BodyMotion {
-        at: DVec3::new(0.0, 0.0, 3.0),
+        start_position: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
         ..BodyMotion::STILL_MOTION
     };
 
     /// The motion of a slab that rests at z = −1, so that its top is at 0.
     pub(super) const SLAB_MOTION: BodyMotion = BodyMotion {
-        at: DVec3::NEG_Z,
+        start_position: DVec3::NEG_Z,
         ..BodyMotion::STILL_MOTION
     };
 
@@ -114,7 +114,7 @@ impl BodyMotion {
     /// Returns the motion of a body in a straight line, without rotation.
     pub(super) fn straight_motion(at: DVec3, velocity: DVec3) -> Self {
         BodyMotion {
-            at,
+            start_position: at,
             velocity,
             ..BodyMotion::STILL_MOTION
         }
@@ -137,7 +137,7 @@ impl BodyMotion {
     }
 
     fn motion(self, world: DQuat, duration: f64) -> Result<Motion, InputError> {
-        let start = Pose::new(world * self.at, world * self.orientation)?;
+        let start = Pose::new(world * self.start_position, world * self.orientation)?;
         let velocity = world * self.velocity / duration;
         let spin = world * self.angular_velocity / duration;
         Motion::about(start, velocity, spin, self.centre)
@@ -163,12 +163,12 @@ impl FamilyStep {
 
     /// Adds a query with exactly these motions; the expected times are fractions of the duration.
     pub(super) fn with_query(self, a: BodyMotion, b: BodyMotion, expected: Truth) -> Result<Self> {
-        self.with_query_in_world(DQuat::IDENTITY, [a, b], expected)
+        self.with_query_in_rotated_world(DQuat::IDENTITY, [a, b], expected)
     }
 
     /// Adds a query, and the same query with the whole scene turned by each of the `WORLD_ROTATIONS`. The expected
     /// answer must still be right after the rounding of the turned motions.
-    pub(super) fn with_rotated_queries(
+    pub(super) fn with_query_and_rotations(
         mut self,
         a: BodyMotion,
         b: BodyMotion,
@@ -176,14 +176,17 @@ impl FamilyStep {
     ) -> Result<Self> {
         self = self.with_query(a, b, expected)?;
         for (axis, angle) in WORLD_ROTATIONS {
-            self =
-                self.with_query_in_world(DQuat::from_axis_angle(axis, angle), [a, b], expected)?;
+            self = self.with_query_in_rotated_world(
+                DQuat::from_axis_angle(axis, angle),
+                [a, b],
+                expected,
+            )?;
         }
         Ok(self)
     }
 
     /// Adds a query, and its copies in turned scenes only if the expected answer is still right after their rounding.
-    pub(super) fn with_rotated_queries_if(
+    pub(super) fn with_query_and_rotations_if(
         self,
         bears_rounding: bool,
         a: BodyMotion,
@@ -191,13 +194,13 @@ impl FamilyStep {
         expected: Truth,
     ) -> Result<Self> {
         if bears_rounding {
-            self.with_rotated_queries(a, b, expected)
+            self.with_query_and_rotations(a, b, expected)
         } else {
             self.with_query(a, b, expected)
         }
     }
 
-    fn with_query_in_world(
+    fn with_query_in_rotated_world(
         mut self,
         world: DQuat,
         [a, b]: [BodyMotion; 2],

@@ -188,7 +188,7 @@ pub(super) fn sliver_slab(width: f64) -> Result<TriangleMesh, MeshError> {
 }
 
 /// Returns cubes of side 1/4 in a horizontal square grid with their tops at z = 0, every other cube inside out.
-pub(super) fn field_of_cubes(count: u32) -> Result<TriangleMesh, MeshError> {
+pub(super) fn cube_grid_half_inside_out(count: u32) -> Result<TriangleMesh, MeshError> {
     let cube = cuboid(0.125, 0.125, 0.125)?;
     let faces: Vec<[u32; 3]> = cube.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
     let inside_out = TriangleMesh::new(cube.vertices().to_vec(), &faces)?;

@@ -59,7 +59,7 @@ pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
 }
 
 /// Returns the heat map of the share of each family that each method solves before its first wrong answer.
-pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
+pub fn solved_range_heat_map(findings: &Findings<'_>) -> HeatMap {
     make_heat_map(findings, SOLVED_RANGE_TEXTS, |family, method| {
         let reach = findings.solved_range(family, method)?;
         let worst = reach.first_worst_step;
@@ -75,7 +75,7 @@ pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
 
 /// Returns the heat map of cost growth: the most steps of a method in a family, relative to its steps at the easiest
 /// value.
-pub fn cost_growth_map(findings: &Findings<'_>) -> HeatMap {
+pub fn cost_growth_heat_map(findings: &Findings<'_>) -> HeatMap {
     // A query takes no step if the bounds of the whole bodies are enough.
     let cost = |cell: &MeasurementCell| {
         let key = (cell.scene.clone(), cell.method.clone());

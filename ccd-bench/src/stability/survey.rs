@@ -3,7 +3,7 @@
 
 use super::family::{Family, FamilyStep};
 use super::judge::judge;
-use crate::method::guarded::{GuardSettings, GuardedMethod, MethodPrograms, QueryOutcome};
+use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms, QueryOutcome};
 use crate::method::rival::are_screw_motions;
 use crate::method::solver::TimedReply;
 use crate::method::{Method, MotionKind};
@@ -126,10 +126,10 @@ impl PreparedStep<'_> {
     /// Runs a method on all queries of the step; stops after the first query that exceeds the time limit.
     fn run_queries(&self, method: Method, programs: &MethodPrograms) -> io::Result<Vec<Trial>> {
         let step = self.step;
-        let setting = GuardSettings {
+        let setting = GuardedMethodSettings {
             margin: step.margin,
             preparation_limit: PREPARATION_TIME_LIMIT,
-            ..GuardSettings::new(method, step.tolerance)
+            ..GuardedMethodSettings::new(method, step.tolerance)
         };
         let name = method.to_string();
         let trial = |row: usize, outcome: &QueryOutcome, judged: (Judgement, String)| {

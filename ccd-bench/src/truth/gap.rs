@@ -3,13 +3,13 @@
 use super::DistanceBounds;
 use super::rounding::FORTY_ROUNDINGS_ERROR;
 use super::search::{Pair, Search};
-use super::snapshot::{Snapshot, TimeSpan};
-use super::triangle::{gap, nearest_or_common_points, separating_axis_candidates};
+use super::snapshot::{LinearizedMotions, TimeSpan};
+use super::triangle::{gap_along, nearest_or_common_points, separating_axis_candidates};
 use ccd_core::order::{greater, lesser};
 
 /// Returns bounds on the least distance between the surfaces at a time. The nearer part comes first, and parts farther
 /// than the nearest points known are left out.
-pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
+pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBounds {
     let mut bracket = DistanceBounds {
         lower: f64::INFINITY,
         upper: f64::INFINITY,
@@ -17,7 +17,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
     let Some(roots) = search.root_pair() else {
         return bracket;
     };
-    let snapshot = search.snapshot(TimeSpan {
+    let snapshot = search.linearize_motions(TimeSpan {
         start: time,
         end: time,
     });
@@ -54,7 +54,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
     bracket
 }
 
-fn box_distance_bound(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f64 {
+fn box_distance_bound(search: &Search<'_>, snapshot: &LinearizedMotions, pair: Pair) -> f64 {
     let [a, b] = search.nodes(pair);
     snapshot.box_distance_lower_bound(a, b)
 }
@@ -63,7 +63,7 @@ fn box_distance_bound(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f
 /// from below.
 fn triangle_distance_bounds(
     search: &Search<'_>,
-    snapshot: &Snapshot,
+    snapshot: &LinearizedMotions,
     pair: Pair,
 ) -> DistanceBounds {
     let Some([a, b]) = search.triangles(pair) else {
@@ -77,9 +77,9 @@ fn triangle_distance_bounds(
     let directions = separating_axis_candidates(&placed, b).chain([(p - q).normalize()]);
     let gaps = directions
         .filter(|n| n.is_finite())
-        .map(|n| gap(n, &placed, b));
+        .map(|n| gap_along(n, &placed, b));
     DistanceBounds {
-        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS_ERROR) - snapshot.slack(),
-        upper: (p - q).length() + snapshot.slack(),
+        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS_ERROR) - snapshot.gap_error_bound(),
+        upper: (p - q).length() + snapshot.gap_error_bound(),
     }
 }

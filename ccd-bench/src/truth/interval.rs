@@ -97,7 +97,7 @@ impl Interval {
     /// Returns the square roots of the nonnegative numbers in the interval; the whole line if there are none. Roots
     /// grow with their operand.
     pub(super) fn sqrt(self) -> Self {
-        let ([least, _], [_, most]) = (root(greater(self.inf, 0.0)), root(self.sup));
+        let ([least, _], [_, most]) = (sqrt_bounds(greater(self.inf, 0.0)), sqrt_bounds(self.sup));
         // `most` is NaN if all numbers are negative.
         Interval::new(least, most)
     }
@@ -260,7 +260,7 @@ fn quotient_bounds(x: f64, y: f64) -> [f64; 2] {
 }
 
 /// Returns bounds of an exact square root, which `f64::sqrt` rounds to nearest; NaN for negative numbers.
-fn root(x: f64) -> [f64; 2] {
+fn sqrt_bounds(x: f64) -> [f64; 2] {
     let root = x.sqrt();
     if x == 0.0 {
         return [root; 2];

@@ -1,10 +1,10 @@
 //! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
 //! from the pairs of nodes that could not be excluded over the whole.
 
-use super::snapshot::{BoxSeparation, IntervalMaps, Snapshot, TimeSpan};
+use super::snapshot::{BoxSeparation, IntervalMaps, LinearizedMotions, TimeSpan};
 use super::surface::{Node, NodeContent, Surface, Triangle};
 use super::track::EnclosedMotion;
-use super::triangle::{gap, nearest, separating_axis_candidates};
+use super::triangle::{gap_along, nearest_points, separating_axis_candidates};
 use super::{Referee, Truth};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::Motions;
@@ -27,24 +27,24 @@ pub(super) struct Search<'a> {
 /// takes a second.
 const MAX_TESTED_PAIRS: u64 = 30_000_000;
 /// The shortest interval of time that is halved, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
-const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
+const SHORTEST_SPAN_SHARE: f64 = 1.0 / (1_u64 << 46) as f64;
 /// The largest number of times that the step is doubled in the search for a proven contact after an undecided time. The
 /// last step is about a thousandth of the duration.
-const MAX_DOUBLINGS: u32 = 36;
+const MAX_STEP_DOUBLINGS: u32 = 36;
 /// The number of doublings after which all triangles are tested, not only the pairs that were near at the undecided
 /// time.
 const DOUBLINGS_PER_FULL_TEST: u32 = 6;
 /// The size of a node, as a multiple of the pair's relative displacement in the interval, up to which the node is not
 /// split.
-const LARGEST_UNSPLIT_SIZE: f64 = 1.0;
+const MAX_UNSPLIT_SIZE_PER_TRAVEL: f64 = 1.0;
 /// The size of triangles, as a fraction of their relative displacement, below which only their boxes are tested.
-const MAX_SIZE_FOR_BOX_TEST: f64 = 0.25;
+const MAX_BOX_TEST_SIZE_PER_TRAVEL: f64 = 0.25;
 
 /// The number of face normals, which come first among the candidate separating axes of two triangles.
 const FACE_NORMAL_COUNT: usize = 2;
 /// The distance of two triangles, as a fraction of their edge lengths, below which cross products of edges are tested
 /// too.
-const MAX_DISTANCE_FOR_EDGE_NORMALS: f64 = 1e-3;
+const MAX_RELATIVE_DISTANCE_FOR_EDGE_NORMALS: f64 = 1e-3;
 
 /// The result of testing pairs of nodes for contact within an interval of time.
 #[derive(Debug, PartialEq)]
@@ -96,14 +96,14 @@ impl<'a> Search<'a> {
             start: 0.0,
             end: self.duration,
         };
-        let shortest = SHORTEST_SPAN * self.duration;
+        let shortest = SHORTEST_SPAN_SHARE * self.duration;
         let mut pending = vec![(whole, Rc::new(vec![roots]))];
         let mut undecided = UndecidedTimes::default();
         while let Some((span, pairs)) = pending.pop() {
             let Some(span) = span.clipped_from(undecided.skipped_until) else {
                 continue;
             };
-            let snapshot = self.snapshot(span);
+            let snapshot = self.linearize_motions(span);
             let left = match self.pairs_that_may_meet(&snapshot, &pairs) {
                 RemainingPairs::MayMeet(left) if left.is_empty() => continue,
                 RemainingPairs::MayMeet(left) => left,
@@ -135,14 +135,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    pub(super) fn snapshot(&self, span: TimeSpan) -> Snapshot {
+    pub(super) fn linearize_motions(&self, span: TimeSpan) -> LinearizedMotions {
         let [a, b] = &self.motions;
-        Snapshot::new([a, b], self.max_distances_from_origin, span)
+        LinearizedMotions::new([a, b], self.max_distances_from_origin, span)
     }
 
     /// Returns the pairs of nodes that may meet within the interval; nodes larger than their displacement are split
     /// first.
-    fn pairs_that_may_meet(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> RemainingPairs {
+    fn pairs_that_may_meet(
+        &mut self,
+        snapshot: &LinearizedMotions,
+        pairs: &[Pair],
+    ) -> RemainingPairs {
         let mut left = Vec::new();
         if snapshot.are_bodies_far_apart() {
             return RemainingPairs::MayMeet(left);
@@ -154,18 +158,22 @@ impl<'a> Search<'a> {
             }
             self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
-            let BoxSeparation::Near { travel } = snapshot.box_separation(a, b) else {
+            let BoxSeparation::Near { travel } = snapshot.test_box_separation(a, b) else {
                 continue;
             };
             match self.split(pair) {
                 Some(SplitPair {
-                    size,
+                    half_diagonal: size,
                     child_pairs: parts,
-                }) if size > LARGEST_UNSPLIT_SIZE * travel => {
+                }) if size > MAX_UNSPLIT_SIZE_PER_TRAVEL * travel => {
                     stack.extend(parts);
                 }
                 Some(_) => left.push(pair),
-                None if greater(a.size, b.size) < MAX_SIZE_FOR_BOX_TEST * travel => left.push(pair),
+                None if greater(a.half_diagonal, b.half_diagonal)
+                    < MAX_BOX_TEST_SIZE_PER_TRAVEL * travel =>
+                {
+                    left.push(pair)
+                }
                 None if self.are_triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),
             }
@@ -174,26 +182,30 @@ impl<'a> Search<'a> {
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the interval.
-    fn are_triangles_apart(&self, snapshot: &Snapshot, pair: Pair) -> bool {
+    fn are_triangles_apart(&self, snapshot: &LinearizedMotions, pair: Pair) -> bool {
         let Some([a, b]) = self.triangles(pair) else {
             return false;
         };
         let [start, end] = snapshot.triangles_at_ends(a, b);
         let apart = |n| {
-            let least = lesser(gap(n, &start[0], &start[1]), gap(n, &end[0], &end[1]));
+            let least = lesser(
+                gap_along(n, &start[0], &start[1]),
+                gap_along(n, &end[0], &end[1]),
+            );
             // Also false for NaN: `min` drops it, so the direction itself is tested.
-            n.is_finite() && least > snapshot.slack()
+            n.is_finite() && least > snapshot.gap_error_bound()
         };
         let placed = snapshot.triangle_of_a_at_middle(a);
         let mut normals = separating_axis_candidates(&placed, b);
         if normals.by_ref().take(FACE_NORMAL_COUNT).any(apart) {
             return true;
         }
-        let (p, q) = nearest(&placed, b);
+        let (p, q) = nearest_points(&placed, b);
         let (between, size) = (p - q, (b[1] - b[0]).length() + (a[1] - a[0]).length());
         // The direction between two points is only useful if their distance is larger than rounding.
         apart(between.normalize())
-            || (between.length() < MAX_DISTANCE_FOR_EDGE_NORMALS * size && normals.any(apart))
+            || (between.length() < MAX_RELATIVE_DISTANCE_FOR_EDGE_NORMALS * size
+                && normals.any(apart))
     }
 
     /// Searches for a time soon after `from` at which the surfaces certainly share a point.
@@ -204,8 +216,8 @@ impl<'a> Search<'a> {
         near: &[Pair],
         times_met: u32,
     ) -> Option<f64> {
-        let mut step = SHORTEST_SPAN * self.duration;
-        for doubling in 0..=MAX_DOUBLINGS {
+        let mut step = SHORTEST_SPAN_SHARE * self.duration;
+        for doubling in 0..=MAX_STEP_DOUBLINGS {
             let time = lesser(from + step, self.duration);
             if self.certainly_meet_at(near, time) {
                 return Some(time);
@@ -242,7 +254,7 @@ impl<'a> Search<'a> {
             start: time,
             end: time,
         };
-        let snapshot = self.snapshot(span);
+        let snapshot = self.linearize_motions(span);
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         let mut stack = vec![roots];
@@ -252,7 +264,7 @@ impl<'a> Search<'a> {
             }
             self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
-            if snapshot.box_separation(a, b) == BoxSeparation::Apart {
+            if snapshot.test_box_separation(a, b) == BoxSeparation::Apart {
                 continue;
             }
             if let Some(SplitPair {
@@ -289,16 +301,16 @@ impl<'a> Search<'a> {
     pub(super) fn split(&self, [a, b]: Pair) -> Option<SplitPair> {
         let [node_a, node_b] = self.nodes([a, b]);
         let of_a = |parts: [u32; 2]| SplitPair {
-            size: node_a.size,
+            half_diagonal: node_a.half_diagonal,
             child_pairs: parts.map(|part| [part, b]),
         };
         let of_b = |parts: [u32; 2]| SplitPair {
-            size: node_b.size,
+            half_diagonal: node_b.half_diagonal,
             child_pairs: parts.map(|part| [a, part]),
         };
         match (node_a.content, node_b.content) {
             (NodeContent::Children(parts), NodeContent::Children(_))
-                if node_a.size >= node_b.size =>
+                if node_a.half_diagonal >= node_b.half_diagonal =>
             {
                 Some(of_a(parts))
             }
@@ -312,7 +324,7 @@ impl<'a> Search<'a> {
 /// The pairs that result from splitting one node of a pair.
 pub(super) struct SplitPair {
     /// Half the diagonal of the box of the node that was split.
-    size: f64,
+    half_diagonal: f64,
     pub(super) child_pairs: [Pair; 2],
 }
 

@@ -9,7 +9,7 @@
 //!
 //! For any fixed direction n, n·(a(m) + s ȧ(m)) is linear in s, so over the span it is least at an
 //! end. So two sets are apart over the whole span if along one n they are apart at both of its
-//! ends, by more than `slack`. The direction n need not be exact.
+//! ends, by more than `gap_error_bound`. The direction n need not be exact.
 
 use super::enclosure::{IntervalMatrix, IntervalVector};
 use super::interval::{Interval, point_interval};
@@ -29,7 +29,7 @@ pub(super) struct TimeSpan {
 /// The positions and velocities of bodies A and B at the middle of an interval of time, with error bounds for the whole
 /// interval.
 #[derive(Clone, Debug)]
-pub(super) struct Snapshot {
+pub(super) struct LinearizedMotions {
     /// The map from A's body frame to the common frame, at the middle time.
     placement: AffineMap,
     /// The map from a point of A to its velocity, relative to B's centre.
@@ -41,7 +41,7 @@ pub(super) struct Snapshot {
     /// The computed gap above which bodies are certainly apart: it bounds the rounding, and the motion's deviation from
     /// a straight line.
     gap_error_bound: f64,
-    /// The part of `slack` that bounds the motion's deviation from a straight line.
+    /// The part of `gap_error_bound` that bounds the motion's deviation from a straight line.
     linearization_error_bound: f64,
     /// The bounds on the extents of two boxes along B's axes; the next field has those along A's axes.
     extent_matrices_along_b: ExtentMatrices,
@@ -70,7 +70,7 @@ pub(super) enum BoxSeparation {
     Near { travel: f64 },
 }
 
-impl Snapshot {
+impl LinearizedMotions {
     pub(super) fn new(
         [a, b]: [&EnclosedMotion; 2],
         [size_a, size_b]: [f64; 2],
@@ -84,12 +84,15 @@ impl Snapshot {
         let rate_b = AffineMap::new(&exactly.velocity_map_b, size_b);
         let motion_slack =
             0.5 * half * half * (a.max_acceleration + b.max_acceleration) * ROUND_UP_FACTOR;
-        let errors = placement.error + half * (rate_a.error + rate_b.error);
-        let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
+        let errors = placement.image_error_bound
+            + half * (rate_a.image_error_bound + rate_b.image_error_bound);
+        let sizes = placement.image_length_bound
+            + size_b
+            + half * (rate_a.image_length_bound + rate_b.image_length_bound);
         let centre = |v: &IntervalVector| DVec3::from_array(v.0.map(Interval::midpoint));
         let (r, w_a, w_b) = (placement.matrix, rate_a.matrix * half, rate_b.matrix * half);
         let back = r.transpose();
-        Snapshot {
+        LinearizedMotions {
             half_duration: half,
             linearization_error_bound: motion_slack,
             gap_error_bound: motion_slack * ROUND_UP_FACTOR
@@ -128,7 +131,7 @@ impl Snapshot {
     }
 
     /// Tests whether one of the six face normals of two boxes separates them over the whole interval.
-    pub(super) fn box_separation(&self, a: &Node, b: &Node) -> BoxSeparation {
+    pub(super) fn test_box_separation(&self, a: &Node, b: &Node) -> BoxSeparation {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half_duration
             * (self.velocity_map_a.apply(a.centre) - self.velocity_map_b.apply(b.centre));
@@ -185,7 +188,7 @@ impl Snapshot {
     }
 
     /// Returns the computed gap along a unit direction above which bodies are certainly apart.
-    pub(super) fn slack(&self) -> f64 {
+    pub(super) fn gap_error_bound(&self) -> f64 {
         self.gap_error_bound
     }
 
@@ -217,9 +220,9 @@ struct AffineMap {
     matrix: DMat3,
     offset: DVec3,
     /// An upper bound of the error of a body point's image, as a length.
-    error: f64,
+    image_error_bound: f64,
     /// An upper bound of the length of a body point's image.
-    size: f64,
+    image_length_bound: f64,
 }
 
 impl AffineMap {
@@ -247,8 +250,10 @@ impl AffineMap {
         AffineMap {
             matrix: DMat3::from_cols(rows[0], rows[1], rows[2]).transpose(),
             offset,
-            error: SQRT_3 * (widths + 5.0 * UNIT_ROUNDOFF * coordinate) * ROUND_UP_FACTOR,
-            size: SQRT_3 * coordinate * ROUND_UP_FACTOR,
+            image_error_bound: SQRT_3
+                * (widths + 5.0 * UNIT_ROUNDOFF * coordinate)
+                * ROUND_UP_FACTOR,
+            image_length_bound: SQRT_3 * coordinate * ROUND_UP_FACTOR,
         }
     }
 
@@ -268,7 +273,7 @@ pub(super) struct IntervalMaps {
 
 impl IntervalMaps {
     pub(super) fn new(a: &EnclosedMotion, b: &EnclosedMotion, time: f64) -> Self {
-        let (at_a, at_b) = (a.at(time), b.at(time));
+        let (at_a, at_b) = (a.placement_at(time), b.placement_at(time));
         let back = at_b.rotation.transpose();
         let rotation = &back * &at_a.rotation;
         let centres = &back * &(at_a.centre - at_b.centre);

@@ -22,7 +22,7 @@ pub(super) struct Node {
     /// Half the extents of the box, rounded so that it contains all its triangles.
     pub(super) half_extents: DVec3,
     /// Half the diagonal of the box.
-    pub(super) size: f64,
+    pub(super) half_diagonal: f64,
     pub(super) content: NodeContent,
 }
 
@@ -71,7 +71,7 @@ impl Surface {
     }
 
     /// Returns the corners of the box around the whole body; none for a body without triangles.
-    pub(super) fn corners(&self) -> impl Iterator<Item = DVec3> {
+    pub(super) fn box_corners(&self) -> impl Iterator<Item = DVec3> {
         let root = self
             .nodes
             .first()
@@ -87,7 +87,7 @@ impl Surface {
     /// Returns an upper bound of the distance of the body's points from the origin.
     pub(super) fn max_distance_from_origin(&self) -> f64 {
         let far = self
-            .corners()
+            .box_corners()
             .map(DVec3::length)
             .fold(0.0, nan_propagating_max);
         far * ROUND_UP_FACTOR
@@ -125,7 +125,7 @@ impl Surface {
         Node {
             centre,
             half_extents: half,
-            size: half.length(),
+            half_diagonal: half.length(),
             content: NodeContent::Triangle(0),
         }
     }

@@ -38,7 +38,7 @@ impl TruthRow {
     }
 
     /// Returns the width of the bracket of a hit; 0 for other rows.
-    pub fn width(&self) -> f64 {
+    pub fn bracket_width(&self) -> f64 {
         if self.status == "hit" {
             self.hi - self.lo
         } else {

@@ -54,7 +54,7 @@ impl EnclosedMotion {
         // largest at a corner of the box around the body.
         let axis = DMat3::from_quat(start.rotation()).transpose() * motion.spin();
         let rate = motion.spin().length();
-        for corner in surface.corners() {
+        for corner in surface.box_corners() {
             let arm = corner - motion.centre();
             track.max_distance_from_centre = nan_propagating_max(
                 track.max_distance_from_centre,
@@ -68,7 +68,7 @@ impl EnclosedMotion {
         track
     }
 
-    pub(super) fn at(&self, time: f64) -> Placement {
+    pub(super) fn placement_at(&self, time: f64) -> Placement {
         Placement {
             rotation: &IntervalMatrix::from_angular_velocity(self.spin_floats, time)
                 * &self.orientation,

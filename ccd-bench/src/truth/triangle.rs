@@ -7,7 +7,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
 /// Returns the gap between the projections of two triangles on a direction from `b` to `a`; negative if they overlap.
-pub(super) fn gap(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
+pub(super) fn gap_along(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
     let [p, q, r] = a.map(|corner| n.dot(corner));
     let [u, v, w] = b.map(|corner| n.dot(corner));
     lesser(lesser(p, q), r) - greater(greater(u, v), w)
@@ -32,7 +32,7 @@ pub(super) fn separating_axis_candidates(
 
 /// Returns the nearest points of two disjoint triangles of any shape, up to rounding. If an edge pierces the other
 /// triangle, the points may differ; see [`nearest_or_common_points`].
-pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
+pub(super) fn nearest_points(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest_points_of_edges(a, b);
     for i in 0..3 {
         if let Some(q) = projection_in_triangle(a[i], b) {
@@ -45,10 +45,10 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// Returns the nearest points of two triangles as [`nearest`] does, or a common point if an edge pierces the other
+/// Returns the nearest points of two triangles as [`nearest_points`] does, or a common point if an edge pierces the other
 /// triangle.
 pub(super) fn nearest_or_common_points(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
-    let mut best = nearest(a, b);
+    let mut best = nearest_points(a, b);
     for i in 0..3 {
         if let Some((p, q)) = segment_triangle_crossing([a[i], a[(i + 1) % 3]], b) {
             best = nearer_pair(best, (p, q));

@@ -82,7 +82,7 @@ fn exported_scenes_are_read_again() {
     let at = |name: &str| folder.join("knot216").join(name).display().to_string();
     let (a, b, motions) = (at("a.obj"), at("b.obj"), at("motions.csv"));
     let rows = CommandCall::with_args(&["truth", "--a", &a, "--b", &b, "--motions", &motions])
-        .expect_rows();
+        .run_for_rows();
     assert_eq!(rows.len(), 25);
     let hits = rows.iter().filter(|r| r.text("status") == "hit").count();
     assert!((8..25).contains(&hits), "{hits}");

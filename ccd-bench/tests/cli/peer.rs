@@ -1,7 +1,7 @@
 //! Tests that a guard stops a peer program that hangs, and restarts a peer program that has died.
 
 use ccd_bench::method::Method;
-use ccd_bench::method::guarded::{GuardSettings, GuardedMethod, QueryOutcome};
+use ccd_bench::method::guarded::{GuardedMethod, GuardedMethodSettings, QueryOutcome};
 use ccd_bench::method::peer::PeerKind;
 use ccd_bench::method::solver::{ContactClaim, TimedReply};
 use ccd_bench::scene::model::cuboid;
@@ -33,10 +33,10 @@ fn falling_cube_query() -> Motions {
 }
 
 fn guarded_peer(kind: PeerKind) -> GuardedMethod {
-    guarded_method(GuardSettings::new(Method::Peer(kind), 1e-3))
+    guarded_method(GuardedMethodSettings::new(Method::Peer(kind), 1e-3))
 }
 
-fn guarded_method(setting: GuardSettings) -> GuardedMethod {
+fn guarded_method(setting: GuardedMethodSettings) -> GuardedMethod {
     GuardedMethod::with_program(crate::PROGRAM_PATH.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
@@ -46,11 +46,11 @@ fn guarded_script(script: &str) -> GuardedMethod {
     let script = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/cli")
         .join(script);
-    let setting = GuardSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
+    let setting = GuardedMethodSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
     GuardedMethod::with_program(script, setting, [&cube(), &cube()]).unwrap()
 }
 
-fn assert_answered(outcome: QueryOutcome) {
+fn assert_contact_at_half(outcome: QueryOutcome) {
     let QueryOutcome::Answered(TimedReply { reply, micros }) = outcome else {
         panic!("{outcome:?}");
     };
@@ -68,8 +68,8 @@ fn every_method_answers_behind_a_guard() {
         .into_iter()
         .filter(|method| !is_script(method))
     {
-        let mut guarded = guarded_method(GuardSettings::new(method, 1e-3));
-        assert_answered(
+        let mut guarded = guarded_method(GuardedMethodSettings::new(method, 1e-3));
+        assert_contact_at_half(
             guarded
                 .run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
                 .unwrap(),
@@ -80,9 +80,9 @@ fn every_method_answers_behind_a_guard() {
 #[test]
 fn a_margin_is_kept_or_refused() {
     let ask = |method: Method| {
-        let mut guarded = guarded_method(GuardSettings {
+        let mut guarded = guarded_method(GuardedMethodSettings {
             margin: 0.5,
-            ..GuardSettings::new(method, 1e-3)
+            ..GuardedMethodSettings::new(method, 1e-3)
         });
         guarded.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
     };
@@ -133,11 +133,11 @@ fn the_query_after_a_cut_off_one_is_answered() {
             .unwrap(),
         QueryOutcome::CutOff
     );
-    assert_answered(
+    assert_contact_at_half(
         peer.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
             .unwrap(),
     );
-    assert_answered(
+    assert_contact_at_half(
         peer.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)
             .unwrap(),
     );
@@ -176,7 +176,7 @@ fn a_tolerance_is_passed_on() {
 #[test]
 fn a_program_that_is_no_peer_does_not_start() {
     let missing = "no/such/program".into();
-    let setting = GuardSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
+    let setting = GuardedMethodSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
     let mut peer = GuardedMethod::with_program(missing, setting, [&cube(), &cube()]).unwrap();
     assert!(
         peer.run_query(&falling_cube_query(), QUERY_TIME_LIMIT)

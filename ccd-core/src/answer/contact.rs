@@ -46,7 +46,7 @@ impl Contact {
     /// Adds the excess of the bodies to the upper bound, so that it holds for the shapes within them.
     pub(crate) fn widened_by_excess(self, excess: ExcessSum) -> Self {
         let Separation { lower, upper, .. } = self.separation;
-        self.with_bounds(lower, excess.upper_bound_of_shapes(upper))
+        self.with_bounds(lower, excess.shape_distance_upper_bound(upper))
     }
 
     /// Lowers the contact's lower bound to at most `least`.

@@ -49,12 +49,12 @@ impl ExcessSum {
     }
 
     /// Returns an upper bound of the distance of two shapes whose enclosing bodies overlap.
-    pub(crate) fn upper_bound_of_overlap(self) -> f64 {
+    pub(crate) fn shape_distance_bound_at_overlap(self) -> f64 {
         self.0
     }
 
     /// Converts an upper bound of the distance of two bodies to an upper bound of the distance of their shapes.
-    pub(crate) fn upper_bound_of_shapes(self, upper: f64) -> f64 {
+    pub(crate) fn shape_distance_upper_bound(self, upper: f64) -> f64 {
         if self.0 > 0.0 {
             (upper + self.0).next_up()
         } else {

@@ -1,6 +1,6 @@
 //! Finds the side of a flat piece that faces out of the solid.
 
-use super::tree::ray::count_crossings;
+use super::tree::ray::sum_signed_crossings;
 use super::{Body, Volume};
 use crate::math::order::greater;
 use crate::rounding::UNIT_ROUNDOFF_F64;
@@ -106,7 +106,7 @@ impl Body {
     fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
         // A mean is rounded in units of the coordinates.
         let slack = 4.0 * UNIT_ROUNDOFF_F64 * at.abs().element_sum();
-        let Some(found) = count_crossings(self.tree(), self.pieces(), at, slack) else {
+        let Some(found) = sum_signed_crossings(self.tree(), self.pieces(), at, slack) else {
             return Facing::Unclear;
         };
         let (ahead, behind) = (found.sum_ahead, found.sum_ahead + found.sum_at_start);
@@ -125,7 +125,7 @@ impl Body {
 
     /// Returns whether the winding number of the body's surface about a point is certainly not 0.
     fn has_nonzero_winding(&self, point: DVec3) -> bool {
-        count_crossings(self.tree(), self.pieces(), point, 0.0)
+        sum_signed_crossings(self.tree(), self.pieces(), point, 0.0)
             .is_some_and(|found| found.triangles_at_start == 0 && found.sum_ahead != 0)
     }
 }

@@ -31,7 +31,10 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &ConvexCombination) ->
     if let [v] = *support {
         return MeshFeature::Vertex(v);
     }
-    let near = match (FacetsByCorner::for_piece(piece), support.first()) {
+    let near = match (
+        FacetsByCorner::cached_if_many_facets(piece),
+        support.first(),
+    ) {
         (Some(by_corner), Some(&corner)) => Some(by_corner.facets.list(corner as usize)),
         _ => None,
     };
@@ -62,15 +65,15 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &ConvexCombination) ->
 
 /// Returns whether any face of the mesh is on the piece.
 fn has_mesh_faces(piece: &Piece<'_>) -> bool {
-    match FacetsByCorner::for_piece(piece) {
-        Some(by_corner) => by_corner.is_on_mesh,
+    match FacetsByCorner::cached_if_many_facets(piece) {
+        Some(by_corner) => by_corner.has_mesh_faces,
         None => piece.mesh_triangles().next().is_some(),
     }
 }
 
 /// A table of the facets that meet in each corner of a piece.
 struct FacetsByCorner {
-    is_on_mesh: bool,
+    has_mesh_faces: bool,
     /// The facets of each corner, in ascending order.
     facets: AdjacencyLists<u32>,
 }
@@ -78,7 +81,7 @@ struct FacetsByCorner {
 impl FacetsByCorner {
     /// Returns the table of a piece with many facets, which is created at the first call and cached. Returns `None` for
     /// a piece with few facets, or a piece that belongs to no list.
-    fn for_piece<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
+    fn cached_if_many_facets<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > MAX_SCANNED_POINTS;
         let kept =
             many.then(|| piece.cached_value(|piece| Box::new(FacetsByCorner::new(piece))))?;
@@ -89,7 +92,7 @@ impl FacetsByCorner {
         let facets = (0..).zip(piece.facets.iter());
         let pairs = facets.flat_map(|(facet, corners)| corners.iter().map(move |&v| (v, facet)));
         FacetsByCorner {
-            is_on_mesh: piece.mesh_triangles().next().is_some(),
+            has_mesh_faces: piece.mesh_triangles().next().is_some(),
             facets: AdjacencyLists::new(piece.points.len(), pairs),
         }
     }
@@ -97,7 +100,7 @@ impl FacetsByCorner {
 
 /// Builds the table of facets by corner for a piece in advance, so that no query waits for it.
 pub(crate) fn prepare_facets_by_corner(piece: &Piece<'_>) {
-    FacetsByCorner::for_piece(piece);
+    FacetsByCorner::cached_if_many_facets(piece);
 }
 
 /// Returns the number of the piece's mesh face on which a point lies, up to rounding; `None` if it is on none.

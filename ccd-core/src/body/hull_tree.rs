@@ -25,7 +25,7 @@ use super::hierarchy::{Hierarchy, HierarchyNode};
 use super::piece::ConvexCombination;
 use super::piece::Piece;
 use super::pieces::Pieces;
-use convex::support_of;
+use convex::build_support_map;
 use std::sync::Arc;
 
 /// A binary tree over the pieces of a body in which every node has the convex hull of all pieces below it `[SWIFT01]`.
@@ -56,9 +56,9 @@ pub struct HullTree {
 struct Hulls {
     pieces: Pieces,
     /// The class of each facet, for the facets of all hulls one after the other.
-    classes: Vec<FacetClass>,
+    facet_classes: Vec<FacetClass>,
     /// The end of each hull's facets in `classes`.
-    class_ends: Vec<u32>,
+    facet_class_ends: Vec<u32>,
     /// For each node, whether all pieces below it have the same rounding radius.
     has_uniform_radius: Vec<bool>,
     /// Half the diagonal of each hull's bounding box, rounding included.
@@ -84,7 +84,7 @@ impl HullTree {
     /// # Panics
     /// When there is no such node.
     pub fn facet_classes(&self, node: u32) -> &[FacetClass] {
-        &self.hulls.classes[range_from_ends(&self.hulls.class_ends, node as usize)]
+        &self.hulls.facet_classes[range_from_ends(&self.hulls.facet_class_ends, node as usize)]
     }
 
     /// Returns the best facet class at a point of a node's hull, given as a combination of the hull's points
@@ -126,7 +126,7 @@ impl HullTree {
         self.hulls
             .pieces
             .get(node as usize)
-            .with_support_map(support_of)
+            .with_support_map(build_support_map)
     }
 
     /// Returns the input nodes from which the tree can be [built](HullTree::new) again.
@@ -171,7 +171,7 @@ impl Hulls {
 
     fn memory_usage(&self) -> usize {
         self.pieces.memory_usage()
-            + self.classes.len()
+            + self.facet_classes.len()
             + 25 * self.half_diagonals.len()
             + self.facets_by_point.memory_usage()
     }

@@ -25,12 +25,12 @@ pub struct Piece<'a> {
     /// A search structure for extremal points, if one was prepared.
     pub(crate) support_map: Option<&'a Support>,
     /// The place where values that backends derive from the piece are cached; `None` for a piece outside of any list.
-    pub(crate) side_table_entry: Option<SideTableEntry<'a>>,
+    pub(crate) side_table_row: Option<SideTableRow<'a>>,
 }
 
 /// The place of a piece's cached values: the side table of its list, and its index there.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SideTableEntry<'a> {
+pub(crate) struct SideTableRow<'a> {
     pub(crate) side_table: &'a SideTable,
     pub(crate) len: usize,
     pub(crate) index: usize,
@@ -44,7 +44,7 @@ impl<'a> Piece<'a> {
             radius: 0.0,
             facets: Facets::NONE,
             support_map: None,
-            side_table_entry: None,
+            side_table_row: None,
         }
     }
 
@@ -74,7 +74,7 @@ impl<'a> Piece<'a> {
         &self,
         make: impl FnOnce(&Self) -> T,
     ) -> Option<&'a T> {
-        let slot = self.side_table_entry?;
+        let slot = self.side_table_row?;
         let entry = slot.side_table.entry(slot.len, slot.index);
         Some(entry.get_or_init(|| make(self)))
     }

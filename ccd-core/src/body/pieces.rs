@@ -9,7 +9,7 @@ use super::facets::{Facets, range_from_ends};
 use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
 use super::piece::ConvexCombination;
-use super::piece::{Piece, SideTableEntry};
+use super::piece::{Piece, SideTableRow};
 use super::polytope::{Face, FacetOrigin};
 use super::side_table::SideTable;
 use crate::error::InputError;
@@ -96,10 +96,11 @@ impl Pieces {
         let vertex_ids: Vec<u32> = faces.iter().flatten().copied().collect();
         let points = vertex_ids.iter().map(|&v| vertices[v as usize]).collect();
         let face_ids = face_ids.to_vec();
-        Pieces::with_shape(points, vertex_ids, PieceShapes::Triangles { face_ids }).into_validated()
+        Pieces::new_unvalidated(points, vertex_ids, PieceShapes::Triangles { face_ids })
+            .into_validated()
     }
 
-    fn with_shape(points: Vec<DVec3>, vertex_ids: Vec<u32>, shape: PieceShapes) -> Self {
+    fn new_unvalidated(points: Vec<DVec3>, vertex_ids: Vec<u32>, shape: PieceShapes) -> Self {
         Pieces {
             points,
             vertex_ids,
@@ -177,7 +178,7 @@ impl Pieces {
             radius: self.radius(index),
             facets: self.facets(index),
             support_map: None,
-            side_table_entry: Some(SideTableEntry {
+            side_table_row: Some(SideTableRow {
                 side_table: &self.side_table,
                 len: self.len(),
                 index,
@@ -199,7 +200,7 @@ impl Pieces {
     pub(crate) fn memory_usage(&self) -> usize {
         let others = match &self.shape {
             PieceShapes::Triangles { face_ids } => size_of_val(face_ids.as_slice()),
-            PieceShapes::Polytopes(polytopes) => polytopes.bytes(),
+            PieceShapes::Polytopes(polytopes) => polytopes.memory_usage(),
         };
         size_of_val(self.points.as_slice()) + 4 * self.vertex_ids.len() + others
     }
@@ -232,7 +233,7 @@ impl Pieces {
         match &self.shape {
             PieceShapes::Triangles { face_ids } => {
                 let numbers = self.vertex_ids.as_chunks::<3>().0;
-                Pieces::with_shape(
+                Pieces::new_unvalidated(
                     order.clone().flat_map(|k| self.triangle(k)).collect(),
                     order.clone().flat_map(|k| numbers[k]).collect(),
                     PieceShapes::Triangles {
@@ -320,7 +321,7 @@ impl Polytopes {
         }
     }
 
-    fn bytes(&self) -> usize {
+    fn memory_usage(&self) -> usize {
         size_of_val(self.origins.as_slice())
             + size_of_val(self.faces.as_slice())
             + 4 * (4 * self.facet_ends.len() + self.corner_ends.len() + self.corners.len())

@@ -14,7 +14,7 @@ pub(crate) type ExtremePoints = [DVec3; 6];
 /// Approximately linear in the number of points.
 pub(crate) fn part_extreme_points(pieces: &Pieces) -> Vec<ExtremePoints> {
     let points = pieces.points();
-    let (mut parts, distinct) = join_points_by_number(pieces);
+    let (mut parts, distinct) = join_equal_points_of_equal_number(pieces);
     let mut count = distinct.len();
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
@@ -50,7 +50,7 @@ pub(crate) fn part_extreme_points(pieces: &Pieces) -> Vec<ExtremePoints> {
 ///
 /// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
 /// numbers: points count as equal by their coordinates.
-fn join_points_by_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
+fn join_equal_points_of_equal_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
     let range = numbers

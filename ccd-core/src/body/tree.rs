@@ -36,7 +36,7 @@ pub(crate) struct Tree {
     slabs: Vec<(NodeId, Slab)>,
     body_box: BodyBox,
     /// The largest distance of a piece's points from the body's origin, plus the rounding radius.
-    span: f64,
+    reach_from_origin: f64,
 }
 
 /// The id of a node or a triangle: ids below the number of nodes are nodes, higher ids are triangles.
@@ -60,7 +60,7 @@ impl Tree {
     }
 
     /// Returns the number of nodes, triangles not included.
-    pub(crate) fn nodes(&self) -> usize {
+    pub(crate) fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
@@ -90,7 +90,7 @@ impl Tree {
     #[inline(always)]
     pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
         let row = &self.triangle_groups[index as usize];
-        let first = row.header.first as usize - self.nodes.len();
+        let first = row.header.first_child as usize - self.nodes.len();
         let triangles = pieces.points_of(first..first + row.header.count as usize);
         TriangleGroup::new(row, triangles.as_chunks().0)
     }
@@ -102,7 +102,7 @@ impl Tree {
 
     /// Returns the largest distance of any point of the body from its origin, rounding radii included.
     pub(crate) fn max_distance_from_origin(&self) -> f64 {
-        self.span
+        self.reach_from_origin
     }
 
     /// Returns the centre and radius of a ball around all pieces, in the body's frame.
@@ -128,7 +128,7 @@ impl Tree {
 
     /// Returns the half extents of the root's box.
     pub(crate) fn half_extents(&self) -> [f32; 3] {
-        self.nodes[0].half
+        self.nodes[0].half_extents
     }
 
     /// Returns whether a point may be in the body: it is in the root's box up to rounding.

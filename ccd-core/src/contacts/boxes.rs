@@ -58,7 +58,7 @@ impl NearFacePairSearch {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
                 (FaceBoxContent::Inner(right), FaceBoxContent::Inner(_))
-                    if a.size() >= b.size() =>
+                    if a.longest_side() >= b.longest_side() =>
                 {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
@@ -75,7 +75,7 @@ impl FaceTrees {
     /// Builds a single box tree over all faces of a surface, for searches by a point.
     pub(super) fn over_all_faces(skin: &NearSurface<'_>) -> Self {
         let mut trees = FaceTrees::default();
-        trees.add_faces(skin, skin.face_indices());
+        trees.add_tree_over(skin, skin.face_indices());
         trees
     }
 
@@ -101,18 +101,18 @@ impl FaceTrees {
     }
 
     /// Returns the root of the tree over a piece's faces; `None` if the piece has none.
-    pub(super) fn root(&mut self, skin: &mut NearSurface<'_>, piece: u32) -> Option<u32> {
+    pub(super) fn root_or_build(&mut self, skin: &mut NearSurface<'_>, piece: u32) -> Option<u32> {
         if let Some(&root) = self.roots.get(&piece) {
             return Some(root);
         }
         let faces = skin.add_piece(piece);
-        let root = self.add_faces(skin, faces)?;
+        let root = self.add_tree_over(skin, faces)?;
         self.roots.insert(piece, root);
         Some(root)
     }
 
     /// Adds a tree over a range of faces, and returns its root; `None` if the range is empty.
-    fn add_faces(&mut self, skin: &NearSurface<'_>, faces: Range<u32>) -> Option<u32> {
+    fn add_tree_over(&mut self, skin: &NearSurface<'_>, faces: Range<u32>) -> Option<u32> {
         let mut boxes: Vec<FaceBox> = faces.map(|face| FaceBox::new(skin, face)).collect();
         self.add_subtree(&mut boxes)
     }
@@ -161,7 +161,7 @@ impl FaceBox {
         gap.max_element() > reach
     }
 
-    fn size(&self) -> f64 {
+    fn longest_side(&self) -> f64 {
         (self.high - self.low).max_element()
     }
 }

@@ -8,7 +8,7 @@ pub(super) struct ContactCandidate {
     pub(super) points: [DVec3; 2],
     pub(super) faces: [u32; 2],
     /// The sum of both faces' rounding radii. The radii of faces that share an edge or a corner may differ.
-    pub(super) radii: f64,
+    pub(super) radius_sum: f64,
 }
 
 impl ContactCandidate {
@@ -17,6 +17,6 @@ impl ContactCandidate {
     }
 
     pub(super) fn gap(&self) -> f64 {
-        self.distance() - self.radii
+        self.distance() - self.radius_sum
     }
 }

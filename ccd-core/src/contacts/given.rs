@@ -41,16 +41,16 @@ pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
     let s = problem.clock(time);
     match problem.with_given_bodies() {
         Some(given) => {
-            let contact = contact_of_pieces(&given, oracle, meter, contact, within, s);
-            with_common_normal(&given, meter, contact, s)
+            let contact = remeasure_contact(&given, oracle, meter, contact, within, s);
+            replace_uncertain_normal(&given, meter, contact, s)
         }
-        None => with_common_normal(problem, meter, contact, s),
+        None => replace_uncertain_normal(problem, meter, contact, s),
     }
 }
 
 /// Replaces a contact's normal by a common normal of both surfaces if the normal is mostly rounding error. A normal of
 /// two touching pieces need not be a normal of the surfaces around them.
-fn with_common_normal(
+fn replace_uncertain_normal(
     problem: &Problem<'_>,
     meter: &mut Meter,
     contact: Contact,
@@ -94,7 +94,7 @@ fn with_common_normal(
     }
 }
 
-fn contact_of_pieces<O: DistanceOracle>(
+fn remeasure_contact<O: DistanceOracle>(
     given: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,

@@ -38,18 +38,23 @@ impl<'a> ContactManifold<'a> {
         let [a, b] = self.near_surfaces;
         let rounding = self.problem.rounding;
         for v in a.unhidden_corners_of(faces[0]) {
-            let (part, foot) = nearest_point_on_triangle(a.at(v), b.triangle(faces[1]), rounding);
+            let (part, foot) =
+                nearest_point_on_triangle(a.corner_position(v), b.triangle(faces[1]), rounding);
             let spots = [SurfacePart::Corner(v), surface_part(b, faces[1], part)];
-            self.add_pair_if_near(spots, [a.at(v), foot], faces);
+            self.add_pair_if_near(spots, [a.corner_position(v), foot], faces);
         }
         for v in b.unhidden_corners_of(faces[1]) {
-            let (part, foot) = nearest_point_on_triangle(b.at(v), a.triangle(faces[0]), rounding);
+            let (part, foot) =
+                nearest_point_on_triangle(b.corner_position(v), a.triangle(faces[0]), rounding);
             let spots = [surface_part(a, faces[0], part), SurfacePart::Corner(v)];
-            self.add_pair_if_near(spots, [foot, b.at(v)], faces);
+            self.add_pair_if_near(spots, [foot, b.corner_position(v)], faces);
         }
         for e in a.unhidden_edges_of(faces[0]) {
             for f in b.unhidden_edges_of(faces[1]) {
-                let ends = [e.map(|end| a.at(end)), f.map(|end| b.at(end))];
+                let ends = [
+                    e.map(|end| a.corner_position(end)),
+                    f.map(|end| b.corner_position(end)),
+                ];
                 if let Some(points) = nearest_points_on_crossing_edges(ends[0], ends[1], rounding) {
                     self.add_pair_if_near(
                         [SurfacePart::Edge(e), SurfacePart::Edge(f)],
@@ -74,7 +79,7 @@ impl<'a> ContactManifold<'a> {
         let candidate = ContactCandidate {
             points,
             faces,
-            radii: radius(0) + radius(1),
+            radius_sum: radius(0) + radius(1),
         };
         if candidate.gap() - rounding <= margin + tolerance {
             insert_if_nearer(&mut self.found_pairs, spots, candidate);

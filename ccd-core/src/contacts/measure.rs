@@ -36,7 +36,7 @@ pub(super) fn measure_feature_pair(
     let towards = if distance > problem.rounding {
         b - a
     } else {
-        outward_direction(skins, spots, candidate)
+        direction_from_a_to_b(skins, spots, candidate)
     };
     let mut normal = unit(towards).unwrap_or(DVec3::X);
     for across in candidate_normals(&points).into_iter().flatten() {
@@ -50,7 +50,8 @@ pub(super) fn measure_feature_pair(
         }
     }
     if is_direction_uncertain(distance, problem.rounding)
-        && let Some(common) = common_normals(candidate.points).nearest_normal_along(normal, b - a)
+        && let Some(common) =
+            common_normals(candidate.points).nearest_normal_if_along(normal, b - a)
     {
         normal = common;
     }
@@ -93,13 +94,13 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     [
         normal(*a),
         normal(*b),
-        unit(vector::perpendicular_vector(along(a), along(b))),
+        unit(vector::vector_perpendicular_to_both(along(a), along(b))),
     ]
 }
 
 /// Returns an approximate direction from A to B for features that touch: out of A's surface and into B's surface. For
 /// surfaces without an outside it leads from the middle of one piece to the middle of the other.
-fn outward_direction(
+fn direction_from_a_to_b(
     skins: [&NearSurface<'_>; 2],
     spots: &[SurfacePart; 2],
     candidate: &ContactCandidate,

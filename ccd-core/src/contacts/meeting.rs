@@ -2,7 +2,7 @@
 
 use crate::engine::meter::Meter;
 use crate::engine::pieces::snapshot::Snapshot;
-use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT};
+use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT_TOLERANCE};
 use glam::DVec3;
 
 /// Returns the common normal of both surfaces at a contact that is nearest to the direction `towards`. Returns `None`
@@ -20,7 +20,7 @@ pub(super) fn common_normal(
     let reach = ADJACENCY_DISTANCE * problem.rounding;
     let (mut looks, turn) = (0, pieces.b_to_a.rotation);
     let normals = &mut meter.scratch_memory().normals;
-    normals.reset(LEVEL_HEIGHT * problem.rounding);
+    normals.reset(LEVEL_HEIGHT_TOLERANCE * problem.rounding);
     problem
         .a
         .body
@@ -36,5 +36,5 @@ pub(super) fn common_normal(
     normals.sort_offsets();
     meter.stats.point_evaluations += looks;
     let normals = &meter.scratch_memory().normals;
-    normals.nearest_normal_along(towards, points[1] - points[0])
+    normals.nearest_normal_if_along(towards, points[1] - points[0])
 }

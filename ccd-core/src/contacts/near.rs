@@ -25,7 +25,7 @@ pub(super) fn near_face_pairs(
         reach,
     };
     for pieces in near_piece_pairs(problem, b_to_a, reach)? {
-        let [a, b] = [0, 1].map(|k| trees[k].root(&mut skins[k], pieces[k]));
+        let [a, b] = [0, 1].map(|k| trees[k].root_or_build(&mut skins[k], pieces[k]));
         if let (Some(a), Some(b)) = (a, b) {
             near.add_pairs_below(&trees, [a, b])?;
         }
@@ -74,7 +74,7 @@ fn child_ids(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
             NodeChildren::Piece(_) => return 0..0,
         },
     };
-    members.first..members.first + members.count
+    members.first_child..members.first_child + members.count
 }
 
 /// The bounding volume of a node or triangle, in A's frame: a ball, with a box or the triangle itself.
@@ -98,12 +98,12 @@ impl BoundingVolume {
             NodeOrTriangle::Node(node) => {
                 let radius = f64::from(node.radius);
                 // Axes rounded to f32 are not exactly orthonormal.
-                let more = f64::from(node.rounding) + RAY_BOX_WIDENING_F64 * radius;
+                let more = f64::from(node.rounding_radius) + RAY_BOX_WIDENING_F64 * radius;
                 BoundingVolume {
                     centre: to_a.point(node.centre),
                     radius,
                     axes: node.axes.map(|axis| to_a.rotation * axis.as_dvec3()),
-                    shape: BoxOrTriangle::Box(node.half.map(|half| f64::from(half) + more)),
+                    shape: BoxOrTriangle::Box(node.half_extents.map(|half| f64::from(half) + more)),
                 }
             }
             NodeOrTriangle::Triangle(piece) => {

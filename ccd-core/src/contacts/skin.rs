@@ -5,7 +5,7 @@ mod unpack;
 use crate::body::Body;
 use crate::body::feature::Feature;
 use crate::math::order::greater;
-use crate::math::vector::{normal, perpendicular_vector, unit};
+use crate::math::vector::{normal, unit, vector_perpendicular_to_both};
 use crate::motion::pose::Frame;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -23,9 +23,9 @@ pub(super) struct NearSurface<'a> {
     /// of the faces.
     coplanar_edges: HashMap<[u32; 2], [u32; 2]>,
     /// For each corner, whether it has no mesh number and all edges at it are between coplanar faces.
-    is_hidden: Vec<bool>,
+    is_corner_hidden: Vec<bool>,
     /// The faces around each hidden corner.
-    faces_around: HashMap<u32, Vec<u32>>,
+    faces_around_hidden_corner: HashMap<u32, Vec<u32>>,
     /// The first triangle of each face of the mesh; a face may have several triangles.
     first_triangle_of: HashMap<Feature, u32>,
     /// The sum of the normals of the faces around each corner.
@@ -34,7 +34,7 @@ pub(super) struct NearSurface<'a> {
 
 /// A vertex that triangles of the surface share.
 struct Corner {
-    at: DVec3,
+    position: DVec3,
     position_bits: PointBits,
     /// The corner's number in the mesh, if its piece has one.
     id: Option<u32>,
@@ -69,8 +69,8 @@ impl<'a> NearSurface<'a> {
             faces: Vec::new(),
             corner_indices: HashMap::new(),
             coplanar_edges: HashMap::new(),
-            is_hidden: Vec::new(),
-            faces_around: HashMap::new(),
+            is_corner_hidden: Vec::new(),
+            faces_around_hidden_corner: HashMap::new(),
             first_triangle_of: HashMap::new(),
             corner_normals: Vec::new(),
         }
@@ -85,7 +85,7 @@ impl<'a> NearSurface<'a> {
 
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
-    pub(super) fn find_coplanar_edges(&mut self, rounding: f64) {
+    pub(super) fn find_hidden_edges_and_corners(&mut self, rounding: f64) {
         self.propagate_mesh_numbers();
         self.compute_corner_normals();
         let mut sides: HashMap<[u32; 2], EdgeFaces> = HashMap::new();
@@ -101,11 +101,11 @@ impl<'a> NearSurface<'a> {
                 sides.count += 1;
             }
         }
-        self.is_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
+        self.is_corner_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
         // Segments and points are not within a plane.
         let thin = |face: &&Face| triangle_edges(face.corners).count() < 3;
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
-            self.is_hidden[corner as usize] = false;
+            self.is_corner_hidden[corner as usize] = false;
         }
         for (ends, EdgeFaces { mut faces, count }) in sides {
             if count == 2 && self.are_coplanar(ends, faces, rounding) {
@@ -113,13 +113,19 @@ impl<'a> NearSurface<'a> {
                 self.coplanar_edges.insert(ends, faces);
             } else {
                 for end in ends {
-                    self.is_hidden[end as usize] = false;
+                    self.is_corner_hidden[end as usize] = false;
                 }
             }
         }
         for (face, Face { corners, .. }) in (0u32..).zip(&self.faces) {
-            for &corner in corners.iter().filter(|&&k| self.is_hidden[k as usize]) {
-                self.faces_around.entry(corner).or_default().push(face);
+            for &corner in corners
+                .iter()
+                .filter(|&&k| self.is_corner_hidden[k as usize])
+            {
+                self.faces_around_hidden_corner
+                    .entry(corner)
+                    .or_default()
+                    .push(face);
             }
         }
     }
@@ -129,18 +135,20 @@ impl<'a> NearSurface<'a> {
     }
 
     pub(super) fn triangle(&self, face: u32) -> [DVec3; 3] {
-        self.face(face).corners.map(|corner| self.at(corner))
+        self.face(face)
+            .corners
+            .map(|corner| self.corner_position(corner))
     }
 
-    pub(super) fn at(&self, corner: u32) -> DVec3 {
-        self.corners[corner as usize].at
+    pub(super) fn corner_position(&self, corner: u32) -> DVec3 {
+        self.corners[corner as usize].position
     }
 
     /// Returns three points, possibly equal, whose convex hull is the given corner, edge or face.
     pub(super) fn points(&self, spot: SurfacePart, face: u32) -> [DVec3; 3] {
         match spot {
-            SurfacePart::Corner(corner) => [self.at(corner); 3],
-            SurfacePart::Edge([v, w]) => [v, w, w].map(|end| self.at(end)),
+            SurfacePart::Corner(corner) => [self.corner_position(corner); 3],
+            SurfacePart::Edge([v, w]) => [v, w, w].map(|end| self.corner_position(end)),
             SurfacePart::Face(_) => self.triangle(face),
         }
     }
@@ -216,7 +224,10 @@ impl<'a> NearSurface<'a> {
     /// Returns the coplanar faces around an edge or corner that is inside a flat part; empty for others.
     pub(super) fn coplanar_faces_around(&self, spot: SurfacePart) -> &[u32] {
         let faces = match spot {
-            SurfacePart::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
+            SurfacePart::Corner(corner) => self
+                .faces_around_hidden_corner
+                .get(&corner)
+                .map(Vec::as_slice),
             SurfacePart::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
             SurfacePart::Face(_) => None,
         };
@@ -227,7 +238,7 @@ impl<'a> NearSurface<'a> {
     /// corners inside a flat part are replaced by a face. Triangles with the same face number are one face.
     pub(super) fn reported_part(&self, spot: SurfacePart, face: u32) -> (SurfacePart, u32) {
         let face = match spot {
-            SurfacePart::Corner(corner) if self.is_hidden[corner as usize] => face,
+            SurfacePart::Corner(corner) if self.is_corner_hidden[corner as usize] => face,
             SurfacePart::Edge(ends) => match self.face_of_coplanar_edge(ends) {
                 Some(face) => face,
                 None => return (spot, face),
@@ -255,7 +266,7 @@ impl<'a> NearSurface<'a> {
     pub(super) fn unhidden_corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
         let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
-        let shown = |corner: &u32| !self.is_hidden[*corner as usize];
+        let shown = |corner: &u32| !self.is_corner_hidden[*corner as usize];
         first.map(move |k| corners[k]).filter(shown)
     }
 
@@ -318,11 +329,11 @@ impl<'a> NearSurface<'a> {
             let corners = self.face(face).corners;
             corners.into_iter().find(|corner| !ends.contains(corner))
         });
-        let ([Some(p), Some(q)], [a, b]) = (tips, ends.map(|end| self.at(end))) else {
+        let ([Some(p), Some(q)], [a, b]) = (tips, ends.map(|end| self.corner_position(end))) else {
             return false;
         };
-        let [p, q] = [p, q].map(|tip| self.at(tip) - a);
-        let normals = [p, q].map(|tip| unit(perpendicular_vector(b - a, tip)));
+        let [p, q] = [p, q].map(|tip| self.corner_position(tip) - a);
+        let normals = [p, q].map(|tip| unit(vector_perpendicular_to_both(b - a, tip)));
         let [Some(n), Some(m)] = normals else {
             return false;
         };

@@ -4,7 +4,7 @@ use super::boxes::FaceTrees;
 use super::closest::nearest_point_on_triangle;
 use super::skin::NearSurface;
 use crate::distance::common_normals::CommonNormals;
-use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT};
+use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT_TOLERANCE};
 use glam::DVec3;
 
 /// The triangles of a body's surface, with a tree that finds the triangles around a point.
@@ -29,7 +29,7 @@ impl<'a> Surface<'a> {
     ) -> CommonNormals {
         let reach = ADJACENCY_DISTANCE * rounding;
         let mut normals = CommonNormals::default();
-        normals.reset(LEVEL_HEIGHT * rounding);
+        normals.reset(LEVEL_HEIGHT_TOLERANCE * rounding);
         surfaces[0].for_each_offset_around(points[0], reach, |way| normals.add_offset_of_a(way));
         surfaces[1].for_each_offset_around(points[1], reach, |way| normals.add_offset_of_b(way));
         normals.sort_offsets();

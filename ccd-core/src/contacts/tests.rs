@@ -10,7 +10,8 @@ use crate::query::MovingBody;
 use crate::query::Query;
 use crate::settings::Settings;
 use crate::tests::scene::{
-    Pcg64, RngExt, SoupKind, direction, magnitude, point_in_ball, rng, rotation, soup,
+    Pcg64, RngExt, SoupKind, random_direction, random_point_in_ball, random_power_of_ten,
+    random_rotation, rng, soup,
 };
 use glam::{DQuat, DVec3};
 use twin::Mesh;
@@ -39,7 +40,7 @@ fn problem_of_still_bodies<'a>(
     Problem::about(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
 }
 
-fn at(x: f64, y: f64, z: f64) -> Pose {
+fn pose_at(x: f64, y: f64, z: f64) -> Pose {
     Pose::at(DVec3::new(x, y, z)).unwrap()
 }
 
@@ -68,7 +69,7 @@ fn count_pair_kinds(pairs: &[FeaturePair]) -> [usize; 3] {
 }
 
 /// Creates a box as two bodies: one of 12 triangles that share 8 vertices, and one of a single piece.
-fn cuboids(half: DVec3) -> [Body; 2] {
+fn cuboid_as_triangles_and_as_piece(half: DVec3) -> [Body; 2] {
     let solid = Body::cuboid(half).unwrap();
     [Mesh::cuboid(half).body(Volume::Solid), solid]
 }
@@ -89,12 +90,12 @@ fn check_separations(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
 
 #[test]
 fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
-    for cube in cuboids(DVec3::splat(0.5)) {
-        for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
+    for cube in cuboid_as_triangles_and_as_piece(DVec3::splat(0.5)) {
+        for slab in cuboid_as_triangles_and_as_piece(DVec3::new(3.0, 3.0, 1.0)) {
             // The places are over the diagonals of the slab's triangulation, and next to them; also in contact.
             for (x, y) in [(0.0, 0.0), (0.3, 0.1), (0.25, -0.75)] {
                 for gap in [5e-4, 1e-6, 0.0] {
-                    let pairs = contacts(&cube, &slab, at(x, y, 1.5 + gap), 1e-3);
+                    let pairs = contacts(&cube, &slab, pose_at(x, y, 1.5 + gap), 1e-3);
                     assert_eq!(
                         count_pair_kinds(&pairs),
                         [4, 0, 0],
@@ -102,8 +103,10 @@ fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
                         feature_names(&pairs)
                     );
                     check_separations(&pairs, gap, -DVec3::Z);
-                    let vertices: Vec<u32> =
-                        pairs.iter().map(|pair| vertex(pair.feature_a)).collect();
+                    let vertices: Vec<u32> = pairs
+                        .iter()
+                        .map(|pair| vertex_number(pair.feature_a))
+                        .collect();
                     assert!((0..4).all(|v| vertices.contains(&v)), "{vertices:?}");
                 }
             }
@@ -111,7 +114,7 @@ fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
     }
 }
 
-fn vertex(feature: Feature) -> u32 {
+fn vertex_number(feature: Feature) -> u32 {
     match feature {
         Feature::Vertex(v) => v,
         other => panic!("{other} is no vertex"),
@@ -120,9 +123,9 @@ fn vertex(feature: Feature) -> u32 {
 
 #[test]
 fn a_cube_over_the_side_of_a_slab_has_two_corners_and_two_crossings() {
-    for cube in cuboids(DVec3::splat(0.5)) {
-        for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
-            let pairs = contacts(&cube, &slab, at(3.1, 0.2, 1.5005), 1e-3);
+    for cube in cuboid_as_triangles_and_as_piece(DVec3::splat(0.5)) {
+        for slab in cuboid_as_triangles_and_as_piece(DVec3::new(3.0, 3.0, 1.0)) {
+            let pairs = contacts(&cube, &slab, pose_at(3.1, 0.2, 1.5005), 1e-3);
             assert_eq!(
                 count_pair_kinds(&pairs),
                 [2, 2, 0],
@@ -136,10 +139,10 @@ fn a_cube_over_the_side_of_a_slab_has_two_corners_and_two_crossings() {
 
 #[test]
 fn flush_squares_cross_along_their_outlines() {
-    let square = || cuboids(DVec3::new(1.0, 1.0, 0.2));
+    let square = || cuboid_as_triangles_and_as_piece(DVec3::new(1.0, 1.0, 0.2));
     for (a, b) in square().into_iter().zip(square()) {
         // A star has eight crossings, and a cross of two bars four.
-        let star = with_rotation(at(0.0, 0.0, 0.4005), DVec3::Z, 0.6);
+        let star = with_rotation(pose_at(0.0, 0.0, 0.4005), DVec3::Z, 0.6);
         let pairs = contacts(&a, &b, star, 1e-3);
         assert_eq!(
             count_pair_kinds(&pairs),
@@ -151,7 +154,7 @@ fn flush_squares_cross_along_their_outlines() {
     }
     let bars = [DVec3::new(2.0, 0.5, 0.2), DVec3::new(0.5, 2.0, 0.2)];
     let [a, b] = bars.map(|half| Mesh::cuboid(half).body(Volume::Solid));
-    let pairs = contacts(&a, &b, at(0.1, 0.0, 0.4), 1e-3);
+    let pairs = contacts(&a, &b, pose_at(0.1, 0.0, 0.4), 1e-3);
     assert_eq!(
         count_pair_kinds(&pairs),
         [0, 4, 0],
@@ -164,12 +167,15 @@ fn flush_squares_cross_along_their_outlines() {
 /// Tests that two equal squares on each other report only the pairs of their corners, not those of the edges and faces.
 #[test]
 fn equal_faces_meet_in_their_corners() {
-    for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
-        let pairs = contacts(&a, &b, at(0.0, 0.0, 2.0005), 1e-3);
+    for (a, b) in cuboid_as_triangles_and_as_piece(DVec3::ONE)
+        .into_iter()
+        .zip(cuboid_as_triangles_and_as_piece(DVec3::ONE))
+    {
+        let pairs = contacts(&a, &b, pose_at(0.0, 0.0, 2.0005), 1e-3);
         assert_eq!(feature_names(&pairs), ["v0 v4", "v1 v5", "v2 v6", "v3 v7"]);
         check_separations(&pairs, 5e-4, -DVec3::Z);
         // One face is shifted along one side, and its corners are within edges.
-        let pairs = contacts(&a, &b, at(0.7, 0.0, 2.0005), 1e-3);
+        let pairs = contacts(&a, &b, pose_at(0.7, 0.0, 2.0005), 1e-3);
         assert_eq!(
             feature_names(&pairs),
             ["e0-1 v5", "e2-3 v7", "v0 e4-5", "v2 e6-7"]
@@ -182,29 +188,33 @@ fn equal_faces_meet_in_their_corners() {
 fn balls_and_capsules_touch_with_their_surfaces() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
     let ball = Body::sphere(0.5).unwrap();
-    let pairs = contacts(&ball, &slab, at(0.3, 0.1, 1.5005), 1e-3);
+    let pairs = contacts(&ball, &slab, pose_at(0.3, 0.1, 1.5005), 1e-3);
     assert_eq!(feature_names(&pairs), ["v0 f5"]);
     check_separations(&pairs, 5e-4, -DVec3::Z);
     let pairs = contacts(
         &ball,
         &Body::sphere(0.7).unwrap(),
-        at(0.0, 1.2005, 0.0),
+        pose_at(0.0, 1.2005, 0.0),
         1e-3,
     );
     assert_eq!(feature_names(&pairs), ["v0 v0"]);
     check_separations(&pairs, 5e-4, -DVec3::Y);
 
     let capsule = Body::capsule(0.25, 1.0).unwrap();
-    let lying = with_rotation(at(0.0, 0.0, 1.2505), DVec3::X, std::f64::consts::FRAC_PI_2);
+    let lying = with_rotation(
+        pose_at(0.0, 0.0, 1.2505),
+        DVec3::X,
+        std::f64::consts::FRAC_PI_2,
+    );
     let pairs = contacts(&capsule, &slab, lying, 1e-3);
     assert_eq!(feature_names(&pairs), ["v0 f5", "v1 f5"]);
     check_separations(&pairs, 5e-4, -DVec3::Z);
     // The edges cross each other, or are side by side.
-    let across = with_rotation(at(0.5005, 0.0, 0.0), DVec3::X, 1.0);
+    let across = with_rotation(pose_at(0.5005, 0.0, 0.0), DVec3::X, 1.0);
     let pairs = contacts(&capsule, &capsule, across, 1e-3);
     assert_eq!(feature_names(&pairs), ["e0-1 e0-1"]);
     check_separations(&pairs, 5e-4, -DVec3::X);
-    let pairs = contacts(&capsule, &capsule, at(0.5005, 0.0, 0.5), 1e-3);
+    let pairs = contacts(&capsule, &capsule, pose_at(0.5005, 0.0, 0.5), 1e-3);
     assert_eq!(feature_names(&pairs), ["e0-1 v1", "v0 e0-1"]);
     check_separations(&pairs, 5e-4, -DVec3::X);
 }
@@ -229,7 +239,7 @@ fn features_without_a_number_are_named_by_their_piece() {
     };
     for (polytope, name) in [(hull, "p0 f5"), (bare, "v")] {
         let body = Body::polytope(polytope).unwrap();
-        let pairs = contacts(&body, &slab, at(0.3, 0.1, 1.5005), 1e-3);
+        let pairs = contacts(&body, &slab, pose_at(0.3, 0.1, 1.5005), 1e-3);
         assert_eq!(pairs.len(), 4, "{:?}", feature_names(&pairs));
         assert!(feature_names(&pairs).iter().all(|it| it.starts_with(name)));
         check_separations(&pairs, 5e-4, -DVec3::Z);
@@ -245,7 +255,8 @@ fn a_margin_is_reached_across() {
         ..Settings::DEFAULT
     };
     for (height, count) in [(0.2505, 4), (0.2515, 0)] {
-        let problem = problem_of_still_bodies(&cube, &cube, at(0.0, 0.0, 1.0 + height), &config);
+        let problem =
+            problem_of_still_bodies(&cube, &cube, pose_at(0.0, 0.0, 1.0 + height), &config);
         let pairs = problem.contacts_at(0.5).unwrap();
         assert_eq!(pairs.len(), count, "{:?}", feature_names(&pairs));
         check_separations(&pairs, height, -DVec3::Z);
@@ -259,7 +270,7 @@ fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
     let mut found = [0; 3];
     for round in 0..240 {
-        let size = magnitude(rng, -3.0, 3.0);
+        let size = random_power_of_ten(rng, -3.0, 3.0);
         let [look_a, look_b] = [0; 2].map(|_| SoupKind::ALL[rng.random_range(0..5)]);
         let tame = |look| {
             if look == SoupKind::Needles {
@@ -272,9 +283,9 @@ fn no_pair_of_random_soups_is_missed() {
         let (count_a, count_b) = (count(rng), count(rng));
         let a = Mesh::soup(soup(rng, tame(look_a), count_a, size));
         let b = Mesh::soup(soup(rng, tame(look_b), count_b, size));
-        let place = point_in_ball(rng, size);
-        let pose = Pose::new(place, rotation(rng)).unwrap();
-        let tolerance = size * magnitude(rng, -2.5, -0.5);
+        let place = random_point_in_ball(rng, size);
+        let pose = Pose::new(place, random_rotation(rng)).unwrap();
+        let tolerance = size * random_power_of_ten(rng, -2.5, -0.5);
         compare_with_brute_force(&a, &b, pose, tolerance, &mut found, round);
     }
     assert!(found.iter().all(|&count| count > 120), "{found:?}");
@@ -291,7 +302,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
         let rough = [0.0, 1e-3, 0.3][round % 3];
         let (a, b) = (Mesh::cuboid(half), Mesh::terrain(rng, 8, 3.0, rough));
         let lean = [0.0, 1e-6, 1e-4, 1e-2, 0.7][rng.random_range(0..5)];
-        let turn = DQuat::from_axis_angle(direction(rng), lean)
+        let turn = DQuat::from_axis_angle(random_direction(rng), lean)
             * DQuat::from_rotation_z(rng.random_range(0.0..3.0));
         let lowest = a
             .points
@@ -397,7 +408,7 @@ fn fine_plates_face_to_face_are_no_trouble() {
     let body = plate.body(Volume::Surface);
     // The plate is shifted by half a cell: every vertex is over a face, except those beyond the other plate.
     let cell = 6.0 / 60.0;
-    let pairs = contacts(&body, &body, at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
+    let pairs = contacts(&body, &body, pose_at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
     // Along two sides, 61 and 60 vertices of either plate hang over.
     assert_eq!(count_pair_kinds(&pairs)[0], 2 * 60 * 60);
     assert_eq!(
@@ -412,7 +423,7 @@ fn fine_plates_face_to_face_are_no_trouble() {
 #[test]
 fn times_beyond_the_duration_and_budgets_are_refused() {
     let cube = Mesh::cuboid(DVec3::ONE).body(Volume::Solid);
-    let problem = problem_of_still_bodies(&cube, &cube, at(0.0, 0.0, 2.0), &Settings::DEFAULT);
+    let problem = problem_of_still_bodies(&cube, &cube, pose_at(0.0, 0.0, 2.0), &Settings::DEFAULT);
     let (place, settings) = (Pose::at([0.0, 0.0, 2.0]).unwrap(), Settings::DEFAULT);
     let query = Query::new((&cube, place), (&cube, Pose::IDENTITY), 1.0, &settings).unwrap();
     for time in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
@@ -429,7 +440,7 @@ fn times_beyond_the_duration_and_budgets_are_refused() {
             budget,
             ..Settings::DEFAULT
         };
-        let problem = problem_of_still_bodies(&cube, &cube, at(0.0, 0.0, 2.0), &config);
+        let problem = problem_of_still_bodies(&cube, &cube, pose_at(0.0, 0.0, 2.0), &config);
         assert_eq!(
             problem.contacts_at(0.5),
             Err(ContactsError::TooManyPairs { budget })

@@ -1,7 +1,7 @@
 //! Finds a common normal of two surfaces at a pair of nearest points.
 
-use crate::math::vector::{length, perpendicular_vector, unit};
-use crate::rounding::LEAST_COMPONENT_LENGTH;
+use crate::math::vector::{length, unit, vector_perpendicular_to_both};
+use crate::rounding::LEAST_PERPENDICULAR_LENGTH;
 use glam::DVec3;
 
 /// The common normals of two surfaces A and B at a pair of points, one on each surface. They are the unit vectors `n`
@@ -66,7 +66,7 @@ impl CommonNormals {
 
     /// Like [`CommonNormals::nearest_normal`], but returns `None` unless the vector `between` the two points is along
     /// the normal, up to the slack.
-    pub(crate) fn nearest_normal_along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
+    pub(crate) fn nearest_normal_if_along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
         let n = self.nearest_normal(towards)?;
         let ahead = n.dot(between);
         let aside = length(between - n * ahead);
@@ -82,7 +82,7 @@ impl CommonNormals {
         let mut best = towards;
         for (k, offset) in self.offsets.iter().copied().enumerate() {
             if self.falls_along(best, offset) {
-                best = self.project_perpendicular(towards, offset, k)?;
+                best = self.project_onto_cone_in_plane(towards, offset, k)?;
             }
         }
         Some(best)
@@ -90,13 +90,18 @@ impl CommonNormals {
 
     /// Like [`CommonNormals::project_onto_cone`], for the first `count` offsets only; the result is perpendicular to
     /// `level`.
-    fn project_perpendicular(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
+    fn project_onto_cone_in_plane(
+        &self,
+        towards: DVec3,
+        level: DVec3,
+        count: usize,
+    ) -> Option<DVec3> {
         let level = unit(level)?;
         let mut best = unit_of_component(towards - level * level.dot(towards))?;
         let before = || self.offsets.iter().copied().take(count);
         for (k, offset) in before().enumerate() {
             if self.falls_along(best, offset) {
-                let line = unit(perpendicular_vector(level, offset))?;
+                let line = unit(vector_perpendicular_to_both(level, offset))?;
                 best = unit_of_component(line * line.dot(towards))?;
                 if before()
                     .take(k)
@@ -121,7 +126,7 @@ const MAX_KEPT_OFFSETS: usize = 1 << 20;
 /// Returns the unit vector along a component of a unit vector; `None` if the component is so short that it may be mere
 /// rounding.
 fn unit_of_component(part: DVec3) -> Option<DVec3> {
-    (length(part) > LEAST_COMPONENT_LENGTH).then(|| unit(part))?
+    (length(part) > LEAST_PERPENDICULAR_LENGTH).then(|| unit(part))?
 }
 
 #[cfg(test)]

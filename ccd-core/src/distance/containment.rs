@@ -6,8 +6,8 @@ use crate::answer::{Limit, Outcome, Overlap};
 use crate::body::Body;
 use crate::body::shell::ExtremePoints;
 use crate::body::tree::point_query::is_far_from_surface;
-use crate::body::tree::ray::count_crossings;
-use crate::math::vector::{perpendicular_vector, unit_or_any};
+use crate::body::tree::ray::sum_signed_crossings;
+use crate::math::vector::{unit_or_any, vector_perpendicular_to_both};
 use crate::motion::pose::Frame;
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::CERTAIN_SIDE_DISTANCE;
@@ -209,7 +209,7 @@ impl Search<'_> {
         let piece = self.inner_body.body.pieces().get(piece as usize);
         let is_above = |corners: &[u32]| {
             let [a, b, c] = [0, 1, 2].map(|k| piece.points[corners[k] as usize]);
-            unit_or_any(perpendicular_vector(b - a, c - a))
+            unit_or_any(vector_perpendicular_to_both(b - a, c - a))
                 .dot(a - middle)
                 .abs()
                 > self.reach
@@ -244,7 +244,7 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !is_far_from_surface(body.tree(), body.pieces(), point, reach) {
         return None;
     }
-    let result = count_crossings(body.tree(), body.pieces(), point, 0.0)?;
+    let result = sum_signed_crossings(body.tree(), body.pieces(), point, 0.0)?;
     (result.triangles_at_start == 0).then_some(result.sum_ahead != 0)
 }
 

@@ -4,9 +4,9 @@
 use super::oracle::PiecePair;
 use super::separation::CheckedClaim;
 use crate::math::order::{greater, lesser};
-use crate::math::vector::perpendicular_vector;
 use crate::math::vector::unit_or_any;
-use crate::tuning::MAX_OVERLAP_POLYTOPE_CORNERS;
+use crate::math::vector::vector_perpendicular_to_both;
+use crate::tuning::MAX_EXPANDING_POLYTOPE_CORNERS;
 use glam::DVec3;
 
 /// Whether two pieces intersect by more than rounding.
@@ -31,12 +31,12 @@ pub(crate) fn decide_intersection(
     pair: &PiecePair<'_>,
     checked: &CheckedClaim,
     rounding: f64,
-    inner: &mut OverlapPolytope,
+    inner: &mut ExpandingPolytope,
 ) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
         // Witnesses of the cores that are nearer than the radii are a proof.
-        return if checked.core_distance + rounding < radii {
+        return if checked.claimed_core_distance + rounding < radii {
             Intersection::Certain
         } else {
             Intersection::None
@@ -49,7 +49,7 @@ pub(crate) fn decide_intersection(
         // The differences are in one plane, up to rounding.
         return Intersection::None;
     }
-    for _ in 0..MAX_OVERLAP_POLYTOPE_CORNERS {
+    for _ in 0..MAX_EXPANDING_POLYTOPE_CORNERS {
         let Some(&face) = inner.shallowest_face() else {
             return Intersection::Undecided;
         };
@@ -80,7 +80,7 @@ fn minkowski_support_point(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
 /// Its faces form a closed surface even if their normals are rounded: the faces that a new corner sees are replaced
 /// by a cone to their rim. Once all faces are turned away from the origin, the surface winds about it.
 #[derive(Debug, Default)]
-pub(crate) struct OverlapPolytope {
+pub(crate) struct ExpandingPolytope {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
     /// The edges between a face that the last added corner is in front of, and a face that the corner is behind.
@@ -99,13 +99,13 @@ struct Face {
     height: f64,
 }
 
-impl OverlapPolytope {
+impl ExpandingPolytope {
     /// Replaces the polytope by a tetrahedron of four points of the Minkowski difference. Returns false if all
     /// differences are in one plane.
     fn start_with_tetrahedron(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
         self.corners.clear();
         self.faces.clear();
-        let Some(corners) = tetrahedron(pair, rounding) else {
+        let Some(corners) = find_start_tetrahedron(pair, rounding) else {
             return false;
         };
         self.corners.extend(corners);
@@ -161,7 +161,7 @@ impl OverlapPolytope {
 
 /// Returns four points of the Minkowski difference that are far from one another. Returns `None` if all differences are
 /// in a plane up to rounding, so that the pieces cannot intersect by more than that.
-fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
+fn find_start_tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     let both = |along: DVec3| [along, -along].map(|along| minkowski_support_point(pair, along));
     let farther =
         |best: (f64, DVec3), next: (f64, DVec3)| if next.0 > best.0 { next } else { best };
@@ -179,7 +179,7 @@ fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     let c = pick(around.as_flattened(), &|p| {
         (p - a - line * line.dot(p - a)).length()
     })?;
-    let normal = unit_or_any(perpendicular_vector(b - a, c - a));
+    let normal = unit_or_any(vector_perpendicular_to_both(b - a, c - a));
     let d = pick(&both(normal), &|p| normal.dot(p - a).abs())?;
     Some(if normal.dot(d - a) < 0.0 {
         [a, b, c, d]
@@ -200,7 +200,7 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
         }
     };
     let along = unit_or_any(edges.into_iter().fold(DVec3::ZERO, longest));
-    let normal = unit_or_any(perpendicular_vector(edges[0], edges[1]));
+    let normal = unit_or_any(vector_perpendicular_to_both(edges[0], edges[1]));
     unit_or_any(normal - along * along.dot(normal))
 }
 

@@ -20,7 +20,7 @@ pub(crate) struct CheckedClaim {
     /// The unit axis along which `lower` was computed.
     pub(crate) axis: DVec3,
     /// The distance of the claimed nearest points, before the pieces' radii are subtracted.
-    pub(crate) core_distance: f64,
+    pub(crate) claimed_core_distance: f64,
     /// The point of A from which `upper` was computed, on the surface that includes the radius.
     pub(crate) witness_a: DVec3,
     pub(crate) witness_b: DVec3,
@@ -31,7 +31,7 @@ pub(crate) struct CheckedClaim {
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper`, for any claim.
-pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> CheckedClaim {
+pub(crate) fn check_claim(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> CheckedClaim {
     let (a, on_a) = with_valid_indices(claim.a, pair.a.points);
     let (b, on_b) = with_valid_indices(claim.b, pair.b.points);
     let on_b = pair.b_to_a.point(on_b);
@@ -41,11 +41,11 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
 
     let mut axis = unit_or_any(claim.axis);
     let near = [&a, &b].map(|claimed| claimed.point_indices().first().copied());
-    let mut gap = support_gap_near(pair, axis, on_a, near);
+    let mut gap = support_gap_with_hints(pair, axis, on_a, near);
     // Written so that NaN tries the second axis.
     if !(gap > 0.5 * distance) {
         let second = unit_or_any(way);
-        let second_gap = support_gap_near(pair, second, on_a, near);
+        let second_gap = support_gap_with_hints(pair, second, on_a, near);
         if !(gap >= second_gap) {
             (axis, gap) = (second, second_gap);
         }
@@ -60,7 +60,7 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
         lower: gap - radii - rounding,
         upper: greater(0.0, distance - radii) + rounding,
         axis,
-        core_distance: distance,
+        claimed_core_distance: distance,
         witness_a: on_a + outward * pair.a.radius,
         witness_b: on_b - outward * pair.b.radius,
     }
@@ -69,12 +69,17 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
 /// Returns the gap `min_B n·y − max_A n·x` of two pieces without their radii. Heights are measured from `from`.
 #[inline]
 pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
-    support_gap_near(pair, n, from, [None; 2])
+    support_gap_with_hints(pair, n, from, [None; 2])
 }
 
 /// Like [`support_gap`], but starts the search for the extremal point of each piece at its corner in `near`, if given.
 #[inline]
-fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
+fn support_gap_with_hints(
+    pair: &PiecePair<'_>,
+    n: DVec3,
+    from: DVec3,
+    near: [Option<u32>; 2],
+) -> f64 {
     let highest = match pair.a.support_map {
         Some(support) => {
             let farthest = support.extremal_point_with_hint(near[0], n);

@@ -2,7 +2,7 @@
 
 use super::meter::Meter;
 use super::scratch::Scratch;
-use super::start::outcome_at_start;
+use super::start::search_contact_at_start;
 use crate::answer::{Answer, Outcome, Stats};
 use crate::contacts::given::{contact_for_given_bodies, outcome_for_given_bodies};
 use crate::distance::oracle::DistanceOracle;
@@ -39,7 +39,7 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
 ) -> Answer {
     let at_start = |problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter| {
         let beyond = problem.contact_distance().next_up();
-        outcome_at_start(problem, beyond, oracle, meter)
+        search_contact_at_start(problem, beyond, oracle, meter)
     };
     answer_under_policy(problem, oracle, scratch, at_start, search)
 }
@@ -82,7 +82,7 @@ fn answer_under_policy<O: DistanceOracle>(
 
 /// Runs a search in [`PeriodicSearch`] if the relative motion is periodic, and once over the whole time otherwise.
 #[inline]
-pub(crate) fn search_in_rounds(
+pub(crate) fn search_by_period(
     problem: &Problem<'_>,
     meter: &mut Meter,
     mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
@@ -104,7 +104,7 @@ pub(crate) fn problem_ignoring_start_contact<'a, O: DistanceOracle>(
 ) -> Option<Problem<'a>> {
     match (start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
-            let (within, at_start) = (problem.contact_distance(), problem.time(0.0));
+            let (within, at_start) = (problem.contact_distance(), problem.time_of_clock(0.0));
             // The normal is needed here. That of two pieces alone may be arbitrary.
             let contact =
                 contact_for_given_bodies(problem, oracle, meter, *contact, within, at_start);

@@ -1,6 +1,6 @@
 //! Best-first search: always examines the pair with the least clock, the time until which the pair is proven apart.
 
-use super::answer::{EngineSchedule, answer, search_in_rounds};
+use super::answer::{EngineSchedule, answer, search_by_period};
 use super::meter::Meter;
 use super::proven::ProvenFacts;
 use super::queue::Queue;
@@ -68,7 +68,7 @@ impl<O: DistanceOracle> EngineSchedule<O> for BestFirst<O> {
     fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
-            search_in_rounds(problem, meter, |problem, meter| {
+            search_by_period(problem, meter, |problem, meter| {
                 self.queue.clear();
                 let outcome = self.search(problem, oracle, meter);
                 let stats = &mut meter.stats;
@@ -99,7 +99,7 @@ impl<O: DistanceOracle> Question<O> for ProvenFacts {
     #[inline]
     fn on_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
         if s > 0.0 {
-            self.record_apart_at_start(problem)
+            self.check_containment_once_apart(problem)
                 .map_or(ControlFlow::Continue(()), ControlFlow::Break)
         } else {
             ControlFlow::Continue(())
@@ -118,7 +118,7 @@ impl<O: DistanceOracle> Question<O> for ProvenFacts {
     }
 
     fn on_limit(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
-        Outcome::unresolved(problem.time(s), reason)
+        Outcome::unresolved(problem.time_of_clock(s), reason)
     }
 
     fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {

@@ -43,21 +43,28 @@ impl Meter {
 
     /// Counts one visit of a pair, and returns an error if a limit is reached.
     #[inline]
-    pub(crate) fn count_visit(&mut self, problem: &Problem<'_>) -> Result<(), Limit> {
+    pub(crate) fn count_visit_and_check_limits(
+        &mut self,
+        problem: &Problem<'_>,
+    ) -> Result<(), Limit> {
         self.stats.iterations += 1;
         let work = self.stats.work();
         if work > problem.budget {
             return Err(Limit::Budget);
         }
         if work >= self.work_at_next_check {
-            self.check_limits(problem, work)
+            self.check_stop_flag_and_deadline(problem, work)
         } else {
             Ok(())
         }
     }
 
     #[cold]
-    fn check_limits(&mut self, problem: &Problem<'_>, work: u64) -> Result<(), Limit> {
+    fn check_stop_flag_and_deadline(
+        &mut self,
+        problem: &Problem<'_>,
+        work: u64,
+    ) -> Result<(), Limit> {
         self.work_at_next_check = work.saturating_add(WORK_BETWEEN_CLOCK_READS);
         // The work of the other thread before the flag was set does not matter to this one.
         if problem

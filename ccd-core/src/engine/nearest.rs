@@ -4,7 +4,7 @@ pub(crate) mod lists;
 
 use super::meter::Meter;
 use super::nodes::common::NodeContext;
-use super::nodes::expand::measure_children;
+use super::nodes::expand::bound_child_distances;
 use super::nodes::siblings::{NextStep, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
@@ -30,11 +30,11 @@ pub(crate) struct NearestSearch<'p> {
     /// The distance at and beyond which pairs are ignored.
     cutoff: f64,
     /// The two pieces with the least upper bound, by their indices in the problem, and their contact.
-    nearest: Option<([u32; 2], Contact)>,
+    nearest_pair: Option<([u32; 2], Contact)>,
     /// A lower bound of the distances of the measured pieces, and once the search has ended, of the waiting pairs.
     lower: f64,
     /// True if it could not be decided for some pair of pieces whether they intersect.
-    pub(crate) undecided: bool,
+    pub(crate) is_intersection_undecided: bool,
 }
 
 /// The reason why a search ended before it found the distance.
@@ -55,9 +55,9 @@ impl<'p> NearestSearch<'p> {
             clock,
             buffers: lists,
             cutoff: f64::INFINITY,
-            nearest: None,
+            nearest_pair: None,
             lower: f64::INFINITY,
-            undecided: false,
+            is_intersection_undecided: false,
         }
     }
 
@@ -88,12 +88,12 @@ impl<'p> NearestSearch<'p> {
     ) -> ControlFlow<EarlyEndReason> {
         let mut next = Some(NextStep::roots(self.problem));
         while let Some(pair) = next {
-            if let Err(limit) = meter.count_visit(self.problem) {
+            if let Err(limit) = meter.count_visit_and_check_limits(self.problem) {
                 return ControlFlow::Break(EarlyEndReason::Limit(limit));
             }
             match pair {
                 NextStep::Split(split) => {
-                    let expansion = measure_children(&self.node_context, &split, self.clock);
+                    let expansion = bound_child_distances(&self.node_context, &split, self.clock);
                     self.enqueue(Siblings::new(&expansion, split, 0.0))?;
                 }
                 NextStep::MeasurePieces(a, b) => self.measure_pieces([a, b], oracle, meter)?,
@@ -127,7 +127,7 @@ impl<'p> NearestSearch<'p> {
             self.lower = lesser(self.lower, distance);
             return None;
         }
-        let next = siblings.take_least_pair(self.problem, distance);
+        let next = siblings.take_next_step(self.problem, distance);
         match siblings.clock() {
             distance if distance < upper => self.buffers.waiting_pairs.postpone(distance),
             _ => self.buffers.waiting_pairs.remove(),
@@ -148,7 +148,7 @@ impl<'p> NearestSearch<'p> {
         let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter) else {
             return ControlFlow::Break(EarlyEndReason::Limit(Limit::OracleGaveUp));
         };
-        let inner = &mut meter.scratch_memory().overlap_polytope;
+        let inner = &mut meter.scratch_memory().expanding_polytope;
         match overlap::decide_intersection(&snapshot.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
                 return ControlFlow::Break(EarlyEndReason::Overlap(
@@ -156,16 +156,16 @@ impl<'p> NearestSearch<'p> {
                     contact(&snapshot, ids, &checked),
                 ));
             }
-            Intersection::Undecided => self.undecided = true,
+            Intersection::Undecided => self.is_intersection_undecided = true,
             Intersection::None => {}
         }
         // Written so that NaN is not apart.
         if !(checked.lower > 0.0) {
-            self.buffers.touching_pairs.push(ids);
+            self.buffers.unseparated_pairs.push(ids);
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper_bound() {
-            self.nearest = Some((ids, contact(&snapshot, ids, &checked)));
+            self.nearest_pair = Some((ids, contact(&snapshot, ids, &checked)));
         }
         ControlFlow::Continue(())
     }
@@ -174,7 +174,7 @@ impl<'p> NearestSearch<'p> {
     /// were found.
     fn upper_bound(&self) -> f64 {
         let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
-        self.nearest.map_or(self.cutoff, upper)
+        self.nearest_pair.map_or(self.cutoff, upper)
     }
 
     /// Returns the distance at and beyond which pairs need not be examined.
@@ -189,13 +189,13 @@ impl<'p> NearestSearch<'p> {
 
     /// Returns the contact of the nearest pieces, with a lower bound for all pieces; `None` if no pieces are nearer
     /// than the cutoff.
-    pub(crate) fn nearest(&self) -> Option<Contact> {
+    pub(crate) fn nearest_contact(&self) -> Option<Contact> {
         self.nearest_pieces().map(|(_, contact)| contact)
     }
 
-    /// Like [`NearestSearch::nearest`], with the indices of the pieces in the problem.
+    /// Like [`NearestSearch::nearest_contact`], with the indices of the pieces in the problem.
     pub(crate) fn nearest_pieces(&self) -> Option<([u32; 2], Contact)> {
-        self.nearest
+        self.nearest_pair
             .map(|(pieces, contact)| (pieces, contact.cap_lower_bound(self.lower)))
     }
 
@@ -204,7 +204,7 @@ impl<'p> NearestSearch<'p> {
     pub(crate) fn contact(&self, seen: Contact) -> Contact {
         let within = self.problem.contact_distance();
         let nearest = self
-            .nearest()
+            .nearest_contact()
             .filter(|nearest| nearest.separation.upper <= within);
         nearest.unwrap_or(seen.cap_lower_bound(self.lower))
     }

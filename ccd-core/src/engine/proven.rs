@@ -2,7 +2,7 @@
 
 use super::meter::Meter;
 use super::pieces::pair::PairStep;
-use super::start::{overlap_outcome, touching_outcome};
+use super::start::{classify_start_contact, overlap_outcome};
 use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
@@ -30,11 +30,11 @@ impl ProvenFacts {
         step: PairStep,
         s: f64,
     ) -> ControlFlow<Outcome, f64> {
-        let unresolved = |reason| Outcome::unresolved(problem.time(s), reason);
+        let unresolved = |reason| Outcome::unresolved(problem.time_of_clock(s), reason);
         ControlFlow::Break(match step {
             PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
             PairStep::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
-            PairStep::Contact(contact) => touching_outcome(problem, oracle, meter, contact),
+            PairStep::Contact(contact) => classify_start_contact(problem, oracle, meter, contact),
             PairStep::Overlap(contact) => overlap_outcome(contact),
             PairStep::Stalled => unresolved(Limit::Stalled),
             PairStep::GaveUp => unresolved(Limit::OracleGaveUp),
@@ -45,13 +45,16 @@ impl ProvenFacts {
     /// their clocks bound their distances.
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
-            time: problem.time(s),
+            time: problem.time_of_clock(s),
             contact: contact.cap_lower_bound(problem.proven_gap()),
         }
     }
 
     /// Records that no pair is in contact at the start; returns the outcome if one body is inside the other.
-    pub(crate) fn record_apart_at_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
+    pub(crate) fn check_containment_once_apart(
+        &mut self,
+        problem: &Problem<'_>,
+    ) -> Option<Outcome> {
         if std::mem::replace(&mut self.apart_at_start, true) {
             return None;
         }
@@ -64,7 +67,7 @@ impl ProvenFacts {
 
     /// Returns the outcome of a query whose pairs are all apart to the end.
     pub(crate) fn finish(&mut self, problem: &Problem<'_>) -> Outcome {
-        self.record_apart_at_start(problem)
+        self.check_containment_once_apart(problem)
             .unwrap_or(Outcome::Free {
                 proven_gap: problem.proven_gap(),
             })

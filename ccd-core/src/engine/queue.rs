@@ -65,7 +65,7 @@ impl<T> Queue<T> {
         slot(self.least_key)
     }
 
-    fn newest_key(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
+    fn make_newest_key(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
         self.serial = self.serial.wrapping_add(1);
         key(clock, rank, self.serial, place)
     }
@@ -126,7 +126,7 @@ impl<T> Worklist<T> for Queue<T> {
             }
             None => return Err(QueueFull),
         };
-        let key = self.newest_key(clock, rank, place);
+        let key = self.make_newest_key(clock, rank, place);
         self.set_key(place, key);
         Ok(())
     }
@@ -147,7 +147,7 @@ impl<T> Worklist<T> for Queue<T> {
     #[inline]
     fn postpone_as_newest(&mut self, clock: f64, rank: Rank) {
         let place = self.least_slot();
-        let key = self.newest_key(clock, rank, place);
+        let key = self.make_newest_key(clock, rank, place);
         self.set_key(place, key);
     }
 

@@ -2,8 +2,8 @@
 
 use super::nearest::lists::SearchBuffers;
 use crate::distance::common_normals::CommonNormals;
-use crate::distance::overlap::OverlapPolytope;
-use crate::shortcuts::screw::Profiles;
+use crate::distance::overlap::ExpandingPolytope;
+use crate::shortcuts::screw::ProfileCache;
 
 /// The scratch memory of a solver, created when first needed.
 pub(crate) type Scratch = Option<Box<ScratchMemory>>;
@@ -12,11 +12,11 @@ pub(crate) type Scratch = Option<Box<ScratchMemory>>;
 #[derive(Debug, Default)]
 pub(crate) struct ScratchMemory {
     /// The lists of the search for the nearest pieces.
-    pub(crate) nearest: SearchBuffers,
+    pub(crate) nearest_search_buffers: SearchBuffers,
     /// The polytope of the test whether two pieces intersect.
-    pub(crate) overlap_polytope: OverlapPolytope,
+    pub(crate) expanding_polytope: ExpandingPolytope,
     /// The common normals of the surfaces around two nearest points.
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.
-    pub(crate) profiles: Profiles,
+    pub(crate) profile_cache: ProfileCache,
 }

@@ -145,7 +145,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
             return ControlFlow::Break(question.on_end(problem));
         };
         question.on_clock(problem, s)?;
-        if let Err(limit) = meter.count_visit(problem) {
+        if let Err(limit) = meter.count_visit_and_check_limits(problem) {
             return ControlFlow::Break(question.on_limit(problem, s, limit));
         }
         let (next, rest) = match item {
@@ -162,11 +162,12 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
                     look.take_earliest_with_later_clock(problem, siblings, s)
                 {
                     let rest = siblings.clock();
-                    let waits = self.requeue(rest, (clock, WaitingItem::Siblings(alone)));
+                    let waits =
+                        self.requeue_rest_and_push_new(rest, (clock, WaitingItem::Siblings(alone)));
                     return continue_unless_full(waits, problem, question, s);
                 }
                 // The remaining siblings wait for their own clocks.
-                (siblings.take_least_pair(problem, s), siblings.clock())
+                (siblings.take_next_step(problem, s), siblings.clock())
             }
         };
         let new = match next {
@@ -183,14 +184,14 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
                 (clock, WaitingItem::Pieces(pair))
             }
         };
-        let waits = self.requeue(rest, new);
+        let waits = self.requeue_rest_and_push_new(rest, new);
         continue_unless_full(waits, problem, question, s)
     }
 
     /// Lets what remains of the examined item wait on, and adds the item that follows from it. Items with a clock after the
     /// end are dropped.
     #[inline(always)]
-    fn requeue(
+    fn requeue_rest_and_push_new(
         &mut self,
         rest: f64,
         (clock, new): (f64, WaitingItem<O::Cache>),

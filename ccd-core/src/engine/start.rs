@@ -16,7 +16,7 @@ use crate::problem::Problem;
 ///
 /// # Complexity
 /// One distance of the bodies, for any margin, and one visit for every pair of pieces that may intersect.
-pub(crate) fn touching_outcome<O: DistanceOracle>(
+pub(crate) fn classify_start_contact<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -30,13 +30,15 @@ pub(crate) fn touching_outcome<O: DistanceOracle>(
 /// Returns the outcome for bodies that overlap at the start or are nearer than `beyond`; `None` for bodies farther
 /// apart. Bodies nearer than `beyond` count as touching, and a body inside the other counts as overlapping. If this is
 /// undecided, the outcome is unresolved.
-pub(crate) fn outcome_at_start<O: DistanceOracle>(
+pub(crate) fn search_contact_at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
 ) -> Option<Outcome> {
-    measure_at_start(problem, beyond, oracle, meter, |nearest| nearest.nearest())
+    measure_at_start(problem, beyond, oracle, meter, |nearest| {
+        nearest.nearest_contact()
+    })
 }
 
 /// Searches for the nearest pieces at the start, and returns the outcome if the bodies overlap, if a limit ends the
@@ -49,20 +51,20 @@ fn measure_at_start<O: DistanceOracle>(
     meter: &mut Meter,
     contact: impl FnOnce(&NearestSearch<'_>) -> Option<Contact>,
 ) -> Option<Outcome> {
-    let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
+    let mut lists = std::mem::take(&mut meter.scratch_memory().nearest_search_buffers);
     let mut nearest = NearestSearch::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
         Some(EarlyEndReason::Overlap(_, contact)) => Some(overlap_outcome(contact)),
         Some(EarlyEndReason::Limit(limit)) => Some(unresolved_outcome(limit)),
-        None if nearest.undecided => Some(unresolved_outcome(Limit::Undecided)),
+        None if nearest.is_intersection_undecided => Some(unresolved_outcome(Limit::Undecided)),
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
-            let (pairs, pieces) = lists.touching_pairs_and_scratch();
+            let (pairs, pieces) = lists.unseparated_pairs_and_scratch();
             containment_at_start(problem, pairs, pieces).or(touching)
         }
     };
     lists.clear();
-    meter.scratch_memory().nearest = lists;
+    meter.scratch_memory().nearest_search_buffers = lists;
     outcome
 }
 

@@ -29,13 +29,13 @@ pub struct PointTree {
     /// subtree.
     nodes: Vec<Node>,
     /// An upper bound of the absolute value of any coordinate of the boxes, and so of the stored points.
-    reach: f64,
+    max_abs_coordinate: f64,
 }
 
 #[derive(Clone, Debug)]
 struct Node {
     middle: DVec3,
-    half: DVec3,
+    half_extents: DVec3,
     /// The points of a leaf; empty for an inner node.
     points: Range<u32>,
     /// The index of the first node after this one's subtree.
@@ -53,14 +53,14 @@ impl PointTree {
             origin: base,
             points: points.iter().map(|&p| p - base).zip(0..).collect(),
             nodes: Vec::with_capacity(4 * points.len() / LEAF_CAPACITY + 1),
-            reach: 0.0,
+            max_abs_coordinate: 0.0,
         };
         if !points.is_empty() {
             tree.build(0..points.len());
         }
         // The bound is that of the boxes, not of the points: heights are computed for corners of boxes.
-        let corner = |node: &Node| (node.middle.abs() + node.half).max_element();
-        tree.reach = tree.nodes.iter().map(corner).fold(0.0, greater);
+        let corner = |node: &Node| (node.middle.abs() + node.half_extents).max_element();
+        tree.max_abs_coordinate = tree.nodes.iter().map(corner).fold(0.0, greater);
         tree
     }
 
@@ -80,7 +80,7 @@ impl PointTree {
         let is_leaf = points.len() <= LEAF_CAPACITY;
         self.nodes.push(Node {
             middle,
-            half,
+            half_extents: half,
             points: if is_leaf {
                 range.start as u32..range.end as u32
             } else {
@@ -108,13 +108,13 @@ impl PointTree {
         let [a, b, c] = plane;
         let (u, v, foot) = (b - a, c - a, a - self.origin);
         let normal = u.cross(v);
-        let reach = greater(self.reach, foot.abs().max_element());
+        let reach = greater(self.max_abs_coordinate, foot.abs().max_element());
         let least = normal.dot(foot) - height_rounding([u, v], reach);
         let mut at = 0;
         // Every step leads to a later node.
         while let Some(node) = self.nodes.get(at) {
             // Written so that NaN descends.
-            if normal.dot(node.middle) + normal.abs().dot(node.half) < least {
+            if normal.dot(node.middle) + normal.abs().dot(node.half_extents) < least {
                 at = node.next as usize;
                 continue;
             }

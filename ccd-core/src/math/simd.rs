@@ -42,7 +42,7 @@ impl<L: Simd> Vec3x8<L> {
     }
 
     #[inline(always)]
-    pub(crate) fn level(&self) -> L {
+    pub(crate) fn simd_level(&self) -> L {
         self.x.token()
     }
 
@@ -75,7 +75,7 @@ impl<L: Simd> Vec3x8<L> {
     /// Returns the reciprocals of the lengths; zero for a vector that is too short to have one in f32.
     #[inline(always)]
     pub(crate) fn reciprocal_length(self) -> f32x8<L> {
-        let (zero, one) = (splat(self.level(), 0.0), splat(self.level(), 1.0));
+        let (zero, one) = (splat(self.simd_level(), 0.0), splat(self.simd_level(), 1.0));
         let length = self.length();
         length
             .simd_gt(LEAST_AXIS_LENGTH_F32)
@@ -261,7 +261,7 @@ impl<L: Simd> Mul for PackedMatrix<L> {
 impl Instructions {
     /// Converts the choice of instructions to the token that [`vectorize!`](crate::vectorize) takes.
     #[doc(hidden)]
-    pub fn level(self) -> Level {
+    pub fn simd_level(self) -> Level {
         match self {
             Instructions::Best => Level::new(),
             Instructions::Baseline => Level::baseline(),

@@ -32,7 +32,7 @@ pub fn unit(v: DVec3) -> Option<DVec3> {
 
 #[cold]
 fn unit_of_extreme_vector(v: DVec3) -> Option<DVec3> {
-    let v = scaled(v).0;
+    let v = scale_to_normal_range(v).0;
     let length = v.length();
     // False for NaN too.
     (length > 0.0 && length.is_finite()).then(|| v / length)
@@ -51,7 +51,7 @@ pub(crate) fn unit_or_any(v: DVec3) -> DVec3 {
 /// Its relative error is at most `4u`; a denormal number is exact to its last bit.
 #[inline]
 pub fn length(v: DVec3) -> f64 {
-    let (v, back) = scaled(v);
+    let (v, back) = scale_to_normal_range(v);
     v.length() * back
 }
 
@@ -66,8 +66,8 @@ pub fn distance(a: DVec3, b: DVec3) -> f64 {
 /// The components of a cross product are products, which vanish for short vectors. Both vectors are
 /// therefore scaled to a length near 1 first.
 #[inline]
-pub fn perpendicular_vector(a: DVec3, b: DVec3) -> DVec3 {
-    scaled(a).0.cross(scaled(b).0)
+pub fn vector_perpendicular_to_both(a: DVec3, b: DVec3) -> DVec3 {
+    scale_to_normal_range(a).0.cross(scale_to_normal_range(b).0)
 }
 
 /// Returns the unit normal of a triangle, on the side from which its corners are counterclockwise; `None` if they are
@@ -80,14 +80,14 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     if SQUARED_LENGTH_RANGE.contains(&square) {
         Some(across_both / square.sqrt())
     } else {
-        unit_of_extreme_vector(perpendicular_vector(b - a, c - a))
+        unit_of_extreme_vector(vector_perpendicular_to_both(b - a, c - a))
     }
 }
 
 /// Scales a vector by a power of two so that its square is in the normal range. Returns the scaled vector and the
 /// inverse factor.
 #[inline]
-fn scaled(v: DVec3) -> (DVec3, f64) {
+fn scale_to_normal_range(v: DVec3) -> (DVec3, f64) {
     let (scale, back) = scale_and_inverse(v.length_squared());
     (v * scale, back)
 }

@@ -65,7 +65,7 @@ impl Gap {
 /// Returns the first time within `[0, horizon]` at which a gap may close, or an earlier time; `None` if the gap stays
 /// open. `free_time(τ)` returns a time for which it stays open from `τ` on.
 #[inline]
-pub(crate) fn first_crossing(
+pub(crate) fn first_possible_crossing(
     horizon: f64,
     rounds: usize,
     free_time: impl Fn(f64) -> f64,

@@ -135,7 +135,7 @@ impl Path {
     }
 
     /// Returns an upper bound of the speed of the centre of rotation at any time.
-    pub(crate) fn speed(&self) -> f64 {
+    pub(crate) fn speed_bound(&self) -> f64 {
         length(self.velocity) + length(self.acceleration)
     }
 

@@ -12,14 +12,14 @@ use glam::{DMat3, DVec3};
 /// in the rotation of a single [`Path`].
 #[derive(Clone, Debug)]
 pub(crate) struct RelativePath {
-    relative_rotation: RelativeRotation,
+    motion_terms: RelativeMotionTerms,
     /// The centre of rotation of the seeing body, in that body's frame.
     centre: Row,
     other_centre: Row,
 }
 
 #[derive(Clone, Debug)]
-enum RelativeRotation {
+enum RelativeMotionTerms {
     OneBodyTurns {
         rotation: RotatingQuantity<[Row; 3]>,
         /// The vector between the centres of rotation at `s = 0`, in the seeing body's frame over time.
@@ -32,9 +32,9 @@ enum RelativeRotation {
     BothTurn {
         /// The inverse of the seeing body's rotation.
         inverse: RotatingQuantity<[Row; 3]>,
-        other: RotatingQuantity<[Row; 3]>,
+        other_rotation: RotatingQuantity<[Row; 3]>,
         offset: Row,
-        change: Row,
+        offset_rate: Row,
         acceleration: Option<Row>,
         spin: Row,
     },
@@ -71,16 +71,16 @@ impl RelativePath {
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
         let inverse = own.rotation_coefficients().map(|part| part.transpose());
         let seen = if own.is_turning() && other.is_turning() {
-            RelativeRotation::BothTurn {
+            RelativeMotionTerms::BothTurn {
                 inverse: RotatingQuantity::new(own.rate, inverse),
-                other: RotatingQuantity::new(other.rate, other.rotation_coefficients()),
+                other_rotation: RotatingQuantity::new(other.rate, other.rotation_coefficients()),
                 offset: row(offset),
-                change: row(change),
+                offset_rate: row(change),
                 acceleration: acceleration.map(row),
                 spin: row(other.spin),
             }
         } else {
-            RelativeRotation::for_one_turning_body(
+            RelativeMotionTerms::for_one_turning_body(
                 own,
                 other,
                 inverse,
@@ -89,16 +89,16 @@ impl RelativePath {
             )
         };
         RelativePath {
-            relative_rotation: seen,
+            motion_terms: seen,
             centre: row(own.centre),
             other_centre: row(other.centre),
         }
     }
 
     #[inline(always)]
-    pub(crate) fn at<L: Simd>(&self, level: L, s: f64) -> RelativeState<L> {
-        match &self.relative_rotation {
-            RelativeRotation::OneBodyTurns {
+    pub(crate) fn state_at<L: Simd>(&self, level: L, s: f64) -> RelativeState<L> {
+        match &self.motion_terms {
+            RelativeMotionTerms::OneBodyTurns {
                 rotation,
                 offset,
                 offset_rate: change,
@@ -117,11 +117,11 @@ impl RelativePath {
                     spin: PackedVector::load(level, spin),
                 }
             }
-            RelativeRotation::BothTurn {
+            RelativeMotionTerms::BothTurn {
                 inverse,
-                other,
+                other_rotation: other,
                 offset,
-                change,
+                offset_rate: change,
                 acceleration,
                 spin,
             } => {
@@ -154,7 +154,7 @@ impl RelativePath {
     }
 }
 
-impl RelativeRotation {
+impl RelativeMotionTerms {
     /// Prepares the relative motion if at most one of the bodies turns. The rotation of the other one has only the
     /// constant part.
     fn for_one_turning_body(
@@ -182,7 +182,7 @@ impl RelativeRotation {
             coefficients: inverse.map(|part| row(part * v)),
         };
         let [offset, change] = offset.map(seen);
-        RelativeRotation::OneBodyTurns {
+        RelativeMotionTerms::OneBodyTurns {
             rotation: RotatingQuantity::new(rate, rotation),
             offset,
             offset_rate: change,
@@ -203,7 +203,7 @@ impl RotatingQuantity<[Row; 3]> {
     #[inline(always)]
     fn matrix<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedMatrix<L> {
         let [p, q, k] = &self.coefficients;
-        let column = |j: usize| rotating_sum(level, [&p[j], &q[j], &k[j]], angle);
+        let column = |j: usize| rotating_vector_at(level, [&p[j], &q[j], &k[j]], angle);
         PackedMatrix::new([column(0), column(1), column(2)])
     }
 }
@@ -212,7 +212,7 @@ impl RotatingQuantity<Row> {
     #[inline(always)]
     fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedVector<L> {
         let [p, q, k] = &self.coefficients;
-        rotating_sum(level, [p, q, k], angle)
+        rotating_vector_at(level, [p, q, k], angle)
     }
 }
 
@@ -233,7 +233,7 @@ fn displacement_and_velocity<L: Simd>(
 }
 
 #[inline(always)]
-fn rotating_sum<L: Simd>(
+fn rotating_vector_at<L: Simd>(
     level: L,
     [p, q, k]: [&Row; 3],
     (sin, cos): (f64, f64),

@@ -4,7 +4,9 @@ use super::Motion;
 use super::pose::Pose;
 use crate::error::InputError;
 use crate::math::order::greater;
-use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation, rng,
+};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
@@ -19,10 +21,15 @@ fn pose_distance(a: &Pose, b: &Pose) -> f64 {
 fn between_passes_through_both_poses_and_never_turns_more_than_half() {
     let mut rng = rng(1);
     for _ in 0..2_000 {
-        let poses =
-            [(); 2].map(|()| Pose::new(point_in_ball(&mut rng, 9.0), rotation(&mut rng)).unwrap());
-        let centre = point_in_ball(&mut rng, 3.0);
-        let duration = magnitude(&mut rng, -3.0, 3.0);
+        let poses = [(); 2].map(|()| {
+            Pose::new(
+                random_point_in_ball(&mut rng, 9.0),
+                random_rotation(&mut rng),
+            )
+            .unwrap()
+        });
+        let centre = random_point_in_ball(&mut rng, 3.0);
+        let duration = random_power_of_ten(&mut rng, -3.0, 3.0);
         let motion = Motion::between(poses[0], poses[1], centre, duration).unwrap();
         assert!(pose_distance(&motion.pose(0.0), &poses[0]) < 1e-13);
         assert!(pose_distance(&motion.pose(duration), &poses[1]) < 1e-13);
@@ -38,7 +45,7 @@ fn between_passes_through_both_poses_and_never_turns_more_than_half() {
 fn half_turns_and_tiny_turns_keep_their_digits() {
     let mut rng = rng(2);
     for _ in 0..500 {
-        let (axis, start) = (direction(&mut rng), rotation(&mut rng));
+        let (axis, start) = (random_direction(&mut rng), random_rotation(&mut rng));
         for angle in [PI, PI - 1e-9, PI - 1e-3, 1e-3, 1e-8, 1e-15] {
             let turn = DQuat::from_scaled_axis(axis * angle);
             let poses = [start, turn * start].map(|q| Pose::new(DVec3::ZERO, q).unwrap());
@@ -88,7 +95,11 @@ fn any_number_of_turns_is_a_motion() {
 #[test]
 fn a_body_at_rest_stays() {
     let mut rng = rng(3);
-    let pose = Pose::new(point_in_ball(&mut rng, 5.0), rotation(&mut rng)).unwrap();
+    let pose = Pose::new(
+        random_point_in_ball(&mut rng, 5.0),
+        random_rotation(&mut rng),
+    )
+    .unwrap();
     let motion = Motion::still(pose);
     for t in [0.0, 1.0, 1e9] {
         assert_eq!(motion.pose(t), pose);
@@ -99,7 +110,7 @@ fn a_body_at_rest_stays() {
 fn motions_that_are_not_finite_are_refused() {
     let mut rng = rng(4);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let mut vector = point_in_ball(&mut rng, 1.0);
+        let mut vector = random_point_in_ball(&mut rng, 1.0);
         vector[rng.random_range(0..3)] = bad;
         let none = DVec3::ZERO;
         for (what, velocity, spin, centre) in [

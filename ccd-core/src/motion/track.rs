@@ -67,32 +67,32 @@ impl Track {
 
 /// The motion along one axis that all points of a body have in common.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct AxisMotion {
+pub(crate) struct MotionAlongAxis {
     linear_rate: f64,
     linear_acceleration: f64,
     /// The component of `n` perpendicular to the axis of rotation.
     perpendicular_part: DVec3,
     /// The cross product `n × u`, with the direction `u` of the axis of rotation.
     cross_product: DVec3,
-    omega: f64,
+    angular_speed: f64,
 }
 
-impl AxisMotion {
+impl MotionAlongAxis {
     /// Creates the motion along `n`; `unit` is the direction of the axis of rotation, or zero without rotation.
     #[inline]
     pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
-        AxisMotion {
+        MotionAlongAxis {
             linear_rate: linear.dot(n),
             linear_acceleration: 0.0,
             perpendicular_part: n - n.dot(unit) * unit,
             cross_product: n.cross(unit),
-            omega,
+            angular_speed: omega,
         }
     }
 
     /// Sets the second derivative that the heights of all points have in common.
     pub(crate) fn with_acceleration(self, linear_acceleration: f64) -> Self {
-        AxisMotion {
+        MotionAlongAxis {
             linear_acceleration,
             ..self
         }
@@ -120,7 +120,7 @@ impl AxisMotion {
     /// the axis of rotation.
     #[inline]
     pub(crate) fn second_derivative(&self, distance: f64) -> f64 {
-        self.omega * self.omega * length(self.perpendicular_part) * distance
+        self.angular_speed * self.angular_speed * length(self.perpendicular_part) * distance
     }
 
     #[inline]
@@ -131,7 +131,7 @@ impl AxisMotion {
             linear_acceleration: self.linear_acceleration,
             p: self.perpendicular_part.dot(arm),
             q: self.cross_product.dot(arm),
-            angular_speed: self.omega,
+            angular_speed: self.angular_speed,
         }
     }
 }
@@ -186,7 +186,7 @@ impl RotatingVector {
     }
 
     #[inline]
-    pub(crate) fn at(&self, angle: AngleSinCos) -> DVec3 {
+    pub(crate) fn vector_at(&self, angle: AngleSinCos) -> DVec3 {
         self.start + self.perpendicular_part * angle.cos_minus_one + self.cross_product * angle.sin
     }
 

@@ -282,7 +282,7 @@ pub struct Acceleration {
 
 impl Acceleration {
     /// Returns a bound of the centre's deviation after a time from the motion with this constant acceleration.
-    fn deviation_after(self, time: f64) -> f64 {
+    fn deviation_bound_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = RETIMED_POSE_ERROR_F64 * (time * (time * length(self.vector)));
         time * (time * (time * self.jerk_bound)) / 6.0 * (1.0 + RETIMED_POSE_ERROR_F64) + rounding
@@ -292,7 +292,7 @@ impl Acceleration {
 impl AccelerationBounds {
     /// Returns bounds of a body's deviation from its tangent motion after a time, if its accelerations are within these
     /// bounds.
-    fn deviation_after(self, time: f64) -> DeviationBound {
+    fn deviation_bound_after(self, time: f64) -> DeviationBound {
         // The time and the products are rounded. The square of a short time may be zero, so none is computed.
         let deviation = |acceleration: f64| {
             0.5 * (time * (time * acceleration)) * (1.0 + RETIMED_POSE_ERROR_F64)
@@ -314,12 +314,14 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
         let mut tangent = Stretch::exact(motion);
         // Bounds of a stretch of no length may be infinite.
         if half > 0.0 {
-            tangent.deviation_bound = self.acceleration_bounds(from, to).deviation_after(half);
+            tangent.deviation_bound = self
+                .acceleration_bounds(from, to)
+                .deviation_bound_after(half);
             if let Some(acceleration) = acceleration
-                && acceleration.deviation_after(half) < tangent.deviation_bound.shift
+                && acceleration.deviation_bound_after(half) < tangent.deviation_bound.shift
             {
                 tangent.acceleration = acceleration.vector;
-                tangent.deviation_bound.shift = acceleration.deviation_after(half);
+                tangent.deviation_bound.shift = acceleration.deviation_bound_after(half);
             }
         }
         let stretch = tangent.with_start_at(-before)?;

@@ -8,7 +8,7 @@ mod reach;
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{EngineSchedule, answer, search_in_rounds};
+use crate::engine::answer::{EngineSchedule, answer, search_by_period};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::ProvenFacts;
@@ -18,7 +18,7 @@ use crate::problem::Problem;
 use descent::Descent;
 use front::Front;
 use hull_pair::HullTreePair;
-use reach::AxisDistances;
+use reach::AxisDistanceCache;
 use std::ops::ControlFlow;
 
 /// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published. It is Algorithm 2 of the
@@ -50,7 +50,7 @@ use std::ops::ControlFlow;
 pub struct Fast<O: DistanceOracle> {
     bound: VelocityBound,
     front: Front<O::Cache>,
-    axis_distances: AxisDistances,
+    axis_distance_cache: AxisDistanceCache,
     best_first: BestFirst<O>,
     scratch: Scratch,
 }
@@ -61,7 +61,7 @@ impl<O: DistanceOracle> Fast<O> {
         Fast {
             bound,
             front: Front::default(),
-            axis_distances: AxisDistances::default(),
+            axis_distance_cache: AxisDistanceCache::default(),
             best_first: BestFirst::default(),
             scratch: None,
         }
@@ -87,10 +87,10 @@ impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
         let Some(hulls) = HullTreePair::from_problem(problem) else {
             return self.best_first.answer_first_contact(problem, oracle);
         };
-        self.axis_distances.invalidate();
+        self.axis_distance_cache.invalidate();
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
-            search_in_rounds(problem, meter, |problem, meter| {
+            search_by_period(problem, meter, |problem, meter| {
                 self.advance(problem, hulls, oracle, meter)
             })
         });
@@ -119,7 +119,7 @@ impl<O: DistanceOracle> Fast<O> {
                 hulls,
                 bound: self.bound,
                 front: &mut self.front,
-                axis_distances: &mut self.axis_distances,
+                axis_distance_cache: &mut self.axis_distance_cache,
                 proven_facts: &proven,
                 oracle,
                 meter,
@@ -131,11 +131,11 @@ impl<O: DistanceOracle> Fast<O> {
                 ControlFlow::Continue(next) => next,
                 ControlFlow::Break(outcome) => return outcome,
             };
-            if let Some(outcome) = proven.record_apart_at_start(problem) {
+            if let Some(outcome) = proven.check_containment_once_apart(problem) {
                 return outcome;
             }
             if !(next > s) {
-                return Outcome::unresolved(problem.time(s), Limit::Stalled);
+                return Outcome::unresolved(problem.time_of_clock(s), Limit::Stalled);
             }
             s = next;
         }

@@ -73,7 +73,7 @@ impl<O: DistanceOracle> EngineSchedule<O> for Naive<O> {
 impl<O: DistanceOracle> Naive<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
         let (a, b) = (problem.a.body.pieces().len(), problem.b.body.pieces().len());
-        let unresolved = |s: f64, reason| Outcome::unresolved(problem.time(s), reason);
+        let unresolved = |s: f64, reason| Outcome::unresolved(problem.time_of_clock(s), reason);
         clear_and_shrink(&mut self.pairs);
         let all = a as u64 * b as u64;
         if all > problem.budget {
@@ -89,7 +89,7 @@ impl<O: DistanceOracle> Naive<O> {
             let mut next = f64::INFINITY;
             let snapshot = Snapshot::new(problem, 0, 0, s);
             for pair in &mut self.pairs {
-                if let Err(limit) = meter.count_visit(problem) {
+                if let Err(limit) = meter.count_visit_and_check_limits(problem) {
                     return unresolved(s, limit);
                 }
                 let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
@@ -103,7 +103,7 @@ impl<O: DistanceOracle> Naive<O> {
                     ControlFlow::Break(outcome) => return outcome,
                 }
             }
-            if let Some(outcome) = proven.record_apart_at_start(problem) {
+            if let Some(outcome) = proven.check_containment_once_apart(problem) {
                 return outcome;
             }
             s = next;

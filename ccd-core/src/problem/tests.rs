@@ -145,13 +145,13 @@ fn clocks_are_times_that_are_never_late() {
     let still = MovingBody::from((&ball, Motion::still(Pose::IDENTITY)));
     for duration in [0.0, 1e-300, 0.1, 1.0, 7.0, 1e300] {
         let problem = Problem::about(still, still, duration, &Settings::DEFAULT).unwrap();
-        assert_eq!(problem.time(0.0), 0.0);
-        assert_eq!(problem.time(1.0), duration);
-        assert_eq!(problem.time(f64::INFINITY), duration);
+        assert_eq!(problem.time_of_clock(0.0), 0.0);
+        assert_eq!(problem.time_of_clock(1.0), duration);
+        assert_eq!(problem.time_of_clock(f64::INFINITY), duration);
         let mut last = 0.0;
         for k in 1..100 {
             let s = f64::from(k) / 100.0;
-            let time = problem.time(s);
+            let time = problem.time_of_clock(s);
             assert!(time >= last && time <= s * duration, "{s} of {duration:e}");
             last = time;
         }

@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{answer_in_any_order, search_in_rounds};
+use crate::engine::answer::{answer_in_any_order, search_by_period};
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
@@ -41,11 +41,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut scratch = self.scratch.take();
         let answer =
             answer_in_any_order(problem, oracle, &mut scratch, |problem, oracle, meter| {
-                search_in_rounds(problem, meter, |problem, meter| {
+                search_by_period(problem, meter, |problem, meter| {
                     self.stack.clear();
-                    let outcome = self.contact_outcome(problem, oracle, meter);
+                    let outcome = self.search_any_contact(problem, oracle, meter);
                     let stats = &mut meter.stats;
-                    stats.peak_front = stats.peak_front.max(self.stack.peak());
+                    stats.peak_front = stats.peak_front.max(self.stack.peak_length());
                     outcome
                 })
             });
@@ -54,7 +54,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         touching_as_contact(answer)
     }
 
-    fn contact_outcome(
+    fn search_any_contact(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -68,12 +68,15 @@ impl<O: DistanceOracle> DepthFirst<O> {
         match search.run(problem, &mut any) {
             Outcome::Unresolved(known) => {
                 // Waiting pairs are proven apart only until their clocks.
-                let time = lesser(known.safe_until, problem.time(self.stack.least_clock()));
+                let time = lesser(
+                    known.safe_until,
+                    problem.time_of_clock(self.stack.least_clock()),
+                );
                 let unresolved = Outcome::unresolved(time, known.limit);
                 // Surfaces that are apart at the start do not exclude that one body is inside the other.
-                if time > problem.time(0.0) {
-                    any.proven
-                        .record_apart_at_start(problem)
+                if time > problem.time_of_clock(0.0) {
+                    any.proven_facts
+                        .check_containment_once_apart(problem)
                         .unwrap_or(unresolved)
                 } else {
                     unresolved
@@ -96,7 +99,7 @@ pub(crate) fn touching_as_contact(answer: Answer) -> Answer {
 /// A search for any contact of two bodies, with what it has proven so far.
 #[derive(Default)]
 struct AnyContactSearch {
-    proven: ProvenFacts,
+    proven_facts: ProvenFacts,
     /// The earliest clock of a pair that could not be proven apart to the end, and the limit that stopped the proof.
     first_failure: Option<(f64, Limit)>,
 }
@@ -113,7 +116,7 @@ impl AnyContactSearch {
 
     fn unresolved_outcome(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
         let first_failure = self.first_failure.map_or(f64::INFINITY, |(first, _)| first);
-        Outcome::unresolved(problem.time(lesser(s, first_failure)), reason)
+        Outcome::unresolved(problem.time_of_clock(lesser(s, first_failure)), reason)
     }
 }
 
@@ -132,7 +135,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch {
             PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
             // A pair that keeps its distance gives no bound for the other pairs.
             PairStep::Contact(contact) => Outcome::Contact {
-                time: problem.time(s),
+                time: problem.time_of_clock(s),
                 contact: contact.cap_lower_bound(0.0),
             },
             PairStep::Overlap(contact) => overlap_outcome(contact),
@@ -148,7 +151,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch {
     fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
         match self.first_failure {
             Some((s, limit)) => self.unresolved_outcome(problem, s, limit),
-            None => self.proven.finish(problem),
+            None => self.proven_facts.finish(problem),
         }
     }
 }

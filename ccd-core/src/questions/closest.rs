@@ -14,7 +14,7 @@ use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::Search;
-use crate::engine::start::outcome_at_start;
+use crate::engine::start::search_contact_at_start;
 use crate::error::InputError;
 use crate::math::order::greater;
 use crate::problem::Problem;
@@ -23,7 +23,7 @@ use crate::questions::depth_first::DepthFirst;
 use crate::shortcuts::bounding_volumes::least_distance;
 use crate::shortcuts::closer_look::BoundTightener;
 use crate::shortcuts::rounds::RepresentativePeriod;
-use guess::initial_estimate;
+use guess::estimate_nearest_pair;
 use ladder::LowerBoundAttempts;
 use nearing::LeastDistanceSearch;
 use required::RequiredClearance;
@@ -58,19 +58,19 @@ impl<O: DistanceOracle> DepthFirst<O> {
     pub(crate) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
             Some(distance) => self.decide_clearance(problem, distance, oracle),
-            None => self.least_distance_of_bodies(problem, oracle),
+            None => self.search_least_distance_of_bodies(problem, oracle),
         };
         answer.widened_by_excess(problem.excess())
     }
 
     /// Computes bounds of the least distance of the bodies, without a correction for their excess over the shapes.
-    pub(crate) fn least_distance_of_bodies(
+    pub(crate) fn search_least_distance_of_bodies(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Answer {
         let answer =
-            self.search_distances_below(problem, f64::INFINITY, oracle, outcome_or_overlap);
+            self.search_distances_below(problem, f64::INFINITY, oracle, check_start_overlap);
         let found = answer.result;
         Answer {
             outcome: found.unwrap_or_else(|FartherThanCutoff { lower }| {
@@ -100,7 +100,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
     /// Computes bounds of the least distance of the bodies if it is below `beyond`, or returns that it is not. If the
     /// bodies meet, the answer does not say whether they overlap at the start.
-    pub(crate) fn least_distance_below(
+    pub(crate) fn search_least_distance_below(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
@@ -134,7 +134,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     contact.separation.upper
                 })
             });
-            let width = told.as_ref().map_or(0.0, Outcome::width);
+            let width = told
+                .as_ref()
+                .map_or(0.0, Outcome::least_distance_bracket_width);
             // Distances may not be known to the requested tolerance.
             (told, greater(problem.tolerance, width))
         });
@@ -152,7 +154,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         self.stack.clear();
         let found = self.search(problem, beyond, oracle, meter);
         let stats = &mut meter.stats;
-        stats.peak_front = stats.peak_front.max(self.stack.peak());
+        stats.peak_front = stats.peak_front.max(self.stack.peak_length());
         self.stack.clear();
         found
     }
@@ -165,19 +167,19 @@ impl<O: DistanceOracle> DepthFirst<O> {
         meter: &mut Meter,
     ) -> Result<Outcome, FartherThanCutoff> {
         if !moves(problem) {
-            return distance_at_rest(problem, beyond, oracle, meter);
+            return measure_at_rest(problem, beyond, oracle, meter);
         }
-        let best = match initial_estimate(problem, beyond, oracle, meter) {
+        let best = match estimate_nearest_pair(problem, beyond, oracle, meter) {
             ControlFlow::Continue(best) => best,
             ControlFlow::Break(found) => return Ok(found),
         };
         let mut nearing = LeastDistanceSearch {
-            nearest: best,
+            nearest_pair: best,
             cutoff_distance: beyond,
-            proven: ProvenFacts::default(),
+            proven_facts: ProvenFacts::default(),
             first_failure: None,
             lower_bound_attempts: LowerBoundAttempts::new(least_distance(problem), problem.budget)
-                .with_earlier_first_attempt(
+                .with_earlier_first_attempt_if_timed(
                     problem.deadline.is_some() || problem.stop_flag.is_some(),
                 ),
         };
@@ -244,7 +246,7 @@ fn outcome_for_all_periods(
 }
 
 /// Returns `found`, or the outcome that the bodies overlap if they overlap at the start.
-fn outcome_or_overlap<O: DistanceOracle>(
+fn check_start_overlap<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -253,31 +255,33 @@ fn outcome_or_overlap<O: DistanceOracle>(
     if !meet_after_start(&found, problem.tolerance) {
         return found;
     }
-    match outcome_at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
+    match search_contact_at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
         Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
         _ => found,
     }
 }
 
 /// Measures the distance of two bodies that are both at rest.
-fn distance_at_rest<O: DistanceOracle>(
+fn measure_at_rest<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
 ) -> Result<Outcome, FartherThanCutoff> {
-    Ok(match outcome_at_start(problem, beyond, oracle, meter) {
-        Some(Outcome::Touching { contact }) => Outcome::LeastDistance {
-            lower: greater(0.0, contact.separation.lower),
-            time: 0.0,
-            contact,
+    Ok(
+        match search_contact_at_start(problem, beyond, oracle, meter) {
+            Some(Outcome::Touching { contact }) => Outcome::LeastDistance {
+                lower: greater(0.0, contact.separation.lower),
+                time: 0.0,
+                contact,
+            },
+            Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
+            Some(Outcome::Unresolved(known)) => {
+                unresolved_outcome(greater(0.0, least_distance(problem)), known.limit)
+            }
+            _ => return Err(FartherThanCutoff { lower: beyond }),
         },
-        Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
-        Some(Outcome::Unresolved(known)) => {
-            unresolved_outcome(greater(0.0, least_distance(problem)), known.limit)
-        }
-        _ => return Err(FartherThanCutoff { lower: beyond }),
-    })
+    )
 }
 
 /// The result that the bodies never come nearer than the cutoff distance of a search.

@@ -34,14 +34,14 @@ impl<O: DistanceOracle> Default for DepthFirst<O> {
 #[derive(Debug)]
 pub(crate) struct Stack<T> {
     items: Vec<(f64, T)>,
-    peak: usize,
+    peak_length: usize,
 }
 
 impl<T> Default for Stack<T> {
     fn default() -> Self {
         Stack {
             items: Vec::new(),
-            peak: 0,
+            peak_length: 0,
         }
     }
 }
@@ -50,7 +50,7 @@ impl<T> Stack<T> {
     /// Removes all items, and keeps [a part of the memory](clear_and_shrink) for the next search.
     pub(crate) fn clear(&mut self) {
         clear_and_shrink(&mut self.items);
-        self.peak = 0;
+        self.peak_length = 0;
     }
 
     /// Returns the least clock of all items, the time until which all of them are proven apart; infinite if there are
@@ -61,8 +61,8 @@ impl<T> Stack<T> {
     }
 
     /// Returns the largest number of items that waited at the same time.
-    pub(crate) fn peak(&self) -> u64 {
-        self.peak as u64
+    pub(crate) fn peak_length(&self) -> u64 {
+        self.peak_length as u64
     }
 
     fn last(&mut self) -> &mut (f64, T) {
@@ -73,7 +73,7 @@ impl<T> Stack<T> {
 impl<T> Worklist<T> for Stack<T> {
     fn push(&mut self, clock: f64, _: Rank, item: T) -> Result<(), QueueFull> {
         self.items.push((clock, item));
-        self.peak = self.peak.max(self.items.len());
+        self.peak_length = self.peak_length.max(self.items.len());
         Ok(())
     }
 

@@ -64,7 +64,7 @@ struct SteppedSearch<'a, O: DistanceOracle> {
     current_problem: Problem<'a>,
     /// The progress over the periods of repeating motions, and the periods that are searched at present; `None` if the
     /// motions do not repeat.
-    rounds_and_problem: Option<(PeriodicSearch<'a>, Problem<'a>)>,
+    periodic_search_and_problem: Option<(PeriodicSearch<'a>, Problem<'a>)>,
     /// The policy for a contact at the start, until it has been applied.
     start: StartPolicy,
     schedule: BestFirst<O>,
@@ -78,7 +78,7 @@ struct SteppedSearch<'a, O: DistanceOracle> {
 #[derive(Debug)]
 struct SearchState {
     bound_tightener: BoundTightener,
-    proven: ProvenFacts,
+    proven_facts: ProvenFacts,
 }
 
 /// The progress of a search for the first contact: a certified time, or the answer.
@@ -108,7 +108,7 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// Returns the schedule with its memory, for another search.
     pub fn into_schedule(self) -> BestFirst<O> {
         match self.0 {
-            ResumableSearchKind::Stepped(steps) => steps.into_memory(),
+            ResumableSearchKind::Stepped(steps) => steps.into_schedule(),
             ResumableSearchKind::Immediate {
                 schedule: memory, ..
             } => memory,
@@ -148,7 +148,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
         memory.queue.clear();
         let current = problem.reporting_start_contact();
         SteppedSearch {
-            rounds_and_problem: first_round(&current),
+            periodic_search_and_problem: start_periodic_search(&current),
             current_problem: current,
             start: problem.start,
             problem,
@@ -159,7 +159,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
         }
     }
 
-    fn into_memory(mut self) -> BestFirst<O> {
+    fn into_schedule(mut self) -> BestFirst<O> {
         self.schedule.queue.clear();
         self.schedule.scratch = self.meter.scratch;
         self.schedule
@@ -204,7 +204,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
             stats.peak_front = stats.peak_front.max(self.schedule.queue.peak_length());
             self.schedule.queue.clear();
             self.state = None;
-            let outcome = match &mut self.rounds_and_problem {
+            let outcome = match &mut self.periodic_search_and_problem {
                 None => outcome,
                 Some((rounds, part)) => {
                     match rounds.start_next_round_or_finish(&outcome, &mut self.meter) {
@@ -225,7 +225,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
             );
             match parting {
                 Some(parting) => {
-                    self.rounds_and_problem = first_round(&parting);
+                    self.periodic_search_and_problem = start_periodic_search(&parting);
                     self.current_problem = parting;
                     self.start = StartPolicy::Report;
                 }
@@ -245,7 +245,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
     /// at present. Returns the time that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
-        let (problem, until) = match &self.rounds_and_problem {
+        let (problem, until) = match &self.periodic_search_and_problem {
             Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
             None => (&self.current_problem, until.next_up()),
         };
@@ -254,7 +254,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
         let mut search = Search::new(&mut self.schedule.queue, oracle, &mut self.meter);
         let SearchState {
             bound_tightener: look,
-            proven,
+            proven_facts: proven,
         } = match &mut self.state {
             Some(state) => state,
             state => {
@@ -273,16 +273,16 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                 let look = BoundTightener::new(problem);
                 state.insert(SearchState {
                     bound_tightener: look,
-                    proven,
+                    proven_facts: proven,
                 })
             }
         };
         let reached = search.run_until(problem, look, proven, until);
-        reached.map_continue(|s| problem.time(s))
+        reached.map_continue(|s| problem.time_of_clock(s))
     }
 }
 
-fn first_round<'a>(problem: &Problem<'a>) -> Option<(PeriodicSearch<'a>, Problem<'a>)> {
+fn start_periodic_search<'a>(problem: &Problem<'a>) -> Option<(PeriodicSearch<'a>, Problem<'a>)> {
     let rounds = PeriodicSearch::for_problem(problem)?;
     let part = rounds.between_clocks();
     Some((rounds, part))

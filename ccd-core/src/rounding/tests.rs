@@ -17,7 +17,8 @@ use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
-    Pcg64, RngExt, SoupKind, body, direction, magnitude, point_in_ball, rng, rotation, soup,
+    Pcg64, RngExt, SoupKind, body, random_direction, random_point_in_ball, random_power_of_ten,
+    random_rotation, rng, soup,
 };
 use crate::tests::worst::share;
 use crate::{Body, Pose};
@@ -40,15 +41,15 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
     let mut worst = WorstErrorShares::default();
     for _ in 0..4_000 {
         let count = rng.random_range(1..4);
-        let size = magnitude(&mut rng, -6.0, 6.0);
+        let size = random_power_of_ten(&mut rng, -6.0, 6.0);
         let bodies: [Body; 2] = std::array::from_fn(|_| far_body(&mut rng, count, size));
         let far = match rng.random_range(0..3) {
             0 => 0.0,
-            _ => magnitude(&mut rng, 0.0, 6.0),
+            _ => random_power_of_ten(&mut rng, 0.0, 6.0),
         };
-        let world = direction(&mut rng) * far;
-        let duration = magnitude(&mut rng, -3.0, 3.0);
-        let motions = [(); 2].map(|()| motion(&mut rng, world, size, duration));
+        let world = random_direction(&mut rng) * far;
+        let duration = random_power_of_ten(&mut rng, -3.0, 3.0);
+        let motions = [(); 2].map(|()| random_motion(&mut rng, world, size, duration));
         worst.far_count +=
             usize::from(far > 1e5 || bodies[0].tree().max_distance_from_origin() > 1e5);
         worst.turning_count += usize::from(motions[0].spin().length() * duration > 100.0);
@@ -56,7 +57,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
         for _ in 0..4 {
             let s = rng.random_range(0.0..1.0);
-            sample(&mut rng, &problem, &motions, duration, s, &mut worst);
+            compare_with_exact(&mut rng, &problem, &motions, duration, s, &mut worst);
         }
     }
     assert!(
@@ -74,9 +75,9 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
     let mut rng = rng(6);
     let mut worst = 0.0f64;
     for _ in 0..4_000 {
-        let world = direction(&mut rng) * magnitude(&mut rng, 0.0, 11.9);
-        let size = magnitude(&mut rng, -3.0, 3.0);
-        let duration = magnitude(&mut rng, -3.0, 3.0);
+        let world = random_direction(&mut rng) * random_power_of_ten(&mut rng, 0.0, 11.9);
+        let size = random_power_of_ten(&mut rng, -3.0, 3.0);
+        let duration = random_power_of_ten(&mut rng, -3.0, 3.0);
         let bodies: [Body; 2] = std::array::from_fn(|_| far_body(&mut rng, 1, size));
         let ends = [(); 2].map(|()| ends(&mut rng, world, size));
         let motions = ends.map(|ends| between(&ends, duration));
@@ -100,36 +101,40 @@ fn far_body(rng: &mut impl RngExt, count: usize, size: f64) -> Body {
     let look = SoupKind::ALL[rng.random_range(0..5)];
     let offset = match rng.random_range(0..3) {
         0 => 0.0,
-        _ => magnitude(rng, 0.0, 6.0),
+        _ => random_power_of_ten(rng, 0.0, 6.0),
     };
-    let middle = direction(rng) * offset;
+    let middle = random_direction(rng) * offset;
     let triangles = soup(rng, look, count, size);
     let moved: Vec<_> = triangles.iter().map(|t| t.map(|p| p + middle)).collect();
     body(&moved)
 }
 
-fn motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Motion {
-    let start = Pose::new(world + point_in_ball(rng, size), rotation(rng)).unwrap();
+fn random_motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Motion {
+    let start = Pose::new(
+        world + random_point_in_ball(rng, size),
+        random_rotation(rng),
+    )
+    .unwrap();
     let turn = match rng.random_range(0..4) {
         0 => 0.0,
-        1 => magnitude(rng, -9.0, 0.0),
-        2 => magnitude(rng, 0.0, 2.0),
-        _ => magnitude(rng, 2.0, 6.0),
+        1 => random_power_of_ten(rng, -9.0, 0.0),
+        2 => random_power_of_ten(rng, 0.0, 2.0),
+        _ => random_power_of_ten(rng, 2.0, 6.0),
     };
-    let travel = magnitude(rng, -3.0, 3.0) * size;
-    let off = magnitude(rng, -1.0, 3.0) * size;
+    let travel = random_power_of_ten(rng, -3.0, 3.0) * size;
+    let off = random_power_of_ten(rng, -1.0, 3.0) * size;
     Motion::about(
         start,
-        direction(rng) * travel / duration,
-        direction(rng) * turn / duration * 0.999,
-        point_in_ball(rng, off),
+        random_direction(rng) * travel / duration,
+        random_direction(rng) * turn / duration * 0.999,
+        random_point_in_ball(rng, off),
     )
     .unwrap()
 }
 
 /// Compares positions, a support gap and a distance at one clock with the exact values, and records the largest errors
 /// in `worst`.
-fn sample(
+fn compare_with_exact(
     rng: &mut Pcg64,
     problem: &Problem<'_>,
     motions: &[Motion; 2],
@@ -138,7 +143,7 @@ fn sample(
     worst: &mut WorstErrorShares,
 ) {
     let of = error_shares(rng, problem, motions, duration, s);
-    worst.position = greater(worst.position, of.place);
+    worst.position = greater(worst.position, of.position_error_share);
     worst.gap = greater(worst.gap, of.gap);
     worst.distance = greater(worst.distance, of.distance);
 }
@@ -146,7 +151,7 @@ fn sample(
 /// The errors of a position, a gap and a distance in one comparison with exact values, as shares of their bound.
 #[derive(Clone, Copy, Debug, Default)]
 struct ErrorShares {
-    place: f64,
+    position_error_share: f64,
     gap: f64,
     distance: f64,
 }
@@ -178,7 +183,10 @@ fn error_shares(
     for k in 0..2 {
         for (&p, &exact) in pieces[k].points.iter().zip(&exact[k]) {
             let off = (DoubleDouble3::from(frames[k].point(p)) - exact).length();
-            shares.place = greater(shares.place, share(off.get(), problem.rounding));
+            shares.position_error_share = greater(
+                shares.position_error_share,
+                share(off.get(), problem.rounding),
+            );
         }
     }
     let pair = PiecePair {
@@ -188,11 +196,11 @@ fn error_shares(
     };
     let [i, j] = [0, 1].map(|_| rng.random_range(0..3u32));
     let claim = Claim {
-        axis: direction(rng),
+        axis: random_direction(rng),
         a: ConvexCombination::point(i),
         b: ConvexCombination::point(j),
     };
-    let checked = separation::check(&pair, &claim, problem.rounding);
+    let checked = separation::check_claim(&pair, &claim, problem.rounding);
     // A bound holds along any axis: the axis of this bound is the image of the claimed one in A's rounded frame.
     let along = |column: DVec3, by: f64| DoubleDouble3::from(column).scale(DoubleDouble::from(by));
     let (turn, n) = (frames[0].rotation, checked.axis);

@@ -37,8 +37,8 @@ fn balls_keep_apart(problem: &Problem<'_>) -> bool {
 /// Returns a lower bound of the distance of the bodies at all times, by bounding balls; negative if the balls meet.
 pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
-    let distance =
-        least_length(b.centre - a.centre, b.velocity - a.velocity) - deviation_from_line(problem);
+    let distance = least_length(b.centre - a.centre, b.velocity - a.velocity)
+        - deviation_from_line_bound(problem);
     // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
     // the rounding of this distance, too.
     distance - a.radius - b.radius - 2.0 * problem.rounding
@@ -46,7 +46,7 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
 
 /// Returns a bound of the deviation of the vector between the balls' centres from a linear function of time, due to
 /// accelerations.
-fn deviation_from_line(problem: &Problem<'_>) -> f64 {
+fn deviation_from_line_bound(problem: &Problem<'_>) -> f64 {
     0.125
         * length(problem.b.path.acceleration - problem.a.path.acceleration)
         * (1.0 + RATE_ERROR_F64)

@@ -28,7 +28,7 @@ impl BoundTightener {
             f64::from(GAP_ERROR_PER_RADIUS_F32) * (radius(&problem.a) + radius(&problem.b));
         BoundTightener {
             is_f32_coarse: problem.uses_shortcut(Shortcut::FlatNodes)
-                && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
+                && rounding > MIN_ROUNDING_FOR_F64 * problem.kept_node_gap(),
             split_count: 0,
             screw: None,
         }
@@ -76,14 +76,14 @@ impl BoundTightener {
         meter: &mut Meter,
     ) {
         if self.split_count == SPLITS_BEFORE_SCREW && problem.uses_shortcut(Shortcut::Screw) {
-            self.screw = Screw::for_problem(problem, &mut meter.scratch_memory().profiles);
+            self.screw = Screw::for_problem(problem, &mut meter.scratch_memory().profile_cache);
         }
         // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw
             && split.lane_mask == u8::MAX
         {
-            let profiles = &mut meter.scratch_memory().profiles;
-            siblings.finish(|pair| screw.keeps_apart(problem, profiles, pair, s));
+            let profiles = &mut meter.scratch_memory().profile_cache;
+            siblings.finish_if_kept_apart(|pair| screw.keeps_apart(problem, profiles, pair, s));
         }
     }
 }

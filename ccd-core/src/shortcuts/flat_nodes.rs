@@ -9,7 +9,7 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{GAP_ERROR_PER_RADIUS_F32, RATE_ERROR_F64};
-use crate::tuning::{CLOSED_GAP, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
+use crate::tuning::{CLOSED_GAP_THRESHOLD, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
 use glam::DVec3;
 
 /// Returns a time, from clock `s` on, for which a flat node of A and a flat node of B certainly keep the required gap.
@@ -24,7 +24,7 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
         return 0.0;
     };
     let rounding = f64::from(GAP_ERROR_PER_RADIUS_F32) * (a.node.radius + b.node.radius);
-    if !(rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap()) {
+    if !(rounding > MIN_ROUNDING_FOR_F64 * problem.kept_node_gap()) {
         return 0.0;
     }
     let along = |n: DVec3| free_time_along(problem, &a, &b, n, s);
@@ -91,10 +91,10 @@ impl FlatNode {
 fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
-    let kept = problem.rounding + problem.node_gap();
+    let kept = problem.rounding + problem.kept_node_gap();
     let gap = n.dot(way) - a.extent_along(n) - b.extent_along(-n) - kept;
     // Written so that NaN gives no time.
-    if !(gap > CLOSED_GAP * problem.tolerance) {
+    if !(gap > CLOSED_GAP_THRESHOLD * problem.tolerance) {
         return 0.0;
     }
     let approach = ApproachRateBounds::along_axis(problem, [&a.node, &b.node], n, s);

@@ -25,7 +25,7 @@ enum Shape {
     Box {
         /// The unit axes of the box, in the body's frame.
         axes: [DVec3; 3],
-        half: [f64; 3],
+        half_extents: [f64; 3],
         /// The distance by which the node's points may lie outside the box: the radius of rounded pieces, plus the
         /// error of axes and half extents.
         slack: f64,
@@ -44,7 +44,7 @@ impl PlacedNode {
             frame,
             shape: Shape::Box {
                 axes: [0, 1, 2].map(|k| whole.axes.col(k)),
-                half: whole.half_extents.to_array(),
+                half_extents: whole.half_extents.to_array(),
                 slack: whole.slack,
             },
             centre: frame.point(whole.centre),
@@ -60,8 +60,9 @@ impl PlacedNode {
                 frame,
                 shape: Shape::Box {
                     axes: node.axes.map(Vec3::as_dvec3),
-                    half: node.half.map(f64::from),
-                    slack: f64::from(node.rounding) + BOX_EXTENT_ERROR_F32 * f64::from(node.radius),
+                    half_extents: node.half_extents.map(f64::from),
+                    slack: f64::from(node.rounding_radius)
+                        + BOX_EXTENT_ERROR_F32 * f64::from(node.radius),
                 },
                 centre: frame.point(node.centre),
                 radius: f64::from(node.radius),
@@ -97,7 +98,12 @@ impl PlacedNode {
     /// Returns the point of the box that is nearest to a point, up to rounding; the centre of a triangle.
     #[inline]
     pub(crate) fn nearest_point(&self, point: DVec3) -> DVec3 {
-        let Shape::Box { axes, half, slack } = &self.shape else {
+        let Shape::Box {
+            axes,
+            half_extents: half,
+            slack,
+        } = &self.shape
+        else {
             return self.centre;
         };
         let way = self.frame.inverse_vector(point - self.centre);
@@ -128,7 +134,11 @@ impl PlacedNode {
                 let [a, b, c] = corners.map(|x| n.dot(x));
                 greater(a, greater(b, c))
             }
-            Shape::Box { axes, half, slack } => {
+            Shape::Box {
+                axes,
+                half_extents: half,
+                slack,
+            } => {
                 let (along, size) = (self.frame.inverse_vector(n), n.length());
                 let half = |k: usize| half[k] * along.dot(axes[k]).abs();
                 lesser(
@@ -145,7 +155,7 @@ pub(crate) struct ApproachRateBounds {
     /// The rate at which the nodes' centres approach each other.
     pub(crate) centre_rate: f64,
     /// An upper bound of the rate at which any two points of the nodes approach along the direction.
-    rate: f64,
+    rate_bound: f64,
     /// An upper bound of the derivative of that rate; negative if the nodes accelerate away from each other.
     second_derivative: f64,
 }
@@ -172,11 +182,11 @@ impl ApproachRateBounds {
             second_derivative += across * path.rate * from_axis * (1.0 + RATE_ERROR_F64);
             second_derivative +=
                 n.dot(path.acceleration) + RATE_ERROR_F64 * length(path.acceleration);
-            speed += path.speed() + path.rate * (length(arm) + radius);
+            speed += path.speed_bound() + path.rate * (length(arm) + radius);
         }
         ApproachRateBounds {
             centre_rate: straight,
-            rate: straight + turning + 2.0 * RATE_ERROR_F64 * speed,
+            rate_bound: straight + turning + 2.0 * RATE_ERROR_F64 * speed,
             second_derivative,
         }
     }
@@ -185,7 +195,7 @@ impl ApproachRateBounds {
     pub(crate) fn free_time(&self, gap: f64) -> f64 {
         let gap = Gap {
             gap,
-            rate: self.rate,
+            rate: self.rate_bound,
             second_derivative: self.second_derivative,
         };
         lesser(f64::MAX, gap.free_time())

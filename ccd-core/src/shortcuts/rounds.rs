@@ -31,7 +31,7 @@ pub(crate) struct PeriodicSearch<'a> {
     proven_until: f64,
     round: Round,
     /// The number of periods of the next round that is searched in full, because its periods differ too much.
-    full_round_periods: f64,
+    full_round_period_count: f64,
     /// A lower bound of the distance of the bodies up to the clock `from`.
     gap: f64,
 }
@@ -85,7 +85,7 @@ impl<'a> PeriodicSearch<'a> {
         let tolerance = problem.tolerance;
         let bodies = [&problem.a, &problem.b].map(path_with_radius);
         let [a, b] = bodies.map(|PathWithRadius { path, reach }| {
-            let way = length(path.centre_at(0.0)) + path.speed();
+            let way = length(path.centre_at(0.0)) + path.speed_bound();
             position_rounding(reach, path.rate, way)
         });
         let rounding = a + b;
@@ -104,7 +104,7 @@ impl<'a> PeriodicSearch<'a> {
             rounding,
             proven_until: 0.0,
             round: Round::AllPeriods(1.0),
-            full_round_periods: 1.0,
+            full_round_period_count: 1.0,
             gap: f64::INFINITY,
         };
         rounds.start_round(f64::INFINITY);
@@ -138,7 +138,10 @@ impl<'a> PeriodicSearch<'a> {
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
         let unresolved = |rounds: &Self, reason| {
-            Outcome::unresolved(rounds.whole_problem.time(rounds.proven_until), reason)
+            Outcome::unresolved(
+                rounds.whole_problem.time_of_clock(rounds.proven_until),
+                reason,
+            )
         };
         match *outcome {
             Outcome::Free { proven_gap } => self.record_gap(proven_gap)?,
@@ -147,7 +150,7 @@ impl<'a> PeriodicSearch<'a> {
             }
             Outcome::Touching { contact } => {
                 self.confirm_contact_or_shorten_round(
-                    self.whole_problem.time(self.proven_until),
+                    self.whole_problem.time_of_clock(self.proven_until),
                     contact,
                 )?;
             }
@@ -164,7 +167,7 @@ impl<'a> PeriodicSearch<'a> {
             }
         }
         // A round counts as a visit, even if bounding balls prove the bodies apart at once.
-        match meter.count_visit(&self.whole_problem) {
+        match meter.count_visit_and_check_limits(&self.whole_problem) {
             Ok(()) => ControlFlow::Continue(()),
             Err(limit) => ControlFlow::Break(unresolved(self, limit)),
         }
@@ -180,11 +183,11 @@ impl<'a> PeriodicSearch<'a> {
         }
         match self.round {
             Round::FirstPeriod(count) => {
-                self.full_round_periods = 1.0;
+                self.full_round_period_count = 1.0;
                 self.start_round(2.0 * count);
             }
             Round::AllPeriods(count) => {
-                self.full_round_periods = 2.0 * count;
+                self.full_round_period_count = 2.0 * count;
                 self.start_round(2.0);
             }
         }
@@ -206,7 +209,7 @@ impl<'a> PeriodicSearch<'a> {
                 let fewer = (upper - within) / self.period.max_distance_change;
                 match lesser(0.5 * count, fewer).floor() {
                     fewer if fewer >= 2.0 => self.start_round(fewer),
-                    _ => self.round = Round::AllPeriods(self.full_round_periods),
+                    _ => self.round = Round::AllPeriods(self.full_round_period_count),
                 }
                 ControlFlow::Continue(())
             }
@@ -219,7 +222,7 @@ impl<'a> PeriodicSearch<'a> {
         let left = ((1.0 - self.proven_until) / self.period.length).ceil();
         self.round = match lesser(count, left) {
             count if count >= 2.0 => Round::FirstPeriod(count),
-            _ => Round::AllPeriods(self.full_round_periods),
+            _ => Round::AllPeriods(self.full_round_period_count),
         };
     }
 

@@ -20,7 +20,7 @@ use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{RATE_ERROR_F64, SCREW_VELOCITY_ERROR_F64};
-use crate::tuning::{CLOSED_GAP, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
+use crate::tuning::{CLOSED_GAP_THRESHOLD, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -36,10 +36,10 @@ pub(crate) struct Screw {
 
 /// The profiles of both bodies' nodes and triangles, each computed when first needed.
 #[derive(Debug, Default)]
-pub(crate) struct Profiles([BodyProfiles; 2]);
+pub(crate) struct ProfileCache([BodyProfileCache; 2]);
 
 #[derive(Debug, Default)]
-struct BodyProfiles {
+struct BodyProfileCache {
     /// For each node or triangle, by its id, the index of its profile among the known ones, or a mark that it is unknown or
     /// that there is none.
     profile_indices: Vec<u32>,
@@ -47,19 +47,22 @@ struct BodyProfiles {
 }
 
 /// The entry of `profile_indices` for a node whose profile is not computed yet.
-const NOT_COMPUTED: u32 = u32::MAX;
+const UNCOMPUTED_PROFILE: u32 = u32::MAX;
 const NO_PROFILE: u32 = u32::MAX - 1;
 
 impl Screw {
     /// Returns the screw motion of one body relative to the other, and clears all profiles. It is `None` unless exactly
     /// one body turns, and its axis hardly moves relative to the other body.
-    pub(crate) fn for_problem(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
+    pub(crate) fn for_problem(problem: &Problem<'_>, profiles: &mut ProfileCache) -> Option<Self> {
         let turning = match (problem.a.path.is_turning(), problem.b.path.is_turning()) {
             (true, false) => WhichBody::A,
             (false, true) => WhichBody::B,
             _ => return None,
         };
-        let (side, other) = (turning.of(problem), turning.other().of(problem));
+        let (side, other) = (
+            turning.body_in_problem(problem),
+            turning.other().body_in_problem(problem),
+        );
         let unit = side.path.axis;
         let velocity = side.path.velocity - other.path.velocity;
         let along = velocity.dot(unit);
@@ -81,7 +84,9 @@ impl Screw {
             return None;
         }
         // Rounding counts once for the positions, and once for the axis.
-        let kept = problem.node_gap() + 2.0 * problem.rounding + CLOSED_GAP * problem.tolerance;
+        let kept = problem.kept_node_gap()
+            + 2.0 * problem.rounding
+            + CLOSED_GAP_THRESHOLD * problem.tolerance;
         profiles.0[0].clear(&problem.a);
         profiles.0[1].clear(&problem.b);
         Some(Screw {
@@ -100,15 +105,15 @@ impl Screw {
     pub(crate) fn keeps_apart(
         &self,
         problem: &Problem<'_>,
-        profiles: &mut Profiles,
+        profiles: &mut ProfileCache,
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
         if self.keeps_nodes_apart(problem, profiles, [a, b], s)? {
             return Some(true);
         }
-        let of_a = triangles(&problem.a, a);
-        let of_b = triangles(&problem.b, b);
+        let of_a = triangle_ids(&problem.a, a);
+        let of_b = triangle_ids(&problem.b, b);
         let (Some(of_a), Some(of_b)) = (of_a, of_b) else {
             return Some(false);
         };
@@ -126,7 +131,7 @@ impl Screw {
     fn keeps_nodes_apart(
         &self,
         problem: &Problem<'_>,
-        Profiles([of_a, of_b]): &mut Profiles,
+        ProfileCache([of_a, of_b]): &mut ProfileCache,
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
@@ -145,12 +150,12 @@ impl Screw {
     }
 }
 
-impl BodyProfiles {
+impl BodyProfileCache {
     fn clear(&mut self, side: &BodyWithPath<'_>) {
-        let count = side.body.tree().nodes() + side.body.pieces().len();
+        let count = side.body.tree().node_count() + side.body.pieces().len();
         clear_and_shrink(&mut self.computed_profiles);
         clear_and_shrink(&mut self.profile_indices);
-        self.profile_indices.resize(count, NOT_COMPUTED);
+        self.profile_indices.resize(count, UNCOMPUTED_PROFILE);
     }
 
     /// Returns the profile of a node or triangle; `None` if the node surrounds the axis, or nearly does.
@@ -161,7 +166,7 @@ impl BodyProfiles {
         axis: &ScrewAxis,
     ) -> Option<&Profile> {
         let place = &mut self.profile_indices[id as usize];
-        if *place == NOT_COMPUTED {
+        if *place == UNCOMPUTED_PROFILE {
             *place = match compute_profile(side, id, axis) {
                 Some(profile) if self.computed_profiles.len() < NO_PROFILE as usize => {
                     self.computed_profiles.push(profile);
@@ -178,20 +183,24 @@ impl BodyProfiles {
 /// nearly does. A profile of a few triangles is smaller than that of their box.
 fn compute_profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| PlacedNode::new(side, id, 0.0);
-    match triangles(side, id) {
+    match triangle_ids(side, id) {
         Some(few) => Profile::union_of(few.map(place), axis),
         None => Profile::new(&place(id), axis),
     }
 }
 
 /// Returns the ids of the triangles of a lowest node, or of a single triangle; `None` for all other nodes.
-fn triangles(side: &BodyWithPath<'_>, id: NodeId) -> Option<Range<NodeId>> {
+fn triangle_ids(side: &BodyWithPath<'_>, id: NodeId) -> Option<Range<NodeId>> {
     let tree = side.body.tree();
     match tree.get(id) {
         NodeOrTriangle::Triangle(_) => Some(id..id + 1),
         NodeOrTriangle::Node(node) => match node.children {
             NodeChildren::Triangles(group) => {
-                let &GroupHeader { first, count, .. } = tree.triangle_group_header(group);
+                let &GroupHeader {
+                    first_child: first,
+                    count,
+                    ..
+                } = tree.triangle_group_header(group);
                 Some(first..first + count)
             }
             _ => None,

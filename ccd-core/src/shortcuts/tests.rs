@@ -21,7 +21,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
 
 /// Checks that two times of contact agree: at the earlier one, the bodies are as far apart as the answer with the later
 /// one proves.
-fn assert_times_agree(problem: &Problem<'_>, earlier: f64, number: usize) {
+fn assert_apart_at_earlier_time(problem: &Problem<'_>, earlier: f64, number: usize) {
     let near = distance(problem, earlier);
     assert!(
         near >= problem.gap() - problem.rounding,
@@ -51,7 +51,11 @@ fn answers_without_a_shortcut_agree_with_those_of_all() {
             (Outcome::Contact { time: one, .. }, Outcome::Contact { time: other, .. }) => {
                 contacts += 1;
                 if one != other {
-                    assert_times_agree(&problem, if one < other { one } else { other }, number);
+                    assert_apart_at_earlier_time(
+                        &problem,
+                        if one < other { one } else { other },
+                        number,
+                    );
                 }
             }
             (Outcome::Free { .. }, Outcome::Free { .. }) => free += 1,
@@ -59,7 +63,7 @@ fn answers_without_a_shortcut_agree_with_those_of_all() {
             (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
             (Outcome::Contact { time, .. }, Outcome::Free { .. })
             | (Outcome::Free { .. }, Outcome::Contact { time, .. }) => {
-                assert_times_agree(&problem, time, number);
+                assert_apart_at_earlier_time(&problem, time, number);
             }
             (Outcome::Unresolved(known), Outcome::Contact { time, .. })
             | (Outcome::Contact { time, .. }, Outcome::Unresolved(known)) => {
@@ -77,12 +81,12 @@ fn answers_without_a_shortcut_agree_with_those_of_all() {
 /// Two bodies with their motions, and the tolerance of the query.
 type Pair = ([Body; 2], [Motion; 2], f64);
 
-fn at(place: [f64; 3]) -> Pose {
+fn pose_at(place: [f64; 3]) -> Pose {
     Pose::at(place).unwrap()
 }
 
 fn motion_from(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
-    Motion::new(at(place), velocity, spin).unwrap()
+    Motion::new(pose_at(place), velocity, spin).unwrap()
 }
 
 /// Returns the triangles of a grid surface with corners at `point(i, j)`, two for each square of the grid.
@@ -142,7 +146,7 @@ fn scene_of(shortcut: Shortcut) -> Pair {
         Shortcut::Rounds => {
             let crank = |x: f64, y: f64| {
                 let spin = [0.0, 0.0, 200.0 * TAU];
-                Motion::about(at([x, 0.0, 0.0]), [0.0; 3], spin, [y, 0.0, 0.0]).unwrap()
+                Motion::about(pose_at([x, 0.0, 0.0]), [0.0; 3], spin, [y, 0.0, 0.0]).unwrap()
             };
             let ball = || Body::sphere(1.0).unwrap();
             (

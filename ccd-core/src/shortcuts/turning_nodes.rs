@@ -21,11 +21,11 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 struct NodePastTurningPlane<L: Simd> {
     /// An upper bound of the rate at which the node's points approach the plane. It is the rate `n·(v_S − v_O)` at the
     /// node's centre, with both velocities taken at that point, plus a bound for the points around it.
-    rate: f32x8<L>,
+    approach_rate_bound: f32x8<L>,
     /// The largest distance of the node's points from the centre of the body that the plane turns with.
-    distance: f32x8<L>,
+    max_distance_from_centre: f32x8<L>,
     /// An upper bound of the speeds of the node's points due to the rotation of the node's own body.
-    speed: f32x8<L>,
+    rotational_speed_bound: f32x8<L>,
     /// The angular speed `|ω|` of the node's own body.
     own_angular_speed: f32,
 }
@@ -34,12 +34,12 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     /// Returns times for which planes that turn with the body of the split node certainly keep the eight pairs apart.
     #[inline(always)]
     pub(crate) fn free_times_with_split_body(&self, axis: AxesX8<L>) -> f32x8<L> {
-        let (motion, other) = (self.motion, self.other);
-        let level = axis.n.level();
+        let (motion, other) = (self.motion, self.other_node);
+        let level = axis.n.simd_level();
         let at = Vec3x8::splat(level, other.centre());
         let velocity = Vec3x8::splat(level, motion.velocity);
-        let velocity =
-            velocity + motion.split_rotation.velocity(at) - self.other_rotational_velocity;
+        let velocity = velocity + motion.split_rotation.rotational_velocity(at)
+            - self.other_rotational_velocity;
         let across = motion.split_rotation.cross_angular_velocity(axis.n);
         let own = motion.other_rotation.cross_angular_velocity(axis.n);
         self.turning_plane_free_time(
@@ -47,9 +47,10 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             second_derivative_bound(across, motion.split_rotation.rate, splat(level, 1.0)),
             motion.split_rotation.rate,
             &NodePastTurningPlane {
-                rate: axis.n.dot(velocity) + other.extent_along(own - across),
-                distance: motion.split_rotation.distances_from_centre(at) + other.radius(),
-                speed: self.other_rotational_speed,
+                approach_rate_bound: axis.n.dot(velocity) + other.extent_along(own - across),
+                max_distance_from_centre: motion.split_rotation.distances_from_centre(at)
+                    + other.radius(),
+                rotational_speed_bound: self.other_rotational_speed_bound,
                 own_angular_speed: motion.other_rotation.rate,
             },
         )
@@ -59,11 +60,11 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     #[inline(always)]
     pub(crate) fn free_times_with_other_body(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
-        let level = axis.n.level();
+        let level = axis.n.simd_level();
         let at = children.centre(level);
         let velocity = Vec3x8::splat(level, motion.velocity);
-        let velocity =
-            velocity + motion.split_rotation.velocity(at) - motion.other_rotation.velocity(at);
+        let velocity = velocity + motion.split_rotation.rotational_velocity(at)
+            - motion.other_rotation.rotational_velocity(at);
         let across = motion.other_rotation.cross_angular_velocity(axis.n);
         let own = motion.split_rotation.cross_angular_velocity(axis.n);
         self.turning_plane_free_time(
@@ -71,9 +72,10 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             second_derivative_bound(across, motion.other_rotation.rate, splat(level, 1.0)),
             motion.other_rotation.rate,
             &NodePastTurningPlane {
-                rate: axis.n.dot(velocity) + children.extent_along(own - across),
-                distance: motion.other_rotation.distances_from_centre(at) + children.radius(level),
-                speed: self.speed,
+                approach_rate_bound: axis.n.dot(velocity) + children.extent_along(own - across),
+                max_distance_from_centre: motion.other_rotation.distances_from_centre(at)
+                    + children.radius(level),
+                rotational_speed_bound: self.rotational_speed_bounds,
                 own_angular_speed: motion.split_rotation.rate,
             },
         )
@@ -93,16 +95,18 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             None => 0.0,
         };
         let straight = motion.velocity.length() + change + motion.rate_allowance;
-        let speed = sweep.speed + straight;
-        let far = sweep.distance + speed * MAX_TURNING_PLANE_TIME;
-        let second_derivative =
-            across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_angular_speed + change;
+        let speed = sweep.rotational_speed_bound + straight;
+        let far = sweep.max_distance_from_centre + speed * MAX_TURNING_PLANE_TIME;
+        let second_derivative = across * (far * spin + speed * 2.0)
+            + sweep.rotational_speed_bound * sweep.own_angular_speed
+            + change;
         // Each sweep happens at the distance of its node from the turning body's centre.
-        let rate_slack = sweep.distance * (RATE_ERROR_F32 * spin) + motion.rate_allowance;
+        let rate_slack =
+            sweep.max_distance_from_centre * (RATE_ERROR_F32 * spin) + motion.rate_allowance;
         let free = clock::free_time(
             axis.gap - motion.slack,
-            motion.closed_gap,
-            sweep.rate + rate_slack,
+            motion.closed_gap_threshold,
+            sweep.approach_rate_bound + rate_slack,
             second_derivative * SECOND_DERIVATIVE_FACTOR_F32 + LEAST_SECOND_DERIVATIVE_F32,
         );
         free.min(MAX_TURNING_PLANE_TIME)

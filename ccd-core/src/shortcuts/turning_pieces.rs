@@ -11,7 +11,7 @@
 
 use crate::body::piece::Piece;
 use crate::math::order::lesser;
-use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::motion::pose::Frame;
 use crate::motion::track::{AngleSinCos, RotatingVector};
 use crate::problem::BodyWithPath;
@@ -27,7 +27,7 @@ pub(crate) struct MovingPiece<'p> {
     pub(crate) piece: Piece<'p>,
     pub(crate) clock: f64,
     /// An upper bound of the speed of any point of the piece relative to the piece's first point.
-    pub(crate) relative_speed: f64,
+    pub(crate) relative_speed_bound: f64,
 }
 
 impl<'p> MovingPiece<'p> {
@@ -47,15 +47,15 @@ impl<'p> MovingPiece<'p> {
             frame,
             piece,
             clock,
-            relative_speed,
+            relative_speed_bound: relative_speed,
         }
     }
 
     /// Returns an upper bound of the rate at which any point of the piece moves along `normal`, relative to the piece's
     /// first point. It is at most `relative_speed`, which holds for every axis.
-    pub(crate) fn relative_speed_along(&self, normal: DVec3) -> f64 {
+    pub(crate) fn relative_speed_bound_along(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
-        self.relative_speed * path.spin.cross(normal).length() / path.rate
+        self.relative_speed_bound * path.spin.cross(normal).length() / path.rate
     }
 }
 
@@ -145,10 +145,10 @@ impl<'p> PiecePastTurningPlane<'p> {
     pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.rounding_allowances();
         let apart = slack - height - self.least_start_height();
-        first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
+        first_possible_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
             self.evaluations
                 .set(self.evaluations.get() + self.piece.evaluations_per_search());
-            let turned = self.turned(tau);
+            let turned = self.height_terms_after(tau);
             let second_derivative = self.second_derivative(tau);
             let free = |axis: f64, closing: f64| {
                 let gap = Gap {
@@ -187,7 +187,7 @@ impl<'p> PiecePastTurningPlane<'p> {
 
     /// Returns the least height of the piece's points along the plane's normal at the present clock.
     fn least_start_height(&self) -> f64 {
-        let HeightTerms { height, axis, .. } = self.turned(0.0);
+        let HeightTerms { height, axis, .. } = self.height_terms_after(0.0);
         height + self.least_height_along(axis)
     }
 
@@ -207,15 +207,15 @@ impl<'p> PiecePastTurningPlane<'p> {
         self.piece.points.iter().map(move |&y| y - reference)
     }
 
-    fn turned(&self, tau: f64) -> HeightTerms {
+    fn height_terms_after(&self, tau: f64) -> HeightTerms {
         let angle = AngleSinCos::new(self.angular_speed * tau);
         let own = AngleSinCos::new(self.own_angular_speed * tau);
-        let axis = self.normal.at(angle);
+        let axis = self.normal.vector_at(angle);
         let (offset, velocity) = self.offset_and_velocity_after(tau);
         let turning = self.normal.derivative_at(angle) * self.angular_speed;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
-            let turned = RotatingVector::new(-self.own_rotation_axis, v).at(own);
+            let turned = RotatingVector::new(-self.own_rotation_axis, v).vector_at(own);
             self.frame.inverse_vector(turned)
         };
         HeightTerms {

@@ -6,15 +6,21 @@ use crate::engine::answer::EngineSchedule;
 use crate::math::order::greater;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{RngExt, Scene, SceneKind, direction, magnitude, rng, scene};
+use crate::tests::scene::{
+    RngExt, Scene, SceneKind, random_direction, random_power_of_ten, rng, scene,
+};
 use crate::tests::trajectories::SwingingTrajectory;
 use crate::{Motion, Outcome, Pose};
 
 fn boxes(scene: &Scene) -> [SweptBox; 2] {
-    [0, 1].map(|k| moving(scene, k).swept_box(1.0, &scene.settings).unwrap())
+    [0, 1].map(|k| {
+        moving_body(scene, k)
+            .swept_box(1.0, &scene.settings)
+            .unwrap()
+    })
 }
 
-fn moving(scene: &Scene, k: usize) -> MovingBody<'_> {
+fn moving_body(scene: &Scene, k: usize) -> MovingBody<'_> {
     MovingBody::from((&scene.bodies[k], scene.motions[k]))
 }
 
@@ -116,7 +122,7 @@ fn bodies_whose_boxes_are_apart_are_free() {
         ][rng.random_range(0..3)];
         let mut scene = scene(&mut rng, kind, 8);
         scene.settings.margin = match rng.random_range(0..3) {
-            0 => scene.settings.tolerance * magnitude(&mut rng, -2.0, 5.0),
+            0 => scene.settings.tolerance * random_power_of_ten(&mut rng, -2.0, 5.0),
             _ => 0.0,
         };
         let [a, b] = boxes(&scene);
@@ -161,8 +167,8 @@ fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
             .zip(&scene.motions)
             .map(|(side, motion)| {
                 let path = Path::new(motion, DVec3::ZERO, 1.0);
-                let way = length(path.centre_at(0.0)) + path.speed() + scene.settings.margin;
-                body_distance_rounding(side.max_distance_bound(), path.rate, way)
+                let way = length(path.centre_at(0.0)) + path.speed_bound() + scene.settings.margin;
+                body_distance_rounding(side.span_with_centre(), path.rate, way)
             })
             .sum();
         assert!(shares * (1.0 + 1e-12) >= problem.rounding);
@@ -173,7 +179,7 @@ fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
 fn a_ball_that_flies_has_the_box_of_its_way() {
     let ball = crate::Body::sphere(0.5).unwrap();
     let mut rng = rng(4);
-    let spin = 10.0 * direction(&mut rng);
+    let spin = 10.0 * random_direction(&mut rng);
     let flies = Motion::new(Pose::at([1.0, 2.0, 3.0]).unwrap(), [4.0, -2.0, 0.0], spin).unwrap();
     let config = Settings {
         tolerance: 1e-9,

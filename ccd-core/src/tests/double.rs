@@ -221,12 +221,12 @@ pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Dou
     let centre = DoubleDouble3::from(motion.centre());
     let start = DoubleDouble3::from(motion.start().translation())
         + centre.rotated(motion.start().rotation());
-    let arm = turned(motion, duration, s, DoubleDouble3::from(point) - centre);
+    let arm = to_world_vector(motion, duration, s, DoubleDouble3::from(point) - centre);
     start + DoubleDouble3::from(motion.velocity()).scale(time) + arm
 }
 
 /// Rotates a vector from the body's frame to the world's frame at time `s · duration`.
-fn turned(motion: &Motion, duration: f64, s: f64, vector: DoubleDouble3) -> DoubleDouble3 {
+fn to_world_vector(motion: &Motion, duration: f64, s: f64, vector: DoubleDouble3) -> DoubleDouble3 {
     let time = DoubleDouble::from(duration) * DoubleDouble::from(s);
     let vector = vector.rotated(motion.start().rotation());
     if motion.spin() == DVec3::ZERO {

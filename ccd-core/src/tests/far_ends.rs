@@ -3,7 +3,10 @@
 
 use super::double::{DoubleDouble, DoubleDouble3, EndPoses};
 use super::oracle::ExhaustiveOracle;
-use super::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
+use super::scene::{
+    Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation,
+    rng,
+};
 use crate::answer::Outcome;
 use crate::body::Body;
 use crate::engine::answer::EngineSchedule;
@@ -18,18 +21,18 @@ use glam::DVec3;
 /// Draws the poses at both ends of a motion near a point in the world; the orientations are sometimes equal, and the
 /// quaternions not normalised.
 pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> EndPoses {
-    let at = |rng: &mut R| world + point_in_ball(rng, size);
-    let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
+    let at = |rng: &mut R| world + random_point_in_ball(rng, size);
+    let start = random_rotation(rng) * random_power_of_ten(rng, -3.0, 3.0);
     let end = match rng.random_range(0..3) {
         0 => start,
-        1 => start * magnitude(rng, -1.0, 1.0),
-        _ => rotation(rng) * magnitude(rng, -3.0, 3.0),
+        1 => start * random_power_of_ten(rng, -1.0, 1.0),
+        _ => random_rotation(rng) * random_power_of_ten(rng, -3.0, 3.0),
     };
-    let off = size * magnitude(rng, -3.0, 3.0);
+    let off = size * random_power_of_ten(rng, -3.0, 3.0);
     EndPoses {
         positions: [at(rng), at(rng)],
         turned: [start, end],
-        centre: [DVec3::ZERO, point_in_ball(rng, off)][rng.random_range(0..2)],
+        centre: [DVec3::ZERO, random_point_in_ball(rng, off)][rng.random_range(0..2)],
     }
 }
 
@@ -48,10 +51,10 @@ struct Scene {
 
 impl Scene {
     fn new(rng: &mut Pcg64) -> Self {
-        let world = direction(rng) * magnitude(rng, 3.0, 11.9);
+        let world = random_direction(rng) * random_power_of_ten(rng, 3.0, 11.9);
         Scene {
             ends: [(); 2].map(|()| ends(rng, world, 1.0)),
-            centres: [(); 2].map(|()| point_in_ball(rng, 0.5)),
+            centres: [(); 2].map(|()| random_point_in_ball(rng, 0.5)),
             radii: rng.random_range(0.1..0.4),
         }
     }
@@ -79,7 +82,7 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
             let pieces = crate::body::pieces::Pieces::polytopes(&[ball]).unwrap();
             Body::new(&pieces, crate::body::Volume::Surface).unwrap()
         });
-        let duration = magnitude(&mut rng, -2.0, 2.0);
+        let duration = random_power_of_ten(&mut rng, -2.0, 2.0);
         let config = Settings {
             tolerance: 1e-12,
             ..Settings::DEFAULT

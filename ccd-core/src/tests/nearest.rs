@@ -20,7 +20,7 @@ pub(crate) struct NearestPoints {
 ///
 /// Every candidate is a pair of points of the two triangles, so that rounding can only make the
 /// distance too large.
-pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
+pub(crate) fn nearest_points(a: &Triangle, b: &Triangle) -> NearestPoints {
     let mut best = NearestPoints {
         a: [1.0, 0.0, 0.0],
         b: [1.0, 0.0, 0.0],
@@ -38,13 +38,13 @@ pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
     };
     for i in 0..3 {
         for j in 0..3 {
-            let (s, t) = segments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
+            let (s, t) = nearest_segment_parameters(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
             offer(edge_point_weights(i, s), edge_point_weights(j, t));
         }
-        if let Some(weights) = foot(b, a[i]) {
+        if let Some(weights) = foot_weights(b, a[i]) {
             offer(corner(i), weights);
         }
-        if let Some(weights) = foot(a, b[i]) {
+        if let Some(weights) = foot_weights(a, b[i]) {
             offer(weights, corner(i));
         }
         if let Some((s, weights)) = piercing_point(b, a[i], a[(i + 1) % 3]) {
@@ -74,7 +74,7 @@ fn edge_point_weights(k: usize, t: f64) -> [f64; 3] {
 }
 
 /// Returns the parameters, from 0 to 1, of the nearest points of two segments.
-fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
+fn nearest_segment_parameters(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     let (d, e, r) = (p_end - p, q_end - q, p - q);
     let (dd, ee, de) = (d.dot(d), e.dot(e), d.dot(e));
     let clamp = |x: f64| if x > 0.0 { lesser(1.0, x) } else { 0.0 };
@@ -91,7 +91,7 @@ fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
 
 /// Projects a point onto a triangle's plane, and returns the barycentric coordinates of the projection; `None` if it is
 /// outside the triangle.
-fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
+fn foot_weights(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     let (u, v) = (t[1] - t[0], t[2] - t[0]);
     let normal = u.cross(v);
     let square = normal.length_squared();
@@ -109,7 +109,7 @@ fn piercing_point(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
         return None;
     }
     let s = (from / (from - to)).clamp(0.0, 1.0);
-    Some((s, foot(t, p + s * (q - p))?))
+    Some((s, foot_weights(t, p + s * (q - p))?))
 }
 
 fn weights_if_inside(u: f64, v: f64) -> Option<[f64; 3]> {
@@ -157,11 +157,11 @@ fn finds_corners_edges_faces_and_crossings() {
     ];
     for (other, distance) in cases {
         assert!(
-            (nearest(&flat, &other).distance - distance).abs() < 1e-15,
+            (nearest_points(&flat, &other).distance - distance).abs() < 1e-15,
             "{other:?}"
         );
         assert!(
-            (nearest(&other, &flat).distance - distance).abs() < 1e-15,
+            (nearest_points(&other, &flat).distance - distance).abs() < 1e-15,
             "{other:?}"
         );
     }

@@ -1,6 +1,6 @@
 //! Oracles for tests: a slow one for pieces of up to three points, and one that returns false claims.
 
-use super::nearest::{Triangle, nearest, point};
+use super::nearest::{Triangle, nearest_points, point};
 use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, DistanceOracle, GiveUpReason, PiecePair};
 use crate::distance::separation::support_gap;
@@ -15,11 +15,11 @@ impl DistanceOracle for ExhaustiveOracle {
     type Cache = ();
 
     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
-        let (Some(a), Some(b)) = (corners(pair.a.points), corners(pair.b.points)) else {
+        let (Some(a), Some(b)) = (to_triangle(pair.a.points), to_triangle(pair.b.points)) else {
             return Err(GiveUpReason::TooManyPoints);
         };
         let b_in_a = b.map(|p| pair.b_to_a.point(p));
-        let found = nearest(&a, &b_in_a);
+        let found = nearest_points(&a, &b_in_a);
         let way = point(&b_in_a, found.b) - point(&a, found.a);
         Ok(Claim {
             axis: widest_gap_axis(pair, way, &a, &b_in_a),
@@ -54,7 +54,7 @@ fn widest_gap_axis(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle)
 }
 
 /// Converts up to three points to a triangle, with the last point repeated.
-fn corners(points: &[DVec3]) -> Option<Triangle> {
+fn to_triangle(points: &[DVec3]) -> Option<Triangle> {
     let last = points.len().checked_sub(1)?;
     (points.len() <= 3).then(|| std::array::from_fn(|k| points[k.min(last)]))
 }

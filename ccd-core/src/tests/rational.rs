@@ -9,18 +9,18 @@ use dashu_ratio::Relaxed;
 pub(crate) struct Exact3(pub(crate) [Relaxed; 3]);
 
 /// Converts a finite number to a fraction.
-pub(crate) fn exact(x: f64) -> Relaxed {
+pub(crate) fn exact_fraction(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite number")
 }
 
 /// Returns the absolute difference of a number from the exact value `truth`.
 pub(crate) fn error_of(x: f64, truth: &Relaxed) -> f64 {
-    (exact(x) - truth).to_f64().value().abs()
+    (exact_fraction(x) - truth).to_f64().value().abs()
 }
 
 impl Exact3 {
-    pub(crate) fn of(v: impl Into<[f64; 3]>) -> Self {
-        Exact3(v.into().map(exact))
+    pub(crate) fn from_coordinates(v: impl Into<[f64; 3]>) -> Self {
+        Exact3(v.into().map(exact_fraction))
     }
 
     pub(crate) fn minus(&self, other: &Self) -> Self {

@@ -1,6 +1,6 @@
 //! Random bodies and motions of every kind and size for tests; the same seed gives the same scene.
 
-use super::nearest::{Triangle, nearest};
+use super::nearest::{Triangle, nearest_points};
 use super::worst::RandomCase;
 use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
@@ -25,9 +25,9 @@ pub(crate) enum SoupKind {
     /// Each triangle is 1e-7 times as wide as long.
     Needles,
     /// All triangles are in one plane, up to 1e-7 of their size.
-    Flat,
+    Coplanar,
     /// All triangles are along one line, up to 1e-7 of their size.
-    Stretched,
+    Collinear,
     /// The sizes of the triangles extend over six orders of magnitude.
     MixedSizes,
 }
@@ -36,8 +36,8 @@ impl SoupKind {
     pub(crate) const ALL: [SoupKind; 5] = [
         SoupKind::WellShaped,
         SoupKind::Needles,
-        SoupKind::Flat,
-        SoupKind::Stretched,
+        SoupKind::Coplanar,
+        SoupKind::Collinear,
         SoupKind::MixedSizes,
     ];
 }
@@ -68,12 +68,12 @@ impl TryRng for RandomCase {
 }
 
 /// Draws a power of ten with a random exponent between `low` and `high`.
-pub(crate) fn magnitude(rng: &mut impl RngExt, low: f64, high: f64) -> f64 {
+pub(crate) fn random_power_of_ten(rng: &mut impl RngExt, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..=high))
 }
 
 /// Draws a unit vector.
-pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
+pub(crate) fn random_direction(rng: &mut impl RngExt) -> DVec3 {
     let mut cube = || DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
     let inside = (0..64)
         .map(|_| cube())
@@ -82,18 +82,18 @@ pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
 }
 
 /// Draws a point in a ball about the origin.
-pub(crate) fn point_in_ball(rng: &mut impl RngExt, radius: f64) -> DVec3 {
-    direction(rng) * radius * rng.random_range(0.0..1.0f64).cbrt()
+pub(crate) fn random_point_in_ball(rng: &mut impl RngExt, radius: f64) -> DVec3 {
+    random_direction(rng) * radius * rng.random_range(0.0..1.0f64).cbrt()
 }
 
-pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
-    DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
+pub(crate) fn random_rotation(rng: &mut impl RngExt) -> DQuat {
+    DQuat::from_axis_angle(random_direction(rng), rng.random_range(-3.1..3.1))
 }
 
 /// Draws the corners of a box in any orientation, with a half extent of 1 along one axis and of at most 1 along the
 /// others.
 pub(crate) fn random_box_corners(tape: &mut RandomCase) -> Vec<DVec3> {
-    let frame = glam::DMat3::from_quat(rotation(tape));
+    let frame = glam::DMat3::from_quat(random_rotation(tape));
     let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
     let corner = |k: usize| {
         let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
@@ -109,22 +109,22 @@ pub(crate) fn soup(
     count: usize,
     size: f64,
 ) -> Vec<Triangle> {
-    let frame = rotation(rng);
+    let frame = random_rotation(rng);
     (0..count)
         .map(|_| {
-            let centre = point_in_ball(rng, size);
+            let centre = random_point_in_ball(rng, size);
             let edge = match look {
-                SoupKind::MixedSizes => size * magnitude(rng, -6.0, 0.0),
+                SoupKind::MixedSizes => size * random_power_of_ten(rng, -6.0, 0.0),
                 _ => size * rng.random_range(0.05..1.0),
             };
-            let mut corners = [0; 3].map(|_| centre + point_in_ball(rng, edge));
+            let mut corners = [0; 3].map(|_| centre + random_point_in_ball(rng, edge));
             if look == SoupKind::Needles {
-                let tip = 0.5 * (corners[0] + corners[1]) + point_in_ball(rng, 1e-7 * edge);
+                let tip = 0.5 * (corners[0] + corners[1]) + random_point_in_ball(rng, 1e-7 * edge);
                 corners[2] = tip;
             }
             let squeeze = match look {
-                SoupKind::Flat => DVec3::new(1.0, 1.0, 1e-7),
-                SoupKind::Stretched => DVec3::new(1.0, 1e-7, 1e-7),
+                SoupKind::Coplanar => DVec3::new(1.0, 1.0, 1e-7),
+                SoupKind::Collinear => DVec3::new(1.0, 1e-7, 1e-7),
                 _ => DVec3::ONE,
             };
             corners.map(|p| frame * (p * squeeze))
@@ -135,7 +135,7 @@ pub(crate) fn soup(
 /// Draws two triangles, either of any kind of soup, or with random corners in one ball so that they often cross.
 pub(crate) fn two_random_triangles(rng: &mut Pcg64) -> [Triangle; 2] {
     if rng.random_bool(0.5) {
-        return [(); 2].map(|()| [(); 3].map(|()| point_in_ball(rng, 1.0)));
+        return [(); 2].map(|()| [(); 3].map(|()| random_point_in_ball(rng, 1.0)));
     }
     let look = SoupKind::ALL[rng.random_range(0..5)];
     let pair = soup(rng, look, 2, 0.5);
@@ -195,7 +195,7 @@ pub(crate) struct Scene {
     /// The clock at which the bodies are near each other.
     pub(crate) clock: f64,
     /// The approximate time for which the bodies are near each other.
-    pub(crate) passage_time: f64,
+    pub(crate) passage_duration: f64,
 }
 
 impl Scene {
@@ -231,7 +231,7 @@ impl Scene {
             } else {
                 motion.velocity().length()
             };
-            *acceleration = direction(rng) * speed * magnitude(rng, -3.0, 1.5);
+            *acceleration = random_direction(rng) * speed * random_power_of_ten(rng, -3.0, 1.5);
             let (pose, change) = (motion.start(), clock * *acceleration);
             let start = Pose::new(pose.translation() + 0.5 * clock * change, pose.rotation());
             let velocity = motion.velocity() - change;
@@ -252,7 +252,7 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     });
     let pairs = a
         .iter()
-        .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
+        .flat_map(|x| b.iter().map(move |y| nearest_points(x, y).distance));
     pairs.fold(f64::INFINITY, lesser)
 }
 
@@ -271,20 +271,20 @@ pub(crate) enum SceneKind {
 
 /// Draws a scene of two bodies with up to `most` triangles each, which come near each other.
 pub(crate) fn scene(rng: &mut Pcg64, kind: SceneKind, most: usize) -> Scene {
-    let size = magnitude(rng, -6.0, 6.0);
+    let size = random_power_of_ten(rng, -6.0, 6.0);
     let ratio = match kind {
-        SceneKind::NearRim => magnitude(rng, 1.0, 5.0),
-        SceneKind::Receding => magnitude(rng, 0.0, 0.5),
+        SceneKind::NearRim => random_power_of_ten(rng, 1.0, 5.0),
+        SceneKind::Receding => random_power_of_ten(rng, 0.0, 0.5),
         _ if rng.random_bool(0.5) => 1.0,
-        _ => magnitude(rng, 0.0, 4.0),
+        _ => random_power_of_ten(rng, 0.0, 4.0),
     };
     let mut sizes = [size, greater(1e-6, size / ratio)];
     if rng.random_bool(0.5) {
         sizes.swap(0, 1);
     }
     let clock = rng.random_range(0.0..1.0);
-    let world = direction(rng) * offset(rng, size);
-    let way = direction(rng);
+    let world = random_direction(rng) * random_distance_from_origin(rng, size);
+    let way = random_direction(rng);
     // The distance of the middles at that clock is from overlapping to well apart.
     let near = match kind {
         SceneKind::Receding => rng.random_range(0.0..0.3),
@@ -295,14 +295,14 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: SceneKind, most: usize) -> Scene {
     let mut velocities = [DVec3::ZERO; 2];
     for (k, sign) in [(0, 0.0), (1, near)] {
         let look = SoupKind::ALL[rng.random_range(0..5)];
-        let count = magnitude(rng, 0.0, (most as f64).log10()) as usize;
-        let middle = direction(rng) * offset(rng, sizes[k]);
+        let count = random_power_of_ten(rng, 0.0, (most as f64).log10()) as usize;
+        let middle = random_direction(rng) * random_distance_from_origin(rng, sizes[k]);
         let triangles = soup(rng, look, count.max(1), sizes[k]);
         let moved: Vec<Triangle> = triangles.iter().map(|t| t.map(|p| p + middle)).collect();
         bodies.push(body(&moved));
         let mut passage = MotionThroughPose {
             clock,
-            rotation: rotation(rng),
+            rotation: random_rotation(rng),
             place: world + sign * way,
             middle,
             velocity: DVec3::ZERO,
@@ -318,20 +318,20 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: SceneKind, most: usize) -> Scene {
         motions: motions.try_into().unwrap(),
         accelerations: [DVec3::ZERO; 2],
         settings: Settings {
-            tolerance: lesser(sizes[0], sizes[1]) * magnitude(rng, -6.0, -2.0),
+            tolerance: lesser(sizes[0], sizes[1]) * random_power_of_ten(rng, -6.0, -2.0),
             ..Settings::DEFAULT
         },
         clock,
-        passage_time: (sizes[0] + sizes[1]) / (velocities[0].distance(velocities[1]) + size),
+        passage_duration: (sizes[0] + sizes[1]) / (velocities[0].distance(velocities[1]) + size),
     }
 }
 
 /// Draws a distance from the origin: 0, up to a thousand times `size`, or up to the greater of 1e6 and `size`.
-fn offset(rng: &mut Pcg64, size: f64) -> f64 {
+fn random_distance_from_origin(rng: &mut Pcg64, size: f64) -> f64 {
     match rng.random_range(0..4) {
         0 | 1 => 0.0,
-        2 => size * magnitude(rng, 0.0, 3.0),
-        _ => greater(magnitude(rng, 0.0, 6.0), size),
+        2 => size * random_power_of_ten(rng, 0.0, 3.0),
+        _ => greater(random_power_of_ten(rng, 0.0, 6.0), size),
     }
 }
 
@@ -348,38 +348,40 @@ fn draw_velocities(
     match kind {
         SceneKind::Receding => {
             let sign = if side == 0 { -1.0 } else { 1.0 };
-            passage.velocity =
-                (sign * way + point_in_ball(rng, 0.3)) * size * magnitude(rng, -2.0, 2.0);
+            passage.velocity = (sign * way + random_point_in_ball(rng, 0.3))
+                * size
+                * random_power_of_ten(rng, -2.0, 2.0);
         }
         SceneKind::Sliding => {
             if side == 1 {
-                let across = way.cross(direction(rng)).normalize();
+                let across = way.cross(random_direction(rng)).normalize();
                 passage.velocity = across * size * 1e3;
             }
         }
         SceneKind::NearRim => {
             if large {
-                passage.spin = direction(rng) * rng.random_range(0.1..20.0);
-                passage.centre = passage.middle + point_in_ball(rng, size);
+                passage.spin = random_direction(rng) * rng.random_range(0.1..20.0);
+                passage.centre = passage.middle + random_point_in_ball(rng, size);
             } else if rng.random_bool(0.5) {
-                passage.velocity = point_in_ball(rng, size);
-                passage.spin = point_in_ball(rng, 20.0);
+                passage.velocity = random_point_in_ball(rng, size);
+                passage.spin = random_point_in_ball(rng, 20.0);
                 passage.centre = passage.middle;
             }
         }
         SceneKind::RandomMotion => {
             if rng.random_bool(0.7) {
-                passage.velocity = direction(rng) * size * magnitude(rng, -3.0, 1.5);
+                passage.velocity =
+                    random_direction(rng) * size * random_power_of_ten(rng, -3.0, 1.5);
             }
             if rng.random_bool(0.7) {
-                let turns = magnitude(rng, -4.0, 6f64.log10());
-                passage.spin = direction(rng) * std::f64::consts::TAU * turns;
+                let turns = random_power_of_ten(rng, -4.0, 6f64.log10());
+                passage.spin = random_direction(rng) * std::f64::consts::TAU * turns;
                 passage.centre = match rng.random_range(0..4) {
                     0 => DVec3::ZERO,
-                    1 | 2 => passage.middle + point_in_ball(rng, sizes[side]),
+                    1 | 2 => passage.middle + random_point_in_ball(rng, sizes[side]),
                     _ => {
-                        let far = size * magnitude(rng, 0.0, 4.0);
-                        passage.middle + point_in_ball(rng, far)
+                        let far = size * random_power_of_ten(rng, 0.0, 4.0);
+                        passage.middle + random_point_in_ball(rng, far)
                     }
                 };
             }

@@ -22,14 +22,14 @@ pub(crate) struct RandomCase {
 /// A search for the case in which the error is the largest share of one bound.
 pub(crate) struct WorstCaseSearch {
     name: &'static str,
-    cases: f64,
+    case_count: f64,
 }
 
 /// The largest error that a search found, relative to its bound.
 pub(crate) struct LargestError {
     name: &'static str,
     /// The largest error, as a share of the bound.
-    share: f64,
+    error_share: f64,
     /// Whether the search examined so many cases (more than 1,000) that its largest error should be near the bound.
     is_thorough: bool,
 }
@@ -43,12 +43,12 @@ const CASES_BEFORE_CLIMB: u64 = 24;
 
 impl WorstCaseSearch {
     /// Creates a search of `cases` cases, multiplied by the environment variable `CCD_TEST_CASES` if it is set.
-    pub(crate) fn of(name: &'static str, cases: u32) -> Self {
+    pub(crate) fn new(name: &'static str, cases: u32) -> Self {
         let given = std::env::var("CCD_TEST_CASES").ok();
         let times: f64 = given.and_then(|text| text.parse().ok()).unwrap_or(1.0);
         WorstCaseSearch {
             name,
-            cases: f64::from(cases) * times,
+            case_count: f64::from(cases) * times,
         }
     }
 
@@ -62,7 +62,7 @@ impl WorstCaseSearch {
         self,
         mut judge: impl FnMut(&mut RandomCase) -> Option<f64>,
     ) -> LargestError {
-        let count = self.cases.ceil() as u64;
+        let count = self.case_count.ceil() as u64;
         let mut dice = SplitMix64(self.name.bytes().fold(7, |seed, byte| {
             mix_bits(seed ^ u64::from(byte)) // A seed of its own for every name.
         }));
@@ -113,8 +113,8 @@ impl WorstCaseSearch {
         assert!(4 * judged > count, "{name}: {judged} of {count} are cases");
         LargestError {
             name,
-            share,
-            is_thorough: self.cases >= count as f64 && count > 1000,
+            error_share: share,
+            is_thorough: self.case_count >= count as f64 && count > 1000,
         }
     }
 }
@@ -122,10 +122,13 @@ impl WorstCaseSearch {
 impl LargestError {
     /// Checks that no error exceeded its bound, and that the largest came within a factor `looseness` of it.
     pub(crate) fn assert_tight_bound(&self, looseness: f64) {
-        let (name, ratio) = (self.name, 1.0 / self.share);
-        assert!(self.share <= 1.0, "{name}: only {ratio:e} of an error");
+        let (name, ratio) = (self.name, 1.0 / self.error_share);
+        assert!(
+            self.error_share <= 1.0,
+            "{name}: only {ratio:e} of an error"
+        );
         // A search that examines nothing would prove nothing.
-        let near = self.share > 0.0 && ratio <= looseness;
+        let near = self.error_share > 0.0 && ratio <= looseness;
         assert!(
             near || !self.is_thorough,
             "{name}: {ratio:e} times all errors"
@@ -164,7 +167,7 @@ impl RandomCase {
         }
         let (least, most) = exponents.into_inner();
         let exponent = least + field as i32 % (most - least + 1);
-        let size = f64::from_bits(ONE | mantissa);
+        let size = f64::from_bits(ONE_EXPONENT_BITS | mantissa);
         let signed = if word >> 63 == 1 { -size } else { size };
         // The power is computed in two steps, as 2⁻¹⁰⁷⁴ cannot be computed in one.
         let half = exponent / 2;
@@ -191,7 +194,7 @@ impl RandomCase {
     }
 
     /// Reads a number in [0, 1).
-    pub(crate) fn fraction(&mut self) -> f64 {
+    pub(crate) fn next_fraction(&mut self) -> f64 {
         (self.next_word() >> 11) as f64 * 0.5f64.powi(53)
     }
 
@@ -202,7 +205,7 @@ impl RandomCase {
 }
 
 const MANTISSA_MASK: u64 = (1 << 52) - 1;
-const ONE: u64 = 1023 << 52;
+const ONE_EXPONENT_BITS: u64 = 1023 << 52;
 
 /// The SplitMix64 random number generator.
 struct SplitMix64(u64);
@@ -213,7 +216,7 @@ impl SplitMix64 {
         mix_bits(self.0)
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    fn index_below(&mut self, count: usize) -> usize {
         (self.next() % count as u64) as usize
     }
 
@@ -225,7 +228,7 @@ impl SplitMix64 {
         }
         let changes = 1 + self.next().trailing_zeros().min(5);
         for _ in 0..changes {
-            let at = self.below(words.len());
+            let at = self.index_below(words.len());
             words[at] = self.other(words[at], &words);
         }
         words
@@ -237,11 +240,11 @@ impl SplitMix64 {
         let digits = self.next() & MANTISSA_MASK;
         // The change is a few units in the last place if the word is a number.
         let few = digits % 16;
-        match self.below(10) {
+        match self.index_below(10) {
             0 => self.next(),
             1 => word & !MANTISSA_MASK | digits,
-            2 => word ^ 1 << self.below(64),
-            3 => word ^ 1 << self.below(52),
+            2 => word ^ 1 << self.index_below(64),
+            3 => word ^ 1 << self.index_below(52),
             4 => word.wrapping_add(few),
             5 => word.wrapping_sub(few),
             // The number is just above a power of two, or just below one.
@@ -251,7 +254,7 @@ impl SplitMix64 {
             8 => {
                 let sign = (self.next() & 1) << 63;
                 let digits = if self.next() & 1 == 0 { few } else { 0 };
-                all[self.below(all.len())] ^ sign ^ digits
+                all[self.index_below(all.len())] ^ sign ^ digits
             }
             _ => word
                 .wrapping_add((self.next() % 5) << 52)

@@ -21,7 +21,7 @@ pub(crate) fn meet_outside_shared_corners(
             let far = [(k + 1) % 3, (k + 2) % 3].map(|k| triangles[which][k]);
             segment_meets_triangle(far, triangles[1 - which])
         }),
-        2 => are_folded(corners, triangles),
+        2 => are_folded_flat(corners, triangles),
         // One triangle, from either side.
         _ => true,
     }
@@ -43,7 +43,7 @@ pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
 }
 
 /// Returns whether two triangles that share an edge are coplanar and lie on the same side of this edge.
-fn are_folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
+fn are_folded_flat(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
     let far = |which: usize| (0..3).find(|&k| !corners[1 - which].contains(&corners[which][k]));
     let (Some(k), Some(l)) = (far(0), far(1)) else {
         return true;

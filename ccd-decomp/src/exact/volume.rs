@@ -9,8 +9,8 @@ pub(crate) struct SignedVolume {
     sum: f64,
     /// The sum of the exact rounding errors of all additions, which corrects `sum`.
     addition_errors: f64,
-    size: f64,
-    terms: f64,
+    term_bound_sum: f64,
+    term_count: f64,
 }
 
 impl SignedVolume {
@@ -31,14 +31,14 @@ impl SignedVolume {
         let added = sum - self.sum;
         self.addition_errors += (self.sum - (sum - added)) + (term - added);
         self.sum = sum;
-        self.size += arm.length() * sides[0].length() * sides[1].length();
-        self.terms += 1.0;
+        self.term_bound_sum += arm.length() * sides[0].length() * sides[1].length();
+        self.term_count += 1.0;
     }
 
     /// Returns whether the exact sum is positive; `None` if [rounding](volume_rounding) leaves its sign open.
     pub(crate) fn is_positive(&self) -> Option<bool> {
         let sum = self.sum + self.addition_errors;
-        let rounding = volume_rounding(self.size, self.terms);
+        let rounding = volume_rounding(self.term_bound_sum, self.term_count);
         // Written so that NaN has no sign.
         (sum.abs() > rounding).then_some(sum > 0.0)
     }

@@ -47,17 +47,17 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
         });
     }
     let mut fields = &header[MAGIC.len()..];
-    let version = u32::from_le_bytes(split_array(&mut fields)?);
+    let version = u32::from_le_bytes(take_array(&mut fields)?);
     if version != FORMAT_VERSION {
         return Err(StoreFault::UnsupportedVersion { version });
     }
-    let length = u64::from_le_bytes(split_array(&mut fields)?);
+    let length = u64::from_le_bytes(take_array(&mut fields)?);
     let payload = read_up_to(&mut reader, length)?;
     if payload.len() as u64 != length {
         return Err(StoreFault::Truncated);
     }
     let end = read_up_to(&mut reader, size_of::<u32>() as u64)?;
-    if u32::from_le_bytes(split_array(&mut &end[..])?) != checksum(&header, &payload) {
+    if u32::from_le_bytes(take_array(&mut &end[..])?) != checksum(&header, &payload) {
         return Err(StoreFault::ChecksumMismatch);
     }
     if read_up_to(&mut reader, 1)?.is_empty() {
@@ -76,7 +76,7 @@ fn read_up_to(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault>
 }
 
 /// Removes the first `N` bytes from a slice and returns them; [`StoreFault::Truncated`] if there are fewer.
-fn split_array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
+fn take_array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
     let (first, rest) = from.split_first_chunk().ok_or(StoreFault::Truncated)?;
     *from = rest;
     Ok(*first)

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use rstest::rstest;
 use std::sync::LazyLock;
 
-const TETRAHEDRON: &str =
+const TETRAHEDRON_OBJ: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 /// The OBJ text of a tetrahedron with a dent, with a duplicate face and an unused vertex that the report mentions.
@@ -31,14 +31,14 @@ fn fault(bytes: &[u8]) -> StoreFault {
 }
 
 /// Stored bodies of every kind of pieces, with and without a hull tree. They are small enough to change every byte.
-static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
+static STORED_BODIES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let patches = model(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting));
     let models = [
         model(DENTED_OBJ, Detail::Triangles),
         patches.clone(),
         patches.with_hull_tree().unwrap(),
-        model(TETRAHEDRON, Detail::Hull),
-        model(TETRAHEDRON, Detail::OuterHull),
+        model(TETRAHEDRON_OBJ, Detail::Hull),
+        model(TETRAHEDRON_OBJ, Detail::OuterHull),
     ];
     models.iter().map(stored_bytes).collect()
 });
@@ -47,7 +47,7 @@ static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
 #[case(DENTED_OBJ, Detail::Triangles)]
 #[case(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))]
 #[case(DENTED_OBJ, Detail::OuterHull)]
-#[case(TETRAHEDRON, Detail::Hull)]
+#[case(TETRAHEDRON_OBJ, Detail::Hull)]
 fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
     let model = model(file, detail);
     let bytes = stored_bytes(&model);
@@ -147,7 +147,7 @@ fn a_pointer_of_git_lfs_is_recognised() {
 
 #[test]
 fn a_file_cut_anywhere_is_an_error() {
-    for bytes in STORED_FILES.iter() {
+    for bytes in STORED_BODIES.iter() {
         for end in 0..bytes.len() {
             let fault = fault(&bytes[..end]);
             let cut = matches!(fault, StoreFault::Truncated);
@@ -168,7 +168,7 @@ fn a_file_with_more_behind_it_is_damaged() {
 
 #[test]
 fn every_bit_counts() {
-    let bytes = stored_bytes(&model(TETRAHEDRON, Detail::Triangles));
+    let bytes = stored_bytes(&model(TETRAHEDRON_OBJ, Detail::Triangles));
     for at in 0..bytes.len() {
         for bit in 0..8 {
             let mut changed = bytes.clone();
@@ -188,7 +188,7 @@ fn a_length_that_no_memory_holds_is_a_cut_file() {
 #[test]
 fn parts_that_do_not_belong_together_are_reported() {
     let (mut small, large) = (
-        model(TETRAHEDRON, Detail::Triangles),
+        model(TETRAHEDRON_OBJ, Detail::Triangles),
         model(DENTED_OBJ, Detail::Triangles),
     );
     small.hierarchy = large.hierarchy;
@@ -222,7 +222,7 @@ fn wrap_in_frame(payload: &[u8]) -> Vec<u8> {
 
 #[test]
 fn a_payload_cut_anywhere_is_an_error() {
-    for bytes in STORED_FILES.iter() {
+    for bytes in STORED_BODIES.iter() {
         let payload = frame::read(&bytes[..]).unwrap();
         for end in 0..payload.len() {
             let fault = fault(&wrap_in_frame(&payload[..end]));
@@ -236,7 +236,7 @@ fn a_payload_cut_anywhere_is_an_error() {
 
 #[test]
 fn no_single_change_of_a_payload_panics() {
-    for bytes in STORED_FILES.iter() {
+    for bytes in STORED_BODIES.iter() {
         let payload = frame::read(&bytes[..]).unwrap();
         for at in 0..payload.len() {
             for value in [0, 1, 2, 0x7f, 0x80, 0xff] {
@@ -261,7 +261,7 @@ proptest! {
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in any::<prop::sample::Index>(),
     ) {
-        let bytes = &STORED_FILES[file.index(STORED_FILES.len())];
+        let bytes = &STORED_BODIES[file.index(STORED_BODIES.len())];
         let mut payload = frame::read(&bytes[..]).unwrap();
         for (at, byte) in changes {
             let at = at.index(payload.len());
@@ -273,7 +273,7 @@ proptest! {
 }
 
 /// Creates an empty folder for the files of the test `name`.
-fn folder(name: &str) -> std::path::PathBuf {
+fn create_empty_folder(name: &str) -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("ccd-{name}-{}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
@@ -282,8 +282,8 @@ fn folder(name: &str) -> std::path::PathBuf {
 
 #[test]
 fn threads_save_side_by_side() {
-    let folder = folder("side-by-side");
-    let models = [TETRAHEDRON, DENTED_OBJ].map(|mesh| model(mesh, Detail::Triangles));
+    let folder = create_empty_folder("side-by-side");
+    let models = [TETRAHEDRON_OBJ, DENTED_OBJ].map(|mesh| model(mesh, Detail::Triangles));
     std::thread::scope(|scope| {
         for thread in 0..4 {
             let (model, folder) = (&models[thread % 2], &folder);
@@ -312,8 +312,8 @@ fn threads_save_side_by_side() {
 #[test]
 fn links_are_followed_and_devices_stay_what_they_are() {
     use std::os::unix::fs::{FileTypeExt, symlink};
-    let folder = folder("links");
-    let body = model(TETRAHEDRON, Detail::Hull);
+    let folder = create_empty_folder("links");
+    let body = model(TETRAHEDRON_OBJ, Detail::Hull);
     let (target, link) = (folder.join("target.ccd"), folder.join("link.ccd"));
     std::fs::write(&target, "old").unwrap();
     symlink(&target, &link).unwrap();
@@ -338,8 +338,8 @@ fn links_are_followed_and_devices_stay_what_they_are() {
 /// Tests that the remarks of a mesh are stored and read back, and that older files load without remarks.
 #[test]
 fn remarks_are_stored() {
-    let plain = model(TETRAHEDRON, Detail::Triangles);
-    let text = [TETRAHEDRON, "l 1 2\nvc 1\n"].concat();
+    let plain = model(TETRAHEDRON_OBJ, Detail::Triangles);
+    let text = [TETRAHEDRON_OBJ, "l 1 2\nvc 1\n"].concat();
     let remarked = model(&text, Detail::Triangles);
     let again = Model::read(&stored_bytes(&remarked)[..]).unwrap();
     assert_eq!(again.report, remarked.report);

@@ -7,10 +7,10 @@ use ccd_core::PolygonList;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Merges triangles like [`for_each_polygon`], and returns the corners of each polygon.
+/// Merges triangles like [`for_each_merged_polygon`], and returns the corners of each polygon.
 pub(crate) fn merged_polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> PolygonList {
     let mut loops = PolygonList::with_capacity(triangles.len(), 3 * triangles.len());
-    for_each_polygon(points, triangles, |corners, _| loops.push(corners));
+    for_each_merged_polygon(points, triangles, |corners, _| loops.push(corners));
     loops
 }
 
@@ -18,7 +18,7 @@ pub(crate) fn merged_polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Polyg
 /// its strict corners, counter-clockwise seen from outside, and the indices of its triangles, in ascending order.
 ///
 /// Exact: the corners of a polygon are exactly coplanar.
-pub(crate) fn for_each_polygon(
+pub(crate) fn for_each_merged_polygon(
     points: &[DVec3],
     triangles: &[[u32; 3]],
     mut visit: impl FnMut(&[u32], &[u32]),
@@ -118,7 +118,7 @@ fn coplanar_groups(points: &[DVec3], triangles: &[[u32; 3]], twins: &[HalfEdge])
             groups.join(one, other);
         }
     }
-    groups.numbers()
+    groups.set_numbers()
 }
 
 #[cfg(test)]

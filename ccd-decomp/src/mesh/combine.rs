@@ -45,8 +45,8 @@ impl TriangleMesh {
         Ok(TriangleMesh::from_triangles(
             vertices,
             (faces, self.face_ids.clone()),
-            self.face_count,
-            self.repairs.without_zero_area_faces(),
+            self.file_face_count,
+            self.repairs.without_zero_area_tally(),
         ))
     }
 
@@ -78,16 +78,16 @@ impl TriangleMesh {
         let total = |count: fn(&Self) -> usize| meshes.iter().map(|mesh| count(mesh)).sum();
         check_count_fits_indices("vertices", total(|mesh| mesh.vertices.len()))?;
         check_count_fits_indices("corners", total(|mesh| 3 * mesh.faces.len()))?;
-        check_count_fits_indices("faces", total(|mesh| mesh.face_count as usize))?;
+        check_count_fits_indices("faces", total(|mesh| mesh.file_face_count as usize))?;
         let (mut vertices, mut faces, mut ids) = (Vec::new(), Vec::new(), Vec::new());
         let (mut repairs, mut face_count) = (Repairs::default(), 0);
         for mesh in meshes {
             let first = vertices.len() as u32;
-            repairs.append(&mesh.repairs.without_zero_area_faces(), first, face_count);
+            repairs.append(&mesh.repairs.without_zero_area_tally(), first, face_count);
             vertices.extend(&mesh.vertices);
             faces.extend(mesh.faces.iter().map(|face| face.map(|v| first + v)));
             ids.extend(mesh.face_ids.iter().map(|id| face_count + id));
-            face_count += mesh.face_count;
+            face_count += mesh.file_face_count;
         }
         Ok(TriangleMesh::from_triangles(
             vertices,

@@ -33,7 +33,7 @@ pub(crate) enum Layout {
 
 impl Content {
     /// Returns the number of parts of the file.
-    pub(crate) fn parts(&self) -> usize {
+    pub(crate) fn part_count(&self) -> usize {
         match &self.layout {
             Layout::FaceList(_, groups) => groups.names.len(),
             Layout::Assembly(assembly) => assembly.parts.len(),
@@ -55,7 +55,7 @@ impl Content {
             Layout::FaceList(polygons, groups) => groups.copy_groups(polygons, parts)?,
             Layout::Assembly(assembly) => {
                 assembly.check_expansion_cost(parts.clone())?;
-                let alone = parts.map(|part| assembly.expand(part..part + 1));
+                let alone = parts.map(|part| assembly.placed_triangles(part..part + 1));
                 alone.collect::<Result<_, _>>()?
             }
         };
@@ -70,7 +70,7 @@ impl Content {
     pub(crate) fn all_faces(self) -> Result<Polygons, MeshFault> {
         let faces = match self.layout {
             Layout::FaceList(polygons, _) => polygons,
-            Layout::Assembly(assembly) => assembly.expand(0..assembly.parts.len())?,
+            Layout::Assembly(assembly) => assembly.placed_triangles(0..assembly.parts.len())?,
         };
         let remarks = self.remarks;
         Ok(Polygons { remarks, ..faces })

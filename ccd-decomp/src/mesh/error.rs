@@ -53,10 +53,10 @@ pub enum MeshFault {
         reason: String,
     },
     /// One element of a scene has a fault.
-    #[error("{place}: {fault}")]
+    #[error("{element}: {fault}")]
     AtElement {
         /// The element that has the fault, such as a node or a mesh.
-        place: String,
+        element: String,
         /// The fault of the element.
         fault: Box<MeshFault>,
     },
@@ -192,7 +192,7 @@ impl MeshFault {
     /// Wraps the fault with the name of the element that has it.
     pub(crate) fn at_element(self, place: impl Into<String>) -> Self {
         MeshFault::AtElement {
-            place: place.into(),
+            element: place.into(),
             fault: Box::new(self),
         }
     }

@@ -106,10 +106,10 @@ impl Format {
             return Err(MeshFault::StepFile);
         }
         match self {
-            Format::Obj => obj::parse(&text::utf8_with_line_feeds(bytes)),
+            Format::Obj => obj::parse(&text::utf8_without_lone_returns(bytes)),
             Format::Stl => stl::parse(bytes).map(Content::from),
             Format::Ply => ply::parse(&unmarked).map(Content::from),
-            Format::Off => off::parse(&text::utf8_with_line_feeds(bytes)).map(Content::from),
+            Format::Off => off::parse(&text::utf8_without_lone_returns(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
             Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]

@@ -50,7 +50,7 @@ impl MeshFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
         let read = || {
-            let (format, bytes) = open(path)?;
+            let (format, bytes) = read_with_format(path)?;
             let references = format.file_references(&bytes)?.into_iter();
             let folder = path.parent().unwrap_or(Path::new(""));
             let linked: Result<LinkedFiles, _> = references
@@ -146,7 +146,7 @@ impl MeshFile {
 
     /// Returns the names of the parts in the order of their numbers; `None` for a part without a name.
     pub fn part_names(&self) -> impl ExactSizeIterator<Item = Option<&str>> {
-        (0..self.content.parts()).map(|part| self.content.name(part))
+        (0..self.content.part_count()).map(|part| self.content.name(part))
     }
 
     /// Returns the mesh of the part with the given name or, if no part has that name, with the given number.
@@ -169,7 +169,7 @@ impl MeshFile {
     /// # Errors
     /// [`MeshFault::AtElement`] with the number and name of a part, and its fault.
     pub fn into_parts(self) -> Result<Vec<NamedMesh>, MeshError> {
-        let parts = self.content.separate_parts(0..self.content.parts());
+        let parts = self.content.separate_parts(0..self.content.part_count());
         let parts = parts.map_err(|fault| error(fault, &self.path))?.into_iter();
         let named = parts.enumerate().map(|(part, polygons)| {
             let mesh = mesh(polygons, self.conversion)
@@ -199,7 +199,7 @@ impl MeshFile {
     }
 
     fn find_part(&self, name_or_number: &str) -> Result<usize, MeshFault> {
-        let parts = 0..self.content.parts();
+        let parts = 0..self.content.part_count();
         let has_name = |&part: &usize| self.content.name(part) == Some(name_or_number);
         let named: Vec<usize> = parts.clone().filter(has_name).collect();
         let number = || name_or_number.parse().ok();
@@ -230,7 +230,7 @@ pub(crate) fn source_paths(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
         if !Format::from_path(path).is_ok_and(Format::refers_to_files) {
             return Ok(vec![path.to_owned()]);
         }
-        let (format, bytes) = open(path)?;
+        let (format, bytes) = read_with_format(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut files = vec![path.to_owned()];
         for reference in format.file_references(&bytes)? {
@@ -258,7 +258,7 @@ fn mesh(mut polygons: Polygons, conversion: UnitConversion) -> Result<TriangleMe
     TriangleMesh::from_polygons(polygons)
 }
 
-fn open(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
+fn read_with_format(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
     if path.is_dir() {
         return Err(MeshFault::Folder);
     }

@@ -6,7 +6,8 @@ use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
 use std::panic::catch_unwind;
 
-type Plane = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+type OutlineTriangulation =
+    ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
 /// Triangulates a polygon of `n` corners into `n − 2` triangles, oriented like the polygon. Triangles are given by
 /// corner numbers.
@@ -53,9 +54,9 @@ fn project_to_coordinate_plane(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
 fn triangulate_constrained(
     places: &[Point2<f64>],
     order: &[usize],
-) -> Option<(Plane, Vec<FixedVertexHandle>)> {
+) -> Option<(OutlineTriangulation, Vec<FixedVertexHandle>)> {
     let count = places.len();
-    let mut plane = Plane::new();
+    let mut plane = OutlineTriangulation::new();
     let mut at = vec![FixedVertexHandle::from_index(0); count];
     for (done, &number) in order.iter().enumerate() {
         at[number] = plane.insert(places[number]).ok()?;
@@ -101,7 +102,7 @@ fn hash(number: u64) -> u64 {
 
 /// Collects the triangles of a triangulation that are inside the outline.
 fn triangles_inside(
-    plane: &Plane,
+    plane: &OutlineTriangulation,
     at: &[FixedVertexHandle],
     order: &[usize],
 ) -> Option<Vec<[usize; 3]>> {

@@ -4,7 +4,7 @@ use super::error::MeshFault;
 use super::outline;
 use super::remark::Remarks;
 use super::repair::Repairs;
-use crate::exact::predicates::{first_out_of_range, has_zero_area};
+use crate::exact::predicates::{first_point_out_of_range, has_zero_area};
 use ccd_core::glam::DVec3;
 
 /// The vertices and faces of a file, not yet checked.
@@ -15,10 +15,10 @@ pub(crate) struct Polygons {
     pub(crate) corners: Vec<i64>,
     /// For each face, the end of its range in `corners`.
     pub(crate) corner_ends: Vec<usize>,
-    /// The line number of each vertex in the file, from 1; empty if the format has no lines. `face_lines` has the line
+    /// The line number of each vertex in the file, from 1; empty if the format has no lines. `face_line_numbers` has the line
     /// numbers of the faces.
-    pub(crate) vertex_lines: Vec<usize>,
-    pub(crate) face_lines: Vec<usize>,
+    pub(crate) vertex_line_numbers: Vec<usize>,
+    pub(crate) face_line_numbers: Vec<usize>,
     pub(crate) remarks: Remarks,
 }
 
@@ -33,7 +33,7 @@ impl Polygons {
         }
         check_count_fits_indices("vertices", vertices)?;
         check_count_fits_indices("corners", self.corners.len())?;
-        check_coordinate_range(&self.vertices, &self.vertex_lines)?;
+        check_coordinate_range(&self.vertices, &self.vertex_line_numbers)?;
         self.check_corners()
     }
 
@@ -41,7 +41,7 @@ impl Polygons {
     pub(super) fn check_corners(&self) -> Result<(), MeshFault> {
         let vertices = self.vertices.len();
         for (face, corners) in self.faces().enumerate() {
-            let line = self.face_lines.get(face).copied();
+            let line = self.face_line_numbers.get(face).copied();
             if corners.len() < 3 {
                 let corners = corners.len();
                 return Err(MeshFault::TooFewCorners {
@@ -137,7 +137,7 @@ pub(super) fn check_count_fits_indices(what: &'static str, count: usize) -> Resu
 
 /// Checks that all coordinates are in the supported range.
 pub(super) fn check_coordinate_range(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
-    let Some(vertex) = first_out_of_range(vertices) else {
+    let Some(vertex) = first_point_out_of_range(vertices) else {
         return Ok(());
     };
     let line = lines.get(vertex).copied();

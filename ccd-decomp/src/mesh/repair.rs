@@ -42,7 +42,7 @@ impl Repairs {
 
     /// Returns all repairs except the faces without area. Rebuilding the mesh from its triangles finds these faces
     /// again, but not the other repairs.
-    pub(crate) fn without_zero_area_faces(&self) -> Self {
+    pub(crate) fn without_zero_area_tally(&self) -> Self {
         Repairs {
             zero_area_faces: Tally::default(),
             ..self.clone()
@@ -107,7 +107,7 @@ impl fmt::Display for Repairs {
 }
 
 /// Marks every face with the same points as an earlier face, in the same orientation.
-pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
+pub(crate) fn mark_duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let mut keyed: Vec<([u32; 3], u32)> = faces
         .iter()
         .zip(0..)
@@ -128,7 +128,7 @@ pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
 
 /// Marks every collapsed face whose segment or point lies on an edge of an unmarked face. A collapsed face has two
 /// equal corner points.
-pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
+pub(crate) fn mark_covered_collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let welded = |face: &[u32; 3]| face.map(|v| positions[v as usize]);
     let has_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
     let mut marked = vec![false; faces.len()];

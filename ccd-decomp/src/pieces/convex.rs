@@ -1,7 +1,7 @@
 //! Converts a convex solid to a single polytope.
 
 use super::polytope::{FacetWithFaces, polytope};
-use crate::hull::polygons::for_each_polygon;
+use crate::hull::polygons::for_each_merged_polygon;
 use crate::solid::error::DecomposeError;
 use crate::solid::manifold::{Dihedral, Manifold};
 use crate::solid::shells::shell_numbers;
@@ -29,7 +29,7 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
         return Err(DecomposeError::NotConnected { parts });
     }
     let mut facets = Vec::new();
-    for_each_polygon(
+    for_each_merged_polygon(
         manifold.mesh().vertices(),
         manifold.faces(),
         |corners, faces| {

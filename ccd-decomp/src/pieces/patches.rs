@@ -53,7 +53,7 @@ pub struct Decomposition {
 /// ```
 pub fn decompose(mesh: &TriangleMesh, order: PatchOrder) -> Result<Decomposition, DecomposeError> {
     let manifold = solid_surface(mesh)?;
-    decompose_polygons(
+    patches_from_polygons(
         &manifold,
         &ConvexPolygons::new(&manifold),
         order,
@@ -65,7 +65,7 @@ pub fn decompose(mesh: &TriangleMesh, order: PatchOrder) -> Result<Decomposition
 ///
 /// # Errors
 /// [`DecomposeError::WorkBudgetExceeded`] when the work does not suffice.
-pub(crate) fn decompose_polygons(
+pub(crate) fn patches_from_polygons(
     manifold: &Manifold<'_>,
     flats: &ConvexPolygons,
     order: PatchOrder,

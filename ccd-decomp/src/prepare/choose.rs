@@ -4,13 +4,13 @@ use super::parts::PiecesOfOneKind;
 use super::report::{PieceReason, QueryTimes};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
-use crate::pieces::patches::{PatchOrder, decompose_polygons};
+use crate::pieces::patches::{PatchOrder, patches_from_polygons};
 use crate::solid::check_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::{PlanarRegionSize, RegionMerger};
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
-use crate::tolerance::{PATCH_QUERY_COST, PieceCost, RESTING_QUERY_SHARE, TRIANGLE_QUERY_COST};
+use crate::tolerance::{PATCH_QUERY_COST, QueryCost, RESTING_QUERY_SHARE, TRIANGLE_QUERY_COST};
 use crate::work::Work;
 
 /// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
@@ -44,7 +44,7 @@ pub(super) fn choose(
         );
     }
     let flats = merger.into_polygons();
-    match decompose_polygons(&manifold, &flats, PatchOrder::default(), work) {
+    match patches_from_polygons(&manifold, &flats, PatchOrder::default(), work) {
         Ok(decomposition) => (
             PiecesOfOneKind::Patches(decomposition),
             PieceReason::PatchesFaster(estimate),
@@ -65,8 +65,8 @@ impl PlanarRegionSize {
     /// Estimates the mean time of a query with triangles and with patches as pieces. In a fixed share of the queries
     /// this region is assumed to rest flat on another body.
     fn estimate_query_times(self) -> QueryTimes {
-        let cost = |of: PieceCost, count: usize| {
-            of.typical_time + RESTING_QUERY_SHARE * of.resting_time * count as f64
+        let cost = |of: QueryCost, count: usize| {
+            of.typical_time + RESTING_QUERY_SHARE * of.time_per_resting_piece * count as f64
         };
         QueryTimes {
             triangles: cost(TRIANGLE_QUERY_COST, self.triangle_count),

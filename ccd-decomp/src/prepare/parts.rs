@@ -21,11 +21,11 @@ pub(super) enum PiecesOfOneKind {
 /// The kind of pieces chosen for a mesh, with the pieces and the mesh's topology.
 pub(super) struct PiecesChoice {
     pub(super) volume: Volume,
-    pub(super) parts: PiecesOfOneKind,
+    pub(super) pieces: PiecesOfOneKind,
     pub(super) reason: PieceReason,
     pub(super) topology: Topology,
     /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
-    pub(super) turned: Option<TriangleMesh>,
+    pub(super) reoriented_mesh: Option<TriangleMesh>,
 }
 
 /// The pieces of a body, and a hierarchy over them.
@@ -41,11 +41,11 @@ impl PiecesChoice {
     ) -> Result<Model, PrepareError> {
         let volume = self.volume;
         let mut report = Report::new(PiecesKind::Triangles, self.reason, volume);
-        let triangles = || match (triangles, &self.turned) {
+        let triangles = || match (triangles, &self.reoriented_mesh) {
             (Some(triangles), None) => Ok(triangles),
             (_, turned) => triangle_tree(turned.as_ref().unwrap_or(mesh)),
         };
-        let ((pieces, hierarchy), surface) = match self.parts {
+        let ((pieces, hierarchy), surface) = match self.pieces {
             PiecesOfOneKind::Triangles => (triangles()?, None),
             PiecesOfOneKind::Patches(Decomposition { patches }) => {
                 report.kind = PiecesKind::Patches;

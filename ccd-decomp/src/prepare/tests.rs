@@ -56,9 +56,11 @@ fn features_carry_the_numbers_of_the_file() {
 /// coplanar.
 #[test]
 fn hull_trees_of_nearly_flat_meshes_are_proven() {
-    use crate::test_meshes::{block_cells, cubes, placed};
+    use crate::test_meshes::{block_cells, cubes, scaled_and_moved};
     let step = cubes(&block_cells([4, 4, 2]));
-    let vertices = placed(&step, 0.1, dvec3(0.3, 0.1, 0.7)).vertices().to_vec();
+    let vertices = scaled_and_moved(&step, 0.1, dvec3(0.3, 0.1, 0.7))
+        .vertices()
+        .to_vec();
     let tilt = ccd_core::glam::DQuat::from_axis_angle(dvec3(0.6, 0.0, 0.8), 0.4);
     let turned: Vec<_> = vertices.iter().map(|&p| tilt * p).collect();
     let turned = TriangleMesh::new(turned, step.faces()).unwrap();

@@ -61,7 +61,7 @@ impl BoxTree {
 
     /// Calls `holds` for the face of every element that conservative tests do not separate from a region. Stops when
     /// `holds` returns false or the work is spent.
-    pub(crate) fn all_meeting_faces_satisfy(
+    pub(crate) fn all_near_faces_satisfy(
         &self,
         region: &Region,
         work: &Work,
@@ -123,11 +123,11 @@ impl BoxTree {
     }
 
     /// Returns a lower bound, up to rounding, of the distance from a point to the elements below a node.
-    pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
+    pub(super) fn least_distance(&self, at: usize, point: DVec3) -> f64 {
         let node = &self.nodes[at];
         greater(
             node.bounds.distance(point),
-            node.oriented_box.distance(point),
+            node.oriented_box.least_distance(point),
         )
     }
 }

@@ -15,13 +15,13 @@ use std::cmp::Ordering;
 /// The triangles around one vertex, the hub. They are searched by their edges opposite to it.
 pub(super) struct Fan {
     hub: DVec3,
-    rim: BoxTree,
+    rim_tree: BoxTree,
     /// The corners of one triangle of the fan, if all its triangles are coplanar; else `None`.
     plane: Option<[DVec3; 3]>,
 }
 
 /// Splits faces into large fans and single faces. Each face is in at most one fan.
-pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>) {
+pub(super) fn split_into_fans(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>) {
     let mut count = vec![0; points.len()];
     for &v in faces.iter().flatten() {
         count[v as usize] += 1;
@@ -72,14 +72,14 @@ impl Fan {
         let fan = Fan {
             hub,
             plane: is_plane.then_some([hub, p, q]),
-            rim: BoxTree::new(rim),
+            rim_tree: BoxTree::new(rim),
         };
         (fan, others)
     }
 
     /// Returns whether the fan is flat and a hull lies on one side of its plane. Then no part of the fan is inside
     /// the hull.
-    fn is_on_one_side_of(&self, hull: &Hull) -> bool {
+    fn is_flat_beside_hull(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
             let sides = hull.corners.iter().map(|&corner| side(plane, corner));
             let mut sides = sides.filter(|&side| side != Ordering::Equal);
@@ -90,19 +90,19 @@ impl Fan {
 
     pub(super) fn bounds(&self) -> Bounds {
         let hub = Bounds::enclosing([self.hub]);
-        self.rim.bounds().map_or(hub, |rim| rim.union(hub))
+        self.rim_tree.bounds().map_or(hub, |rim| rim.union(hub))
     }
 
     /// Calls `holds` for the triangles of the fan that may meet a shape. It is a part of
-    /// [`TriangleBoxes::all_meeting_faces_satisfy`](super::TriangleBoxes::all_meeting_faces_satisfy).
-    pub(super) fn all_meeting_faces_satisfy(
+    /// [`TriangleBoxes::all_near_faces_satisfy`](super::TriangleBoxes::all_near_faces_satisfy).
+    pub(super) fn all_near_faces_satisfy(
         &self,
         shape: &Shape,
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         if let Shape::HullInBox(hull) = shape
-            && self.is_on_one_side_of(hull)
+            && self.is_flat_beside_hull(hull)
         {
             return true;
         }
@@ -110,7 +110,7 @@ impl Fan {
         let is_far = |_: &Bounds, oriented: &OrientedBox| {
             planes.iter().any(|plane| plane.has_box_in_front(oriented))
         };
-        self.rim
+        self.rim_tree
             .all_near_elements_satisfy(is_far, work, |element| holds(element.face))
     }
 }

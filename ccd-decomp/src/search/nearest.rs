@@ -15,7 +15,7 @@ impl BoxTree {
     ///
     /// # Guarantee
     /// No other triangle is nearer, up to rounding of the order of a coordinate's.
-    pub(crate) fn nearest(
+    pub(crate) fn nearest_face(
         &self,
         point: DVec3,
         work: &Work,
@@ -39,7 +39,7 @@ impl BoxTree {
                 }
             }
             if let Some(children) = below {
-                let [one, other] = children.map(|child| (self.distance(child, point), child));
+                let [one, other] = children.map(|child| (self.least_distance(child, point), child));
                 let (near, far) = if one.0 <= other.0 {
                     (one, other)
                 } else {

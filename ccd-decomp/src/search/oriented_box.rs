@@ -12,10 +12,10 @@ use ccd_core::vector::unit;
 pub(super) struct OrientedBox {
     pub(super) centre: DVec3,
     pub(super) axes: [DVec3; 3],
-    pub(super) halves: DVec3,
+    pub(super) half_lengths: DVec3,
     pub(super) slack: f64,
     /// An upper bound of the absolute coordinates of all points of the box.
-    pub(super) reach: f64,
+    pub(super) max_abs_coordinate: f64,
 }
 
 impl OrientedBox {
@@ -50,9 +50,9 @@ impl OrientedBox {
         OrientedBox {
             centre,
             axes,
-            halves,
+            half_lengths: halves,
             slack,
-            reach: centre.abs().max_element() + halves.element_sum() + slack,
+            max_abs_coordinate: centre.abs().max_element() + halves.element_sum() + slack,
         }
     }
 
@@ -70,25 +70,25 @@ impl OrientedBox {
 
     /// Returns an upper bound of the dot product of a vector with the offset of any point of the box from the centre.
     #[inline]
-    pub(super) fn support(&self, vector: DVec3) -> f64 {
+    pub(super) fn support_bound(&self, vector: DVec3) -> f64 {
         let along = dot_with_each(&self.axes, vector).abs();
-        along.dot(self.halves) + vector.abs().element_sum() * self.slack
+        along.dot(self.half_lengths) + vector.abs().element_sum() * self.slack
     }
 
     /// Returns a lower bound, up to rounding, of the distance of a point from the box; negative inside. Each axis is
     /// tested separately, because they need not be orthogonal.
-    pub(super) fn distance(&self, point: DVec3) -> f64 {
+    pub(super) fn least_distance(&self, point: DVec3) -> f64 {
         let along = dot_with_each(&self.axes, point - self.centre).abs();
-        (along - self.halves).max_element() - 2.0 * self.slack
+        (along - self.half_lengths).max_element() - 2.0 * self.slack
     }
 
     /// Returns whether an axis of the box certainly separates the box from all given points.
     pub(super) fn is_separated_from(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
-        let reach = reach.fold(self.reach, greater);
+        let reach = reach.fold(self.max_abs_coordinate, greater);
         (0..3).any(|k| {
             let axis = self.axes[k];
-            let least = self.halves[k] + self.slack + box_rounding(axis, reach);
+            let least = self.half_lengths[k] + self.slack + box_rounding(axis, reach);
             let along = |&p: &DVec3| axis.dot(p - self.centre);
             // Written so that NaN does not separate.
             points.iter().all(|p| along(p) > least) || points.iter().all(|p| along(p) < -least)

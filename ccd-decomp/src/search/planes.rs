@@ -12,9 +12,9 @@ use std::cmp::Ordering;
 pub(super) struct Plane {
     foot: DVec3,
     normal: DVec3,
-    far: f64,
+    largest_coordinate: f64,
     /// A bound on the rounding error of heights above the plane, per unit of the largest coordinate.
-    rounding: f64,
+    relative_rounding: f64,
 }
 
 impl Plane {
@@ -22,9 +22,9 @@ impl Plane {
         Plane {
             foot,
             normal: u.cross(v),
-            far: foot.abs().max_element(),
+            largest_coordinate: foot.abs().max_element(),
             // Twice, to cover three axes.
-            rounding: 2.0 * height_rounding([u, v], 1.0),
+            relative_rounding: 2.0 * height_rounding([u, v], 1.0),
         }
     }
 
@@ -36,10 +36,10 @@ impl Plane {
     #[inline]
     pub(super) fn has_box_in_front(&self, oriented: &OrientedBox) -> bool {
         let offset = oriented.centre - self.foot;
-        let reach = oriented.reach + 2.0 * self.far;
-        let height = self.normal.dot(offset) - oriented.support(self.normal);
+        let reach = oriented.max_abs_coordinate + 2.0 * self.largest_coordinate;
+        let height = self.normal.dot(offset) - oriented.support_bound(self.normal);
         // Written so that NaN is not in front.
-        height > self.rounding * reach + f64::MIN_POSITIVE
+        height > self.relative_rounding * reach + f64::MIN_POSITIVE
     }
 }
 

@@ -36,7 +36,7 @@ impl Region {
         }
     }
 
-    pub(crate) fn triangle(corners: [DVec3; 3]) -> Self {
+    pub(crate) fn from_triangle(corners: [DVec3; 3]) -> Self {
         Region {
             bounds: Bounds::enclosing(corners),
             shape: Shape::Triangle(corners),

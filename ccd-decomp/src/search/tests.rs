@@ -13,9 +13,9 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use std::cmp::Ordering;
 
-fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
+fn near_faces(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     let mut found = Vec::new();
-    boxes.all_meeting_faces_satisfy(region, &Work::unbounded(), |face| {
+    boxes.all_near_faces_satisfy(region, &Work::unbounded(), |face| {
         found.push(face);
         true
     });
@@ -31,7 +31,7 @@ fn slivers_are_near_few_others() {
         let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
         let triangle = |face: usize| mesh.faces()[face].map(|v| mesh.vertices()[v as usize]);
         let most = (0..mesh.faces().len()).step_by(37).map(|face| {
-            let near = found(&boxes, &Region::triangle(triangle(face)));
+            let near = near_faces(&boxes, &Region::from_triangle(triangle(face)));
             assert!(near.contains(&(face as u32)));
             near.len()
         });
@@ -51,7 +51,7 @@ fn nothing_that_meets_is_left_out() {
     let mut meeting = 0;
     for face in mesh.faces() {
         let one = face.map(|v| moved(mesh.vertices()[v as usize]));
-        let near = found(&boxes, &Region::triangle(one));
+        let near = near_faces(&boxes, &Region::from_triangle(one));
         for (k, other) in (0..).zip(mesh.faces()) {
             let other = other.map(|v| mesh.vertices()[v as usize]);
             if triangles_meet([one, other]) {
@@ -71,11 +71,14 @@ fn a_hub_that_touches_is_not_left_out() {
     let [a, b] = [DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, 1.0)];
     let amid = [a, DVec3::new(1.0, -1.0, 1.0), DVec3::new(0.0, 2.0, 1.0)];
     for touching in [amid, [a, b, DVec3::new(3.0, -1.0, 1.0)]] {
-        assert_eq!(found(&boxes, &Region::triangle(touching)).len(), 64);
+        assert_eq!(
+            near_faces(&boxes, &Region::from_triangle(touching)).len(),
+            64
+        );
     }
     // Next to the tip, in the plane that touches it.
     let beside = [a, b, DVec3::new(-1.0, 4.0, 1.0)].map(|p| p + DVec3::Y);
-    assert!(found(&boxes, &Region::triangle(beside)).is_empty());
+    assert!(near_faces(&boxes, &Region::from_triangle(beside)).is_empty());
 }
 
 fn any_coordinate() -> impl Strategy<Value = f64> {
@@ -131,8 +134,12 @@ fn skipped_triangles_meet_nothing() {
                 facets.clone(),
                 Bounds::enclosing(probe),
             );
-            let regions = [Region::triangle([a, b, c]), Region::segment([a, b]), inside];
-            let found = regions.map(|region| found(&boxes, &region));
+            let regions = [
+                Region::from_triangle([a, b, c]),
+                Region::segment([a, b]),
+                inside,
+            ];
+            let found = regions.map(|region| near_faces(&boxes, &region));
             asked += faces.len();
             near += found[0].len();
             for (k, face) in (0..).zip(&faces) {
@@ -183,7 +190,9 @@ fn the_nearest_triangle_is_found() {
             };
             let all = faces.iter().map(|face| distance(at(face)));
             let least = all.fold(f64::INFINITY, ccd_core::order::lesser);
-            let (face, found) = search.nearest(point, &Work::unbounded(), distance).unwrap();
+            let (face, found) = search
+                .nearest_face(point, &Work::unbounded(), distance)
+                .unwrap();
             assert_eq!(distance(at(&faces[face as usize])), found);
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::enclosing([p, q]);

@@ -21,7 +21,7 @@ pub(crate) fn crossings(
     let mut found = Vec::new();
     let plates = Plates::find(manifold);
     for face in 0..manifold.faces().len() as u32 {
-        let near = Region::triangle(manifold.triangle(face));
+        let near = Region::from_triangle(manifold.triangle(face));
         let mut pair = |other: u32| {
             if faces_cross(manifold, face, other) {
                 found.push((face.min(other), face.max(other)));
@@ -29,10 +29,10 @@ pub(crate) fn crossings(
             found.len() < MAX_CROSSINGS && work.spend(STEPS_PER_PAIR)
         };
         let goes_on = match &plates {
-            Some(plates) => plates.all_meeting_faces_satisfy(face, &near, work, pair),
+            Some(plates) => plates.all_near_faces_satisfy(face, &near, work, pair),
             None => manifold
                 .boxes()
-                .all_meeting_faces_satisfy(&near, work, |other| other <= face || pair(other)),
+                .all_near_faces_satisfy(&near, work, |other| other <= face || pair(other)),
         };
         if !goes_on {
             work.check()?;

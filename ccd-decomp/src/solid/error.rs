@@ -70,7 +70,7 @@ pub enum DecomposeError {
     #[error(
         "vertex {vertex} has a coordinate nearer to 0 than {LEAST_NONZERO_COORDINATE:e}; make it 0"
     )]
-    TooFine {
+    CoordinateNearZero {
         /// The number of the vertex with that coordinate.
         vertex: usize,
     },

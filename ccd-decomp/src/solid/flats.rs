@@ -221,7 +221,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
 
     /// Converts the merged regions to convex polygons.
     pub(crate) fn into_polygons(mut self) -> ConvexPolygons {
-        let flat_of = self.regions.numbers();
+        let flat_of = self.regions.set_numbers();
         let flat = |faces: Vec<u32>| ConvexPolygon {
             faces,
             ..ConvexPolygon::default()

@@ -48,7 +48,7 @@ impl<'m> Manifold<'m> {
         topology: &Topology,
     ) -> Result<Self, DecomposeError> {
         if let Some(vertex) = first_point_below_exact_range(mesh.vertices()) {
-            return Err(DecomposeError::TooFine { vertex });
+            return Err(DecomposeError::CoordinateNearZero { vertex });
         }
         if !topology.is_manifold() {
             return Err(DecomposeError::NotManifold {

@@ -26,16 +26,16 @@ use closed_parts::closed_part_numbers;
 /// up one solid together. Within another shell, shells that cross are part of its solid where they have its
 /// orientation; otherwise they are unclear.
 #[derive(Debug, Default)]
-pub(crate) struct Nesting {
+pub(crate) struct MisorientedShells {
     /// The faces to reverse, so that the solid is behind all faces of the mesh or in front of all faces.
-    pub(crate) turned: Vec<u32>,
+    pub(crate) faces_to_reverse: Vec<u32>,
     /// One face of each wrongly oriented shell, by the file's number; empty if all shells are wrongly oriented.
     pub(crate) wrong_shells: Tally<u32>,
     /// One face, by the file's number, of each shell for which it is unclear whether it bounds a solid or a cavity.
     pub(crate) unclear_shells: Tally<u32>,
 }
 
-impl Nesting {
+impl MisorientedShells {
     /// Finds the wrongly oriented shells of a closed mesh; `edges` are its edges between welded vertices. Every edge
     /// has equally many faces in both directions. A mesh of one part needs no reversal.
     ///
@@ -44,8 +44,8 @@ impl Nesting {
         let shell_of = closed_part_numbers(mesh, edges);
         let faces_of = members(&shell_of);
         match faces_of[..] {
-            [] | [_] => Nesting::default(),
-            _ => Shells::new(mesh, shell_of, faces_of).nesting(),
+            [] | [_] => MisorientedShells::default(),
+            _ => Shells::new(mesh, shell_of, faces_of).misoriented_shells(),
         }
     }
 }
@@ -82,7 +82,7 @@ impl<'m> Shells<'m> {
         }
     }
 
-    fn nesting(&self) -> Nesting {
+    fn misoriented_shells(&self) -> MisorientedShells {
         let exact = first_point_below_exact_range(self.mesh.vertices()).is_none();
         let shells = 0..self.faces_of_shell.len() as u32;
         let found: Vec<Option<SurroundingShells>> = shells
@@ -94,7 +94,7 @@ impl<'m> Shells<'m> {
         let orientations: Vec<i32> = self
             .faces_of_shell
             .iter()
-            .map(|faces| self.orientation(faces))
+            .map(|faces| self.orientation_sign(faces))
             .collect();
         // A surrounding shell has fewer shells around it.
         let mut order: Vec<usize> = (0..around.len()).collect();
@@ -120,16 +120,16 @@ impl<'m> Shells<'m> {
             }
         }
         let is_wrong = |shell: usize| orientations[shell] * sides[shell] < 0;
-        let mut nesting = Nesting {
+        let mut nesting = MisorientedShells {
             unclear_shells: unclear,
-            ..Nesting::default()
+            ..MisorientedShells::default()
         };
         let has_volume = |&shell: &usize| orientations[shell] != 0;
         // A mesh that is entirely inside out is consistent.
         if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
             for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
                 nesting.wrong_shells.add(self.representative_face(shell));
-                nesting.turned.extend(&self.faces_of_shell[shell]);
+                nesting.faces_to_reverse.extend(&self.faces_of_shell[shell]);
             }
         }
         nesting
@@ -141,7 +141,7 @@ impl<'m> Shells<'m> {
     }
 
     /// Returns the orientation of a shell: 1 outward, −1 inward, 0 without volume.
-    fn orientation(&self, faces: &[u32]) -> i32 {
+    fn orientation_sign(&self, faces: &[u32]) -> i32 {
         let near = self.mesh.triangle(faces[0])[0];
         let triangles = faces.iter().map(|&face| self.mesh.triangle(face));
         match SignedVolume::from_triangles(triangles, near).is_positive() {
@@ -176,7 +176,7 @@ impl<'m> Shells<'m> {
         if self.bounds.all_meeting_boxes_satisfy(&at, is_own) {
             return Some(Vec::new());
         }
-        let size = self.boxes.farthest_distance(corner);
+        let size = self.boxes.farthest_distance_bound(corner);
         let face = |k: usize| {
             self.mesh
                 .triangle(faces[k * faces.len() / MAX_NESTING_RAYS])
@@ -194,16 +194,14 @@ impl<'m> Shells<'m> {
     /// Returns the rounded centre of a face; `None` if another shell is so near that rounding may move the centre
     /// across it.
     fn isolated_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
-        let (middle, across) = centre_and_sides(face, size)?;
+        let (middle, across) = centre_and_points_beside(face, size)?;
         let is_of_shell = |face: u32| self.shell_of_face[face as usize] == shell;
         let misses = |face: u32| {
             is_of_shell(face) || segment_crossing_sign(across, self.mesh.triangle(face)) == Some(0)
         };
-        let is_alone = self.boxes.all_meeting_faces_satisfy(
-            &Region::segment(across),
-            &Work::unbounded(),
-            misses,
-        );
+        let is_alone =
+            self.boxes
+                .all_near_faces_satisfy(&Region::segment(across), &Work::unbounded(), misses);
         is_alone.then_some(middle)
     }
 
@@ -214,7 +212,7 @@ impl<'m> Shells<'m> {
         let region = Region::segment(ray);
         let passes = self
             .boxes
-            .all_meeting_faces_satisfy(&region, &Work::unbounded(), |face| {
+            .all_near_faces_satisfy(&region, &Work::unbounded(), |face| {
                 let other = self.shell_of_face[face as usize];
                 let start = Bounds::enclosing([ray[0]]);
                 let may_wind = other != shell && self.bounds.get(other).meets(&start);
@@ -243,8 +241,8 @@ impl<'m> Shells<'m> {
         let faces = self.faces_of_shell[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);
-            self.boxes.all_meeting_faces_satisfy(
-                &Region::triangle(one),
+            self.boxes.all_near_faces_satisfy(
+                &Region::from_triangle(one),
                 &Work::unbounded(),
                 |near| {
                     let other = self.shell_of_face[near as usize];
@@ -264,7 +262,7 @@ impl<'m> Shells<'m> {
 
 /// Returns the centre of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
 /// the mesh.
-fn centre_and_sides([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
+fn centre_and_points_beside([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
     let middle = (a + b + c) / 3.0;
     // Far from the origin, rounding exceeds that of the mesh's size.
     let size = size + middle.abs().max_element();

@@ -56,7 +56,7 @@ pub(crate) fn shell_numbers(manifold: &Manifold<'_>) -> Vec<u32> {
             shells.join(face, next);
         }
     }
-    shells.numbers()
+    shells.set_numbers()
 }
 
 /// Returns the winding number of all other shells about one shell; `None` if every ray meets an edge or vertex.
@@ -68,7 +68,7 @@ fn winding_number_of_other_shells(
 ) -> Option<i32> {
     let shell = shell_of[faces[0] as usize];
     let near = manifold.triangle(faces[0])[0];
-    let size = manifold.boxes().farthest_distance(near);
+    let size = manifold.boxes().farthest_distance_bound(near);
     (0..MAX_NESTING_RAYS).find_map(|k| {
         // Shells may touch at a corner: every attempt uses another one.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
@@ -76,7 +76,7 @@ fn winding_number_of_other_shells(
         let mut windings = Some(0);
         manifold
             .boxes()
-            .all_meeting_faces_satisfy(&Region::segment(ray), work, |f| {
+            .all_near_faces_satisfy(&Region::segment(ray), work, |f| {
                 if shell_of[f as usize] != shell {
                     let crossing = segment_crossing_sign(ray, manifold.triangle(f));
                     windings = windings.zip(crossing).map(|(sum, one)| sum + one);

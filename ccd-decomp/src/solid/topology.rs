@@ -1,6 +1,6 @@
 //! Computes the topology of a mesh: irregular edges, closedness, orientation.
 
-use super::nesting::Nesting;
+use super::nesting::MisorientedShells;
 use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
 use crate::tally::Tally;
@@ -81,11 +81,11 @@ impl Topology {
         if !topology.is_closed() {
             return (topology, None);
         }
-        let nesting = Nesting::new(mesh, &edges);
+        let nesting = MisorientedShells::new(mesh, &edges);
         topology.wrong_shells = nesting.wrong_shells;
         topology.unclear_shells = nesting.unclear_shells;
-        let turned =
-            (!nesting.turned.is_empty()).then(|| mesh.with_reversed_faces(&nesting.turned));
+        let turned = (!nesting.faces_to_reverse.is_empty())
+            .then(|| mesh.with_reversed_faces(&nesting.faces_to_reverse));
         if let Some(turned) = &turned {
             topology.signed_volume = signed_volume(turned);
         }

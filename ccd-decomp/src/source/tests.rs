@@ -12,7 +12,7 @@ use std::path::PathBuf;
 #[case("capsule: 1e-1 , 2", BodySource::Capsule { radius: 0.1, half_height: 2.0 })]
 #[case("cylinder:1,2", BodySource::Cylinder { radius: 1.0, half_height: 2.0, excess: None })]
 #[case("cone:1,2,1e-3", BodySource::Cone { radius: 1.0, half_height: 2.0, excess: Some(1e-3) })]
-#[case("dir/part.ccd", BodySource::Stored("dir/part.ccd".into()))]
+#[case("dir/part.ccd", BodySource::StoredBody("dir/part.ccd".into()))]
 #[case("dir/part.stl", mesh("dir/part.stl", None, ""))]
 #[case(r"C:\part.stl", mesh(r"C:\part.stl", None, ""))]
 #[case(r"C:\part.stl@mm", mesh(r"C:\part.stl", None, "@mm"))]
@@ -157,7 +157,7 @@ fn a_file_with_the_whole_text_as_its_name_is_that_file() {
 #[test]
 fn a_stored_body_stays_as_it_is() {
     let scaled = Adjustments::NONE.scaled(2.0).unwrap();
-    let stored = BodySource::Stored("part.ccd".into());
+    let stored = BodySource::StoredBody("part.ccd".into());
     let error = stored.load_adjusted(&scaled, Detail::Auto).unwrap_err();
     assert!(
         matches!(

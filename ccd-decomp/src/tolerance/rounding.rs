@@ -36,9 +36,9 @@ pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
 /// A bound on the error of the distance from a point to the nearest triangle, in units of half the mesh's diagonal. The
 /// rounding error is 1e-15 for well-shaped triangles, and less than a tenth of this for triangles that are just no
 /// [needles](MAX_NEEDLE_RATIO).
-pub(crate) const NEAREST_DISTANCE_ERROR: f64 = 1e-9;
+pub(crate) const DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL: f64 = 1e-9;
 
-/// Returns a bound on the rounding errors of lengths in the search for a hull's excess: [`NEAREST_DISTANCE_ERROR`], and
+/// Returns a bound on the rounding errors of lengths in the search for a hull's excess: [`DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL`], and
 /// six cuts of a triangle at the sides of a box. Coordinates are up to `farthest`, in the same unit.
 ///
 /// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut the share of the edge has a
@@ -46,13 +46,13 @@ pub(crate) const NEAREST_DISTANCE_ERROR: f64 = 1e-9;
 /// each, the sum by `√3 u m`: less than 20u, 120u for six of them. The two dot products of a height above a plane are
 /// off by `6√3 u m` each, the centre of a box by `√3 u m`. 256u are used.
 pub(crate) fn excess_rounding(half_diagonal: f64, farthest: f64) -> f64 {
-    NEAREST_DISTANCE_ERROR * half_diagonal + 256.0 * UNIT_ROUNDOFF_F64 * farthest
+    DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL * half_diagonal + 256.0 * UNIT_ROUNDOFF_F64 * farthest
 }
 
 /// The ratio of a triangle's height to its longest side below which it counts as a needle. The library's error grows
-/// with the inverse: it exceeds [`NEAREST_DISTANCE_ERROR`] at 1e-6.
+/// with the inverse: it exceeds [`DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL`] at 1e-6.
 pub(crate) const MAX_NEEDLE_RATIO: f64 = 1e-4;
 
 /// The minimum sine of the angle between two sides of a facet for the facet's plane to be used. The error of the
-/// facet's normal is then at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`NEAREST_DISTANCE_ERROR`].
+/// facet's normal is then at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL`].
 pub(crate) const MIN_CORNER_SINE: f64 = 1e-6;

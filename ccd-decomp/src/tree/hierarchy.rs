@@ -35,7 +35,7 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
             pieces: pieces.len(),
         });
     }
-    let mut nodes = split(&leaves_in_unit_cube(pieces));
+    let mut nodes = split_and_agglomerate(&leaves_in_unit_cube(pieces));
     reinsert_subtrees(&mut nodes);
     let node = |node: &Node| match node.content {
         NodeContent::Piece(piece) => HierarchyNode::Leaf(piece),
@@ -91,13 +91,13 @@ const PIECES_PER_TASK: usize = 4096;
 
 /// Splits leaves at the medians of their centres into clusters, and agglomerates each cluster. Returns the nodes, the
 /// root first.
-fn split(leaves: &[Node]) -> Vec<Node> {
+fn split_and_agglomerate(leaves: &[Node]) -> Vec<Node> {
     let centres = (0..).zip(leaves).map(|(piece, leaf)| PieceCentre {
         position: leaf.cuboid.centre().to_array(),
         piece,
     });
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
-    if let Some(slot) = Slot::whole(&mut nodes) {
+    if let Some(slot) = Slot::of_whole_tree(&mut nodes) {
         build_subtree(leaves, &mut centres.collect::<Vec<_>>(), slot);
     }
     nodes

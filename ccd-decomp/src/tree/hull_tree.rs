@@ -35,7 +35,7 @@ pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
         pieces,
         splitter: Splitter::new(pieces),
     };
-    if let Some(slot) = Slot::whole(&mut nodes) {
+    if let Some(slot) = Slot::of_whole_tree(&mut nodes) {
         grower.build_subtree(&mut order, slot)?;
     }
     Ok(HullTree::new(pieces, &nodes)?)

@@ -12,7 +12,7 @@ pub(super) struct Slot<'n, N> {
 
 impl<'n, N> Slot<'n, N> {
     /// Returns the slot of the whole tree; `None` for a tree without nodes.
-    pub(super) fn whole(nodes: &'n mut [N]) -> Option<Self> {
+    pub(super) fn of_whole_tree(nodes: &'n mut [N]) -> Option<Self> {
         let (node, below) = nodes.split_first_mut()?;
         let first = 1;
         Some(Slot {

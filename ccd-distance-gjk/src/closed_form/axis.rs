@@ -1,7 +1,7 @@
 //! Separating axes of pieces that are so near that the vector between their nearest points is mostly rounding.
 
 use super::nearest::Corners;
-use crate::lanes::{Lanes3, reciprocal, splat};
+use crate::lanes::{FourVectors, reciprocal, splat};
 use ccd_core::fearless_simd::{Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -13,7 +13,7 @@ use ccd_core::vector::unit;
 /// edges, their cross product; for a face, its normal; and in one plane, the normals of the edges within it.
 #[derive(Debug)]
 pub(crate) struct SeparatingAxisCandidates<L: Simd> {
-    directions: [Lanes3<L>; LANE_GROUP_COUNT],
+    directions: [FourVectors<L>; LANE_GROUP_COUNT],
     /// The support gaps along the unit vectors of the directions; −∞ for a zero direction.
     gaps: [f64x4<L>; LANE_GROUP_COUNT],
 }
@@ -29,18 +29,18 @@ impl<L: Simd> SeparatingAxisCandidates<L> {
         let lanes_q = pack_four_lanes(level, edges_q, DVec3::ZERO);
         // Nearly parallel edges have a cross product that rounding tilts along them.
         let cross = |e: DVec3| {
-            let e = Lanes3::splat(level, e);
+            let e = FourVectors::splat(level, e);
             let n = e.cross(lanes_q);
-            n.perpendicular_to(e).perpendicular_to(lanes_q)
+            n.perpendicular_part(e).perpendicular_part(lanes_q)
         };
-        let w = Lanes3::splat(level, w);
+        let w = FourVectors::splat(level, w);
         let mut out = SeparatingAxisCandidates {
             directions: [
                 cross(edges_p[0]),
                 cross(edges_p[1]),
                 cross(edges_p[2]),
-                w.perpendicular_to(pack_four_lanes(level, edges_p, DVec3::ZERO)),
-                w.perpendicular_to(lanes_q),
+                w.perpendicular_part(pack_four_lanes(level, edges_p, DVec3::ZERO)),
+                w.perpendicular_part(lanes_q),
                 pack_four_lanes(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
                 pack_four_lanes(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
                 axes_of_longest_edge(level, &edges_p, &edges_q),
@@ -66,17 +66,21 @@ impl<L: Simd> SeparatingAxisCandidates<L> {
 
 /// Orients each direction towards the larger support gap, and returns the gaps along the unit vectors.
 #[inline(always)]
-fn orient_to_larger_gap<L: Simd>(p: &Corners, q: &Corners, n: Lanes3<L>) -> (Lanes3<L>, f64x4<L>) {
-    let level = n.level();
-    let [a, b, c] = p.map(|x| n.dot(Lanes3::splat(level, x)));
-    let [d, e, f] = q.map(|y| n.dot(Lanes3::splat(level, y)));
+fn orient_to_larger_gap<L: Simd>(
+    p: &Corners,
+    q: &Corners,
+    n: FourVectors<L>,
+) -> (FourVectors<L>, f64x4<L>) {
+    let level = n.simd_level();
+    let [a, b, c] = p.map(|x| n.dot(FourVectors::splat(level, x)));
+    let [d, e, f] = q.map(|y| n.dot(FourVectors::splat(level, y)));
     let ahead = d.min(e).min(f) - a.max(b).max(c);
     let behind = a.min(b).min(c) - d.max(e).max(f);
     let flip = behind.simd_gt(ahead);
     let length2 = n.dot(n);
     let gap = ahead.max(behind) * reciprocal(length2.sqrt());
     let sign = flip.select(splat(level, -1.0), splat(level, 1.0));
-    let turned = Lanes3 {
+    let turned = FourVectors {
         x: n.x * sign,
         y: n.y * sign,
         z: n.z * sign,
@@ -107,7 +111,7 @@ fn axes_of_longest_edge<L: Simd>(
     level: L,
     edges_p: &[DVec3; 3],
     edges_q: &[DVec3; 3],
-) -> Lanes3<L> {
+) -> FourVectors<L> {
     let edge = longest_edge(&[longest_edge(edges_p), longest_edge(edges_q)]);
     let along = unit(edge).unwrap_or(DVec3::X);
     let (across, other) = along.any_orthonormal_pair();
@@ -125,6 +129,6 @@ fn longest_edge(edges: &[DVec3]) -> DVec3 {
 }
 
 #[inline(always)]
-fn pack_four_lanes<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
-    Lanes3::new(level, [a, b, c, d])
+fn pack_four_lanes<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> FourVectors<L> {
+    FourVectors::new(level, [a, b, c, d])
 }

@@ -1,6 +1,6 @@
 //! Computes the nearest points of two triangles that do not intersect: edge against edge, corner against face.
 
-use crate::lanes::{Lanes3, clamp_to_unit_interval, reciprocal, splat};
+use crate::lanes::{FourVectors, clamp_to_unit_interval, reciprocal, splat};
 use ccd_core::fearless_simd::{Level, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -49,7 +49,7 @@ fn nearest_points_in_lanes<L: Simd>(level: L, p: &Corners, q: &Corners) -> Neare
         .squared_distance
         .simd_lt(corners_p.squared_distance);
     let faces = corners_q.squared_distance.min(corners_p.squared_distance);
-    let (at_edges, at_faces) = (least_lane(edges.square), least_lane(faces));
+    let (at_edges, at_faces) = (least_lane(edges.squared_distance), least_lane(faces));
     if at_edges.0 <= at_faces.0 {
         return edges.weights(at_edges.1);
     }
@@ -65,7 +65,7 @@ fn nearest_points_in_lanes<L: Simd>(level: L, p: &Corners, q: &Corners) -> Neare
 
 /// For every edge of the second triangle, one per lane, the nearest edge of the first triangle.
 struct NearestEdges<L: Simd> {
-    square: f64x4<L>,
+    squared_distance: f64x4<L>,
     /// The index of the first triangle's edge.
     edge: f64x4<L>,
     /// The parameter of the nearest point along the first triangle's edge.
@@ -90,19 +90,19 @@ const EDGE_START_OF_LANE: [usize; 4] = [0, 1, 2, 2];
 
 #[inline(always)]
 fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestEdges<L> {
-    let starts = Lanes3::new(level, EDGE_START_OF_LANE.map(|k| q[k]));
-    let f = Lanes3::new(level, [q[1] - q[0], q[2] - q[1], q[0] - q[2], DVec3::ZERO]);
+    let starts = FourVectors::new(level, EDGE_START_OF_LANE.map(|k| q[k]));
+    let f = FourVectors::new(level, [q[1] - q[0], q[2] - q[1], q[0] - q[2], DVec3::ZERO]);
     let per_f = reciprocal(f.dot(f));
     let mut best = NearestEdges {
-        square: splat(level, f64::INFINITY),
+        squared_distance: splat(level, f64::INFINITY),
         edge: splat(level, 0.0),
         s: splat(level, 0.0),
         t: splat(level, 0.0),
     };
     for i in 0..3 {
-        let e = Lanes3::splat(level, p[(i + 1) % 3] - p[i]);
+        let e = FourVectors::splat(level, p[(i + 1) % 3] - p[i]);
         let per_e = reciprocal(e.dot(e));
-        let w = starts.subtract(Lanes3::splat(level, p[i]));
+        let w = starts.subtract(FourVectors::splat(level, p[i]));
         // The lines cross at s = ((w×f)·n) / n² with n = e×f. Unlike the determinant of scalar
         // products, this keeps an error of rounding / angle when the edges are nearly parallel.
         let n = e.cross(f);
@@ -114,8 +114,8 @@ fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestEd
         let s = clamp_to_unit_interval(reached.dot(e) * per_e);
         let apart = reached.add_scaled(-s, e);
         let square = apart.dot(apart);
-        let better = square.simd_lt(best.square);
-        best.square = better.select(square, best.square);
+        let better = square.simd_lt(best.squared_distance);
+        best.squared_distance = better.select(square, best.squared_distance);
         best.edge = better.select(splat(level, i as f64), best.edge);
         best.s = better.select(s, best.s);
         best.t = better.select(t, best.t);
@@ -154,12 +154,12 @@ fn project_corners_to_face<L: Simd>(
     let per = if square > 0.0 { 1.0 / square } else { 0.0 };
     // The dual basis of the two edges within the plane: u = w·g, v = w·h.
     let (g, h) = (per * f.cross(n), per * n.cross(e));
-    let w = Lanes3::new(level, EDGE_START_OF_LANE.map(|k| corners[k] - face[0]));
-    let u = w.dot(Lanes3::splat(level, g));
-    let v = w.dot(Lanes3::splat(level, h));
+    let w = FourVectors::new(level, EDGE_START_OF_LANE.map(|k| corners[k] - face[0]));
+    let u = w.dot(FourVectors::splat(level, g));
+    let v = w.dot(FourVectors::splat(level, h));
     let apart = w
-        .add_scaled(-u, Lanes3::splat(level, e))
-        .add_scaled(-v, Lanes3::splat(level, f));
+        .add_scaled(-u, FourVectors::splat(level, e))
+        .add_scaled(-v, FourVectors::splat(level, f));
     let zero = splat(level, 0.0);
     let inside = u.simd_ge(zero) & v.simd_ge(zero) & (splat(level, 1.0) - u - v).simd_gt(zero);
     CornerProjections {

@@ -25,19 +25,19 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUpReason> {
 }
 
 fn nearest(p: &Corners, q: &Corners) -> NearestPoints {
-    super::nearest_points(Instructions::Best.level(), p, q)
+    super::nearest_points(Instructions::Best.simd_level(), p, q)
 }
 
-fn v(x: f64, y: f64, z: f64) -> DVec3 {
+fn vector(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
 /// Tests that claims use only the points of the nearest features, for instance a single point for a corner.
 #[rstest]
-#[case::corner_above_face([v(1.0, 1.0, 1.0), v(1.0, 2.0, 3.0), v(2.0, 1.0, 3.0)], &[0, 1, 2], &[0])]
-#[case::corner_beside_edge([v(1.0, -1.0, 0.0), v(1.0, -2.0, 1.0), v(2.0, -2.0, 1.0)], &[0, 1], &[0])]
-#[case::corner_beside_corner([v(6.0, -1.0, 1.0), v(7.0, -2.0, 1.0), v(7.0, -1.0, 2.0)], &[1], &[0])]
-#[case::crossed_edges([v(1.0, -1.0, -1.0), v(1.0, -1.0, 1.0), v(1.0, -4.0, 0.0)], &[0, 1], &[0, 1])]
+#[case::corner_above_face([vector(1.0, 1.0, 1.0), vector(1.0, 2.0, 3.0), vector(2.0, 1.0, 3.0)], &[0, 1, 2], &[0])]
+#[case::corner_beside_edge([vector(1.0, -1.0, 0.0), vector(1.0, -2.0, 1.0), vector(2.0, -2.0, 1.0)], &[0, 1], &[0])]
+#[case::corner_beside_corner([vector(6.0, -1.0, 1.0), vector(7.0, -2.0, 1.0), vector(7.0, -1.0, 2.0)], &[1], &[0])]
+#[case::crossed_edges([vector(1.0, -1.0, -1.0), vector(1.0, -1.0, 1.0), vector(1.0, -4.0, 0.0)], &[0, 1], &[0, 1])]
 fn claims_name_the_nearest_features(
     #[case] b: [DVec3; 3],
     #[case] of_a: &[u32],
@@ -56,8 +56,8 @@ fn claims_name_the_nearest_features(
 /// Tests that claims about segments and points use the indices of the pieces' own points.
 #[test]
 fn segments_and_points_keep_their_indices() {
-    let segment = [v(1.0, 1.0, 2.0), v(1.0, 1.0, 1.0)];
-    let claim = claim(&segment, &[v(1.0, 1.0, 0.0)]).expect("a segment and a point");
+    let segment = [vector(1.0, 1.0, 2.0), vector(1.0, 1.0, 1.0)];
+    let claim = claim(&segment, &[vector(1.0, 1.0, 0.0)]).expect("a segment and a point");
     assert_eq!(
         (claim.a.point_indices(), claim.b.point_indices()),
         (&[1][..], &[0][..])
@@ -82,7 +82,11 @@ fn refuses_other_numbers_of_points() {
 /// Tests that a common point is found for triangles that intersect although their boundaries are far apart.
 #[test]
 fn finds_the_point_where_an_edge_passes_through() {
-    let spear = [v(1.0, 1.0, 5.0), v(1.0, 1.0, -5.0), v(1.1, 1.1, 5.0)];
+    let spear = [
+        vector(1.0, 1.0, 5.0),
+        vector(1.0, 1.0, -5.0),
+        vector(1.1, 1.1, 5.0),
+    ];
     let near = nearest(&BASE_TRIANGLE, &spear);
     assert!(near.difference(&BASE_TRIANGLE, &spear).length() > 0.9);
     let common = nearest_with_edge_plane_intersections(&BASE_TRIANGLE, &spear, near);
@@ -96,7 +100,11 @@ fn finds_the_point_where_an_edge_passes_through() {
 /// Tests that no common point is found for a triangle that crosses the other triangle's plane outside of the face.
 #[test]
 fn does_not_pierce_outside_of_the_face() {
-    let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];
+    let spear = [
+        vector(9.0, 9.0, 5.0),
+        vector(9.0, 9.0, -5.0),
+        vector(9.1, 9.1, 5.0),
+    ];
     let near = nearest(&BASE_TRIANGLE, &spear);
     let before = near.difference(&BASE_TRIANGLE, &spear).length();
     let after = nearest_with_edge_plane_intersections(&BASE_TRIANGLE, &spear, near)
@@ -115,7 +123,7 @@ fn all_instructions_give_the_same_bits() {
         let mut triangle = |height: f64| {
             [(); 3].map(|()| {
                 let [x, y, z] = [(); 3].map(|()| rng.random_range(-1.0..1.0));
-                v(x, y, if flat { height } else { z + height })
+                vector(x, y, if flat { height } else { z + height })
             })
         };
         let (a, b) = (triangle(0.0), triangle(if flat { 1e-13 } else { 1.0 }));

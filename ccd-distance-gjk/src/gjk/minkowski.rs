@@ -45,9 +45,9 @@ impl<'a> MinkowskiDifference<'a> {
 
     /// Returns the vertex of the difference with the least height along `direction`.
     pub(crate) fn support(&self, direction: DVec3) -> Vertex {
-        let a = farthest(&self.pair.a, self.first_point_a, direction);
+        let a = farthest_index_along(&self.pair.a, self.first_point_a, direction);
         let turned = self.pair.b_to_a.inverse_vector(direction);
-        let b = farthest(&self.pair.b, self.first_point_b, -turned);
+        let b = farthest_index_along(&self.pair.b, self.first_point_b, -turned);
         self.vertex(a, b).unwrap_or(Vertex {
             point: self.between,
             a: 0,
@@ -67,7 +67,7 @@ impl<'a> MinkowskiDifference<'a> {
 ///
 /// Scans up to [`MAX_SCANNED_POINTS`] points; for more, calls [`Piece::extremal_point`].
 #[inline]
-fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
+fn farthest_index_along(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
     if piece.points.len() > MAX_SCANNED_POINTS {
         return piece.extremal_point(direction);
     }

@@ -96,13 +96,13 @@ pub(crate) fn solve(difference: &MinkowskiDifference<'_>, mut simplex: Simplex) 
         {
             break;
         }
-        refine::witnesses(difference, found.simplex, &mut found);
+        refine::refine_witnesses(difference, found.simplex, &mut found);
         // Written so that NaN breaks.
         if is_certified(&found) || !(found.squared_distance < before) {
             break;
         }
         simplex = sharpen::try_feature_axes(difference, &mut found);
-        refine::witnesses(difference, simplex, &mut found);
+        refine::refine_witnesses(difference, simplex, &mut found);
         if is_certified(&found) {
             break;
         }

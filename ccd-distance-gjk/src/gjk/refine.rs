@@ -13,7 +13,7 @@ use ccd_core::order::lesser;
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.
-pub(crate) fn witnesses(
+pub(crate) fn refine_witnesses(
     difference: &MinkowskiDifference<'_>,
     simplex: Simplex,
     found: &mut SearchResult,
@@ -24,7 +24,7 @@ pub(crate) fn witnesses(
     let (Some(p), Some(q)) = (p, q) else {
         return;
     };
-    let near = nearest_points(Instructions::Best.level(), &p.corners, &q.corners);
+    let near = nearest_points(Instructions::Best.simd_level(), &p.corners, &q.corners);
     let square = near.difference(&p.corners, &q.corners).length_squared();
     if square < found.squared_distance {
         let shares = PairedWeights::new(near.a, near.b);
@@ -83,12 +83,16 @@ fn pair_weights(
 pub(crate) struct PairedWeights {
     a: [f64; 3],
     b: [f64; 3],
-    at: (usize, usize),
+    current_indices: (usize, usize),
 }
 
 impl PairedWeights {
     pub(crate) fn new(a: [f64; 3], b: [f64; 3]) -> Self {
-        PairedWeights { a, b, at: (0, 0) }
+        PairedWeights {
+            a,
+            b,
+            current_indices: (0, 0),
+        }
     }
 }
 
@@ -96,7 +100,7 @@ impl Iterator for PairedWeights {
     type Item = (usize, usize, f64);
 
     fn next(&mut self) -> Option<Self::Item> {
-        let (i, j) = self.at;
+        let (i, j) = self.current_indices;
         if i >= 3 || j >= 3 {
             return None;
         }
@@ -104,7 +108,7 @@ impl Iterator for PairedWeights {
         self.a[i] -= share;
         self.b[j] -= share;
         // Both advance when both are used up.
-        self.at = (
+        self.current_indices = (
             i + usize::from(self.a[i] <= self.b[j]),
             j + usize::from(self.b[j] <= self.a[i]),
         );

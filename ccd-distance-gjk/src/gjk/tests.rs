@@ -1,6 +1,6 @@
 //! Tests the nearest points of each kind of simplex, and the recovery from a stalled search.
 
-use super::fan::AxisCandidates;
+use super::fan::AxisVertices;
 use super::foot::NearestPoint;
 use super::minkowski::MinkowskiDifference;
 use super::oracle::{is_certified, solve, solve_with_cache};
@@ -19,9 +19,9 @@ use rstest::rstest;
 
 /// Draws corners of every kind: at random, on one line, in one plane, needles, coinciding, near the origin.
 fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
-    let [a, b, c, d]: [DVec3; 4] = std::array::from_fn(|_| scene::vector(rng));
+    let [a, b, c, d]: [DVec3; 4] = std::array::from_fn(|_| scene::random_vector(rng));
     let (s, t) = (rng.random_range(-0.5..1.5), rng.random_range(-0.5..1.5));
-    let thin = scene::magnitude(rng, -15.0, 0.0) * d;
+    let thin = scene::random_magnitude(rng, -15.0, 0.0) * d;
     let mut out = match rng.random_range(0..6) {
         0 => [a, b, c, d],
         1 => [a, b, c, a + s * (b - a) + t * (c - a) + thin],
@@ -33,7 +33,7 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
     if rng.random_bool(0.5) {
         // A point inside, up to rounding, becomes the origin.
         let inside = 0.3 * out[0] + 0.3 * out[1] + 0.2 * out[2] + 0.2 * out[3];
-        let off = scene::magnitude(rng, -17.0, 0.0) * scene::vector(rng);
+        let off = scene::random_magnitude(rng, -17.0, 0.0) * scene::random_vector(rng);
         out = out.map(|corner| corner - inside + off);
     }
     out
@@ -156,7 +156,7 @@ fn a_fan_finds_the_axis_between_its_edges() {
     };
     found.simplex.push(vertex(0.0, 0.0, 0.0, 0));
     found.weights[0] = 1.0;
-    let mut fan = AxisCandidates::new(&found).expect("it has a vertex");
+    let mut fan = AxisVertices::new(&found).expect("it has a vertex");
     for (k, (x, y)) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)]
         .into_iter()
         .enumerate()

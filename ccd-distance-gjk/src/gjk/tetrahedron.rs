@@ -12,7 +12,7 @@ use ccd_core::order::greater;
 /// combination of the corners. Otherwise all faces are examined: if the tetrahedron is flat, even a
 /// face with the origin on its inner side may contain the nearest point.
 pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
-    let heights = FACES.map(|[apex, a, b, c]| {
+    let heights = CORNER_WITH_OPPOSITE_FACE.map(|[apex, a, b, c]| {
         FaceHeights::with_certain_side(corners[a], corners[b], corners[c], corners[apex])
     });
     if let [Some(a), Some(b), Some(c), Some(d)] = heights
@@ -20,7 +20,7 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
     {
         return inside;
     }
-    let feet = FACES.map(|[_, a, b, c]| {
+    let feet = CORNER_WITH_OPPOSITE_FACE.map(|[_, a, b, c]| {
         triangle::foot(corners[a], corners[b], corners[c]).on_whole_simplex(&[a, b, c])
     });
     let [first, others @ ..] = feet;
@@ -30,7 +30,8 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
 }
 
 /// The index of each corner, followed by the indices of the opposite face's corners.
-const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
+const CORNER_WITH_OPPOSITE_FACE: [[usize; 4]; 4] =
+    [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
 /// Returns the weights of the origin inside the tetrahedron; `None` if their combination misses the origin by more than
 /// rounding.
@@ -44,12 +45,14 @@ fn weights_of_origin(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<N
         let total = weights.iter().fold(0.0, |sum, &weight| sum + weight);
         weights.map(|weight| weight / total)
     };
-    let mut weights = normalised(heights.map(|height| height.origin_height / height.apex_height));
+    let mut weights =
+        normalised(heights.map(|height| height.scaled_origin_height / height.scaled_apex_height));
     // Heights over a flat tetrahedron's faces have few correct digits. The residual of the weights is accurate, and
     // each round of correction gains as many digits again.
     for _ in 0..WEIGHT_CORRECTION_ROUNDS {
         let missed = combined(weights);
-        let correction = heights.map(|height| height.normal.dot(missed) / height.apex_height);
+        let correction =
+            heights.map(|height| height.normal.dot(missed) / height.scaled_apex_height);
         weights = normalised(std::array::from_fn(|k| weights[k] - correction[k]));
     }
     let reach = corners
@@ -69,8 +72,8 @@ fn weights_of_origin(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<N
 #[derive(Clone, Copy)]
 struct FaceHeights {
     normal: DVec3,
-    origin_height: f64,
-    apex_height: f64,
+    scaled_origin_height: f64,
+    scaled_apex_height: f64,
 }
 
 impl FaceHeights {
@@ -87,8 +90,8 @@ impl FaceHeights {
             && of_apex * of_apex > unit * up.length_squared();
         certain.then_some(FaceHeights {
             normal,
-            origin_height: of_origin,
-            apex_height: of_apex,
+            scaled_origin_height: of_origin,
+            scaled_apex_height: of_apex,
         })
     }
 }

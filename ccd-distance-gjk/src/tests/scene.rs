@@ -93,17 +93,17 @@ fn relative_frame(to_a: &Frame, to_b: &Frame) -> Frame {
 }
 
 pub(crate) fn pose(rng: &mut Pcg64, far: f64) -> Pose {
-    let turn = DQuat::from_scaled_axis(3.0 * vector(rng));
-    Pose::new(far * vector(rng), turn).expect("finite and of length one")
+    let turn = DQuat::from_scaled_axis(3.0 * random_vector(rng));
+    Pose::new(far * random_vector(rng), turn).expect("finite and of length one")
 }
 
 /// Draws a vector in the cube of side two about the origin.
-pub(crate) fn vector(rng: &mut Pcg64) -> DVec3 {
+pub(crate) fn random_vector(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)))
 }
 
 pub(crate) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
-    (0..count).map(|_| vector(rng)).collect()
+    (0..count).map(|_| random_vector(rng)).collect()
 }
 
 /// Draws points whose coordinates are 0, 1, tiny or huge.
@@ -116,32 +116,36 @@ pub(crate) fn extreme_coordinate_points(rng: &mut Pcg64, count: usize) -> Vec<DV
 }
 
 /// Draws a number between 10 to the power of `low` and of `high`, with every order of magnitude equally likely.
-pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
+pub(crate) fn random_magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
 /// Draws hulls of `a` and `b` random points at a random distance: apart or intersecting.
 pub(crate) fn random_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
-    let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
+    let offset = rng.random_range(0.0..2.5) * random_vector(rng).normalize();
     let b = points(rng, b).iter().map(|y| *y + offset).collect();
     Scene::new(points(rng, a), b).in_random_frames(rng, 1.0)
 }
 
 /// Draws random hulls, moved so that a point inside A coincides with a point inside B.
 pub(crate) fn intersecting_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
-    let (a, b) = intersecting_points(rng, a, b);
+    let (a, b) = points_of_intersecting_hulls(rng, a, b);
     Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
 /// Draws intersecting hulls, flattened along two axes by random factors down to 1e-12.
 pub(crate) fn flattened_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
-    let (mut a, mut b) = intersecting_points(rng, a, b);
-    let thin = DVec3::new(1.0, magnitude(rng, -12.0, 0.0), magnitude(rng, -12.0, 0.0));
+    let (mut a, mut b) = points_of_intersecting_hulls(rng, a, b);
+    let thin = DVec3::new(
+        1.0,
+        random_magnitude(rng, -12.0, 0.0),
+        random_magnitude(rng, -12.0, 0.0),
+    );
     a.iter_mut().chain(&mut b).for_each(|x| *x *= thin);
     Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
-fn intersecting_points(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
+fn points_of_intersecting_hulls(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
     let (a, b) = (points(rng, a), points(rng, b));
     let inner = |rng: &mut Pcg64, points: &[DVec3]| {
         let weights: Vec<f64> = points.iter().map(|_| rng.random_range(0.1..1.0)).collect();
@@ -166,9 +170,9 @@ pub(crate) enum NearestFeatures {
 /// Draws triangles whose nearest features are `meeting`, at the distance `gap` along z. The other corners are farther
 /// by any magnitude from 1e-12 on.
 pub(crate) fn near_contact(rng: &mut Pcg64, meeting: NearestFeatures, gap: f64) -> Scene {
-    let slope = |rng: &mut Pcg64| magnitude(rng, -12.0, 0.0);
+    let slope = |rng: &mut Pcg64| random_magnitude(rng, -12.0, 0.0);
     let flat = |rng: &mut Pcg64| {
-        let v = vector(rng);
+        let v = random_vector(rng);
         DVec3::new(v.x, v.y, 0.0)
     };
     let rising = |rng: &mut Pcg64| flat(rng) + (gap + slope(rng)) * DVec3::Z;
@@ -185,13 +189,14 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: NearestFeatures, gap: f64) 
     let (a, b) = match meeting {
         NearestFeatures::CornerFace => (about(rng).to_vec(), vec![up, rising(rng), rising(rng)]),
         NearestFeatures::CrossedEdges => {
-            let angle = magnitude(rng, -12.0, 0.0);
+            let angle = random_magnitude(rng, -12.0, 0.0);
             let [p, q] = through(DVec3::X);
             let [r, s] = through(DVec3::new(angle.cos(), angle.sin(), 0.0)).map(|x| x + up);
             (vec![p, q, falling(rng)], vec![r, s, rising(rng)])
         }
         NearestFeatures::ParallelFaces => {
-            let tilt = DQuat::from_scaled_axis(magnitude(rng, -16.0, -9.0) * vector(rng));
+            let tilt =
+                DQuat::from_scaled_axis(random_magnitude(rng, -16.0, -9.0) * random_vector(rng));
             let b = about(rng).map(|y| tilt * y);
             // Lifted until its lowest corner is up at the gap.
             let low = b.iter().map(|y| y.z).fold(f64::INFINITY, lesser);
@@ -213,7 +218,7 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: NearestFeatures, gap: f64) 
 }
 
 /// Draws triangles that touch at a corner, along an edge, or within a common plane, but do not pierce each other.
-pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
+pub(crate) fn touching_triangles(rng: &mut Pcg64) -> Scene {
     let flat = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let up = rng.random_range(0.1..1.0) * DVec3::Z;
     let base = vec![flat(0.0, 0.0), flat(1.0, 0.0), flat(0.0, 1.0)];
@@ -234,9 +239,9 @@ pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
 
 /// Draws degenerate points, segments and triangles: coinciding corners, corners on one line, needles.
 pub(crate) fn degenerate_pieces(rng: &mut Pcg64) -> Scene {
-    let offset = rng.random_range(0.5..3.0) * vector(rng).normalize();
+    let offset = rng.random_range(0.5..3.0) * random_vector(rng).normalize();
     let piece = |rng: &mut Pcg64| -> Vec<DVec3> {
-        let (p, q) = (vector(rng), vector(rng));
+        let (p, q) = (random_vector(rng), random_vector(rng));
         let between = p.lerp(q, rng.random_range(0.0..1.0));
         match rng.random_range(0..8) {
             0 => vec![p],
@@ -245,8 +250,8 @@ pub(crate) fn degenerate_pieces(rng: &mut Pcg64) -> Scene {
             3 => vec![p, p, p],
             4 => vec![p, q, q],
             5 => vec![p, q, between],
-            6 => vec![p, q, between + 1e-9 * vector(rng)],
-            _ => vec![p, q, q + 1e-9 * vector(rng)],
+            6 => vec![p, q, between + 1e-9 * random_vector(rng)],
+            _ => vec![p, q, q + 1e-9 * random_vector(rng)],
         }
     };
     let b = piece(rng).iter().map(|y| *y + offset).collect();
@@ -262,7 +267,7 @@ pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
             .collect()
     };
     let turn = DQuat::from_rotation_z(rng.random_range(0.0..7.0));
-    let tilt = DQuat::from_rotation_x(magnitude(rng, -16.0, -10.0));
+    let tilt = DQuat::from_rotation_x(random_magnitude(rng, -16.0, -10.0));
     let b: Vec<DVec3> = cuboid(DVec3::new(0.4, 0.7, 0.5))
         .iter()
         .map(|y| tilt * turn * *y)
@@ -277,10 +282,10 @@ pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
 pub(crate) fn balls(rng: &mut Pcg64, count: usize, gap: f64) -> Scene {
     let ball = |rng: &mut Pcg64| -> Vec<DVec3> {
         (0..count)
-            .map(|_| vector(rng).normalize_or(DVec3::X))
+            .map(|_| random_vector(rng).normalize_or(DVec3::X))
             .collect()
     };
-    let (a, offset) = (ball(rng), (2.0 + gap) * vector(rng).normalize());
+    let (a, offset) = (ball(rng), (2.0 + gap) * random_vector(rng).normalize());
     let b = ball(rng).iter().map(|y| *y + offset).collect();
     Scene::new(a, b).in_random_frames(rng, 1.0)
 }

@@ -2,7 +2,10 @@
 
 use super::{Axis, best_axis, gap};
 use crate::feature::{Feature, Pair};
-use crate::tests::setting::{cube, edge, moved, needle, prepared_polytope, turned, vertex};
+use crate::tests::setting::{
+    cube, nearest_edge, nearest_vertex, needle, pair_with_b_moved, pair_with_placed_b,
+    prepared_polytope,
+};
 use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
@@ -11,21 +14,21 @@ use rstest::rstest;
 #[test]
 fn gaps_are_those_of_the_supports() {
     let cube = cube();
-    let placed = moved(&cube, &cube, DVec3::new(3.0, 0.5, 0.0));
+    let placed = pair_with_b_moved(&cube, &cube, DVec3::new(3.0, 0.5, 0.0));
     assert_eq!(gap(&placed, DVec3::X), 1.0);
     assert_eq!(gap(&placed, -DVec3::X), -5.0);
     assert_eq!(gap(&placed, DVec3::Y), -1.5);
-    let placed = turned(
+    let placed = pair_with_placed_b(
         &cube,
         &cube,
         DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4),
         3.0 * DVec3::X,
     );
     assert!((gap(&placed, DVec3::X) - (2.0 - 2f64.sqrt())).abs() < 1e-15);
-    let axis = Axis::along(&placed, 7.0 * DVec3::X);
+    let axis = Axis::from_direction(&placed, 7.0 * DVec3::X);
     assert!(axis.certifies(2.0 - 2f64.sqrt(), &placed) && !axis.certifies(0.6, &placed));
     assert!(!axis.certifies(f64::NAN, &placed));
-    assert!(!Axis::along(&placed, DVec3::ZERO).certifies(0.0, &placed));
+    assert!(!Axis::from_direction(&placed, DVec3::ZERO).certifies(0.0, &placed));
 }
 
 /// Tests that a separating axis is found for cubes that touch or nearly touch at a corner, an edge or a face.
@@ -41,8 +44,8 @@ fn touching_features_have_an_axis(
     #[values(0.0, 1e-300, 1e-16, 1e-13)] hair: f64,
 ) {
     let cube = cube();
-    let placed = moved(&cube, &cube, at + hair * DVec3::new(1.0, 0.3, 0.1));
-    let corner = |along: DVec3| Feature::Vertex(vertex(&cube, along));
+    let placed = pair_with_b_moved(&cube, &cube, at + hair * DVec3::new(1.0, 0.3, 0.1));
+    let corner = |along: DVec3| Feature::Vertex(nearest_vertex(&cube, along));
     let pair = Pair {
         a: corner(DVec3::ONE),
         b: corner(DVec3::new(-1.0, -1.0, -1.0)),
@@ -54,9 +57,9 @@ fn touching_features_have_an_axis(
 #[test]
 fn crossing_edges_and_flat_pieces_have_an_axis() {
     let (cube, across) = (cube(), needle(DVec3::new(0.5, 1.0, -1.0)));
-    let placed = moved(&cube, &across, DVec3::new(0.0, 1.0, 1.0));
+    let placed = pair_with_b_moved(&cube, &across, DVec3::new(0.0, 1.0, 1.0));
     let pair = Pair {
-        a: Feature::Edge(edge(&cube, DVec3::Y + DVec3::Z)),
+        a: Feature::Edge(nearest_edge(&cube, DVec3::Y + DVec3::Z)),
         b: Feature::Edge(0),
     };
     let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
@@ -64,18 +67,18 @@ fn crossing_edges_and_flat_pieces_have_an_axis() {
     // Two squares side by side in one plane, and two needles on one line.
     let square = prepared_polytope(&shape::polygon(4));
     let side = std::f64::consts::FRAC_1_SQRT_2;
-    let placed = moved(&square, &square, DVec3::new(side, side, 0.0) * 2f64.sqrt());
+    let placed = pair_with_b_moved(&square, &square, DVec3::new(side, side, 0.0) * 2f64.sqrt());
     let pair = Pair {
-        a: Feature::Edge(edge(&square, DVec3::new(0.5, 0.5, 0.0))),
-        b: Feature::Edge(edge(&square, DVec3::new(-0.5, -0.5, 0.0))),
+        a: Feature::Edge(nearest_edge(&square, DVec3::new(0.5, 0.5, 0.0))),
+        b: Feature::Edge(nearest_edge(&square, DVec3::new(-0.5, -0.5, 0.0))),
     };
     let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
     let line = needle(DVec3::X);
-    let placed = moved(&line, &line, 2.0 * DVec3::X);
+    let placed = pair_with_b_moved(&line, &line, 2.0 * DVec3::X);
     let pair = Pair {
-        a: Feature::Vertex(vertex(&line, DVec3::X)),
-        b: Feature::Vertex(vertex(&line, -DVec3::X)),
+        a: Feature::Vertex(nearest_vertex(&line, DVec3::X)),
+        b: Feature::Vertex(nearest_vertex(&line, -DVec3::X)),
     };
     let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");

@@ -5,9 +5,11 @@ use crate::counters::Counters;
 use crate::feature::{Certainty, Feature, Pair};
 use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::termination::MarchEnd;
-use crate::tests::setting::{cube, features, moved, needle, point, prepared_polytope, turned};
+use crate::tests::setting::{
+    cube, features, needle, pair_with_b_moved, pair_with_placed_b, point, prepared_polytope,
+};
 use crate::tests::shape;
-use crate::tolerance::MIN_CERTAIN_DISTANCE;
+use crate::tolerance::MIN_CERTAIN_DISTANCE_RATIO;
 use crate::witness::Witness;
 use ccd_core::GiveUpReason;
 use ccd_core::glam::{DQuat, DVec3};
@@ -22,8 +24,8 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             }
             let pair = Pair { a: one, b: other };
             // A stop is only examined if rounding could hide a nearer pair.
-            let close =
-                Witness::new(placed, pair).distance() < MIN_CERTAIN_DISTANCE * placed.scale.size;
+            let close = Witness::new(placed, pair).distance()
+                < MIN_CERTAIN_DISTANCE_RATIO * placed.scale.size;
             let tie = close.then_some(MarchEnd::Nearest(pair, Certainty::Tied));
             let ends = [
                 MarchEnd::Cycle(pair),
@@ -55,12 +57,12 @@ fn every_end_is_certified() {
     ];
     let cube = prepared_polytope(&shapes[0]);
     for (at, truth) in truths {
-        let placed = moved(&cube, &cube, at);
+        let placed = pair_with_b_moved(&cube, &cube, at);
         certifies(&placed, &shapes[0], &shapes[0], truth);
     }
     // Intersecting: one point.
     let other = prepared_polytope(&shapes[1]);
-    let placed = turned(
+    let placed = pair_with_placed_b(
         &cube,
         &other,
         DQuat::from_rotation_x(0.4),
@@ -73,7 +75,7 @@ fn every_end_is_certified() {
 fn positions_that_are_not_finite_are_given_up() {
     let (cube, needle, point) = (cube(), needle(DVec3::X), point());
     for polytope in [&cube, &needle, &point] {
-        let placed = moved(&cube, polytope, DVec3::NAN);
+        let placed = pair_with_b_moved(&cube, polytope, DVec3::NAN);
         let pair = Pair {
             a: Feature::Vertex(0),
             b: Feature::Vertex(0),

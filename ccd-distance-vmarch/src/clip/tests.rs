@@ -2,17 +2,17 @@
 
 use super::{clip_to_prism, parameter_of_overlap_middle};
 use crate::placed::{Line, PlacedPolytope};
-use crate::tests::setting::{cube, edge, face, moved, needle};
+use crate::tests::setting::{cube, face_along, nearest_edge, needle, pair_with_b_moved};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
 /// Clips a needle to the prism of the cube's top, and returns the parameters and the cutting edges of both ends.
 fn clip_needle(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
     let (cube, needle) = (cube(), needle(half));
-    let placed = moved(&cube, &needle, at);
+    let placed = pair_with_b_moved(&cube, &needle, at);
     let line = placed.b.line(0);
     let end = placed.b.vertex(1);
-    let clipped = clip_to_prism(&line, end, &placed.a, face(&cube, DVec3::Z))?;
+    let clipped = clip_to_prism(&line, end, &placed.a, face_along(&cube, DVec3::Z))?;
     Some(clipped.map(|cut| (cut.parameter, cut.cutting_edge)))
 }
 
@@ -32,7 +32,7 @@ fn longer_edges_are_cut(
     #[case] parameters: [f64; 2],
     #[case] by: [DVec3; 2],
 ) {
-    let by = by.map(|side| Some(edge(&cube(), side + DVec3::Z)));
+    let by = by.map(|side| Some(nearest_edge(&cube(), side + DVec3::Z)));
     let [from, to] = clip_needle(half, at).expect("some is left");
     assert_eq!([from.0, to.0], parameters);
     assert_eq!([from.1, to.1], by);
@@ -47,8 +47,8 @@ fn no_part_is_left_outside_of_the_prism(#[case] half: DVec3, #[case] at: DVec3) 
         assert_eq!(clip_needle(half, at), None);
     } else {
         let cube = cube();
-        let placed = moved(&cube, &cube, DVec3::NAN);
-        let top = face(&cube, DVec3::Z);
+        let placed = pair_with_b_moved(&cube, &cube, DVec3::NAN);
+        let top = face_along(&cube, DVec3::Z);
         let left = clip_to_prism(&placed.b.line(0), DVec3::NAN, &placed.a, top);
         assert!(left.is_none_or(|[from, _]| from.cutting_edge.is_none()));
     }

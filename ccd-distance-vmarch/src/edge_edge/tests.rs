@@ -1,12 +1,14 @@
 //! Tests the march's step from an edge of a cube and a needle near it, and the nearest points of segments at every
 //! angle.
 
-use super::{nearest, next};
+use super::{nearest_parameters, next};
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::placed::Line;
-use crate::tests::setting::{cube, edge, face, moved, needle, vertex};
-use crate::tests::shape::{Pcg64, RngExt, SeedableRng, direction, magnitude};
+use crate::tests::setting::{
+    cube, face_along, nearest_edge, nearest_vertex, needle, pair_with_b_moved,
+};
+use crate::tests::shape::{Pcg64, RngExt, SeedableRng, random_direction, random_magnitude};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use rstest::rstest;
@@ -15,10 +17,10 @@ use rstest::rstest;
 /// gives the same step.
 fn step_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
-    let placed = moved(&cube, &needle, at);
-    let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let placed = pair_with_b_moved(&cube, &needle, at);
+    let edge = nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0));
     let there = next(&placed.a, edge, &placed.b, 0, placed.scale);
-    let back = moved(&needle, &cube, -at);
+    let back = pair_with_b_moved(&needle, &cube, -at);
     let swapped = next(&back.a, 0, &back.b, edge, back.scale).swapped();
     match (there, swapped) {
         // The same point in two frames.
@@ -54,8 +56,8 @@ fn edges_in_both_voronoi_regions_stop_the_march(
 fn goes_on_to_ends() {
     let cube = cube();
     let (e, corner) = (
-        edge(&cube, DVec3::new(0.0, 1.0, 1.0)),
-        vertex(&cube, DVec3::ONE),
+        nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0)),
+        nearest_vertex(&cube, DVec3::ONE),
     );
     let beyond = step_for_needle(CROSSING_NEEDLE_HALF, DVec3::new(2.0, 1.5, 1.5));
     assert_eq!(
@@ -77,7 +79,7 @@ fn goes_on_to_ends() {
 #[test]
 fn goes_on_to_the_face_on_whose_side_it_is() {
     let above = step_for_needle(DVec3::new(0.3, 2.0, 1e-3), DVec3::new(0.0, 0.5, 1.5));
-    let face = face(&cube(), DVec3::Z);
+    let face = face_along(&cube(), DVec3::Z);
     assert_eq!(
         above,
         MarchStep::Continue(Feature::Face(face), Feature::Edge(0))
@@ -103,29 +105,29 @@ fn finds_edges_below_both_faces() {
 fn nearest_points_are_nearest_at_every_angle() {
     let mut rng = Pcg64::seed_from_u64(5);
     for _ in 0..20_000 {
-        let along = direction(&mut rng);
-        let tilt = magnitude(&mut rng, -17.0, 0.0);
+        let along = random_direction(&mut rng);
+        let tilt = random_magnitude(&mut rng, -17.0, 0.0);
         let one = Line {
-            start: direction(&mut rng),
+            start: random_direction(&mut rng),
             along,
-            length: magnitude(&mut rng, -6.0, 0.5),
+            length: random_magnitude(&mut rng, -6.0, 0.5),
         };
         let other = Line {
-            start: one.at(rng.random_range(-1.0..1.0))
-                + magnitude(&mut rng, -9.0, 0.0) * direction(&mut rng),
-            along: (along + tilt * direction(&mut rng)).normalize(),
-            length: magnitude(&mut rng, -6.0, 0.5),
+            start: one.point_at(rng.random_range(-1.0..1.0))
+                + random_magnitude(&mut rng, -9.0, 0.0) * random_direction(&mut rng),
+            along: (along + tilt * random_direction(&mut rng)).normalize(),
+            length: random_magnitude(&mut rng, -6.0, 0.5),
         };
-        let [s, t] = nearest(&one, &other).parameters;
-        let distance = one.at(s).distance(other.at(t));
+        let [s, t] = nearest_parameters(&one, &other).parameters;
+        let distance = one.point_at(s).distance(other.point_at(t));
         // Alternating projections from there and from every end, to the limit.
         let mut best = distance;
         for start in [s, 0.0, one.length, 0.5 * one.length] {
             let mut s = start;
             for _ in 0..50 {
-                let t = other.nearest(one.at(s));
-                s = one.nearest(other.at(t));
-                best = lesser(best, one.at(s).distance(other.at(t)));
+                let t = other.nearest_parameter(one.point_at(s));
+                s = one.nearest_parameter(other.point_at(t));
+                best = lesser(best, one.point_at(s).distance(other.point_at(t)));
             }
         }
         assert!(

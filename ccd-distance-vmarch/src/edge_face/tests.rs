@@ -2,7 +2,7 @@
 
 use super::next;
 use crate::feature::{Feature, MarchStep, WhichPolytope};
-use crate::tests::setting::{cube, edge, face, moved, needle};
+use crate::tests::setting::{cube, face_along, nearest_edge, needle, pair_with_b_moved};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
@@ -10,10 +10,10 @@ use rstest::rstest;
 /// the same step.
 fn step_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
-    let placed = moved(&cube, &needle, at);
-    let top = face(&cube, DVec3::Z);
+    let placed = pair_with_b_moved(&cube, &needle, at);
+    let top = face_along(&cube, DVec3::Z);
     let there = next(&placed.b, 0, &placed.a, top, placed.scale);
-    let back = moved(&needle, &cube, -at);
+    let back = pair_with_b_moved(&needle, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
         (MarchStep::LocalMinimum(..), MarchStep::LocalMinimum(..))
@@ -28,7 +28,7 @@ fn step_for_needle(half: DVec3, at: DVec3) -> MarchStep {
 #[case(DVec3::new(0.5, 0.0, -0.1), 1)]
 #[case(DVec3::new(0.5, 0.0, 1e-300), 0)]
 fn needles_continue_to_their_lower_end(#[case] half: DVec3, #[case] end: u32) {
-    let top = face(&cube(), DVec3::Z);
+    let top = face_along(&cube(), DVec3::Z);
     let said = step_for_needle(half, 2.0 * DVec3::Z);
     assert_eq!(
         said,
@@ -41,7 +41,7 @@ fn needles_continue_to_their_lower_end(#[case] half: DVec3, #[case] end: u32) {
 #[case(DVec3::new(5.0, 0.0, -0.1), DVec3::X)]
 #[case(DVec3::new(0.1, -5.0, 0.1), DVec3::Y)]
 fn needles_continue_to_the_side_that_cuts_them(#[case] half: DVec3, #[case] side: DVec3) {
-    let edge = edge(&cube(), side + DVec3::Z);
+    let edge = nearest_edge(&cube(), side + DVec3::Z);
     let said = step_for_needle(half, 2.0 * DVec3::Z);
     assert_eq!(
         said,
@@ -51,7 +51,7 @@ fn needles_continue_to_the_side_that_cuts_them(#[case] half: DVec3, #[case] side
 
 #[test]
 fn goes_on_to_the_nearest_side_from_outside() {
-    let edge = edge(&cube(), DVec3::X + DVec3::Z);
+    let edge = nearest_edge(&cube(), DVec3::X + DVec3::Z);
     let said = step_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
     assert_eq!(
         said,
@@ -69,7 +69,7 @@ fn needles_through_a_face_have_a_common_point(#[case] half: DVec3, #[case] at: D
     };
     assert_eq!(
         (which, crossing.face),
-        (WhichPolytope::X, face(&cube(), DVec3::Z))
+        (WhichPolytope::X, face_along(&cube(), DVec3::Z))
     );
 }
 

@@ -1,27 +1,27 @@
 //! Tests escapes from local minima, for points and needles behind a face of a cube.
 
-use super::{Escape, escape_local_minimum, farthest};
+use super::{Escape, escape_local_minimum, face_farthest_below};
 use crate::feature::{Feature, LocalMinimum};
 use crate::placed::PlacedPolytope;
-use crate::tests::setting::{cube, face, moved, needle, point};
+use crate::tests::setting::{cube, face_along, needle, pair_with_b_moved, point};
 use ccd_core::glam::DVec3;
 
 fn escape_of_point(at: DVec3) -> Escape {
     let (cube, point) = (cube(), point());
-    let placed = moved(&cube, &point, at);
+    let placed = pair_with_b_moved(&cube, &point, at);
     let minimum = LocalMinimum {
         feature: Feature::Vertex(0),
         point: at,
-        face: face(&cube, DVec3::Z),
+        face: face_along(&cube, DVec3::Z),
     };
     escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale)
 }
 
 #[test]
 fn leads_to_the_face_it_is_highest_above() {
-    let below = face(&cube(), -DVec3::Z);
+    let below = face_along(&cube(), -DVec3::Z);
     assert_eq!(escape_of_point(-3.0 * DVec3::Z), Escape::Face(below));
-    let beside = face(&cube(), DVec3::X);
+    let beside = face_along(&cube(), DVec3::X);
     let at = DVec3::new(5.0, 2.0, 0.0);
     assert_eq!(escape_of_point(at), Escape::Face(beside));
 }
@@ -45,21 +45,21 @@ fn is_unclear_without_proof_by_exact_signs() {
 fn edges_go_through_or_are_inside() {
     let (cube, short, long) = (cube(), needle(0.5 * DVec3::X), needle(3.0 * DVec3::X));
     for needle in [&short, &long] {
-        let placed = moved(&cube, needle, DVec3::ZERO);
+        let placed = pair_with_b_moved(&cube, needle, DVec3::ZERO);
         let minimum = LocalMinimum {
             feature: Feature::Edge(0),
             point: DVec3::ZERO,
-            face: face(&cube, DVec3::Z),
+            face: face_along(&cube, DVec3::Z),
         };
         let found = escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale);
         let Escape::CommonPoint(crossing) = found else {
             panic!("{found:?}");
         };
         let corners = crossing
-            .on_edge
+            .edge_ends
             .vertices
             .iter()
-            .zip(crossing.on_edge.weights);
+            .zip(crossing.edge_ends.weights);
         let named: DVec3 = corners.map(|(&v, w)| w * placed.b.vertex(v)).sum();
         assert!(named.abs().max_element() <= 1.0 + 1e-15);
     }
@@ -68,9 +68,9 @@ fn edges_go_through_or_are_inside() {
 #[test]
 fn the_farthest_face_is_found() {
     let cube = cube();
-    let placed = moved(&cube, &cube, DVec3::ZERO);
+    let placed = pair_with_b_moved(&cube, &cube, DVec3::ZERO);
     for normal in [DVec3::X, -DVec3::Y, DVec3::Z] {
-        let found = farthest(5.0 * normal, &placed.a);
-        assert_eq!(found, Some((face(&cube, normal), 4.0)));
+        let found = face_farthest_below(5.0 * normal, &placed.a);
+        assert_eq!(found, Some((face_along(&cube, normal), 4.0)));
     }
 }

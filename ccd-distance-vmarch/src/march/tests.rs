@@ -5,7 +5,7 @@ use crate::counters::Counters;
 use crate::feature::Pair;
 use crate::polytope::Polytope;
 use crate::termination::MarchEnd;
-use crate::tests::setting::{cube, features, needle, point, prepared_polytope, turned};
+use crate::tests::setting::{cube, features, needle, pair_with_placed_b, point, prepared_polytope};
 use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
@@ -48,7 +48,7 @@ fn every_start_leads_to_the_nearest_features() {
                 .zip(ways)
                 .chain(turns.iter().zip(ways.into_iter().rev()))
             {
-                let placed = turned(one, other, *turn, offset);
+                let placed = pair_with_placed_b(one, other, *turn, offset);
                 let mut least: Option<f64> = None;
                 for a in features(one) {
                     for b in features(other) {

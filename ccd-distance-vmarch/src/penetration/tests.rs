@@ -2,11 +2,11 @@
 
 use super::{
     barycentric_coordinates, edge_face_crossing, inner_corner_crossing, search_crossing,
-    segment_meets_triangle, weights,
+    segment_crosses_triangle, weights,
 };
 use crate::placed::PlacedPolytope;
-use crate::tests::setting::{cube, face, moved, needle, point};
-use crate::tests::shape::{Pcg64, SeedableRng, direction, magnitude, vector};
+use crate::tests::setting::{cube, face_along, needle, pair_with_b_moved, point};
+use crate::tests::shape::{Pcg64, SeedableRng, random_direction, random_magnitude, random_vector};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
@@ -35,9 +35,9 @@ fn segments_meet_triangles_exactly(#[case] start: DVec3, #[case] end: DVec3, #[c
         for turn in 0..3 {
             let mut triangle = TRIANGLE;
             triangle.rotate_left(turn);
-            assert_eq!(segment_meets_triangle(edge, triangle), meets);
+            assert_eq!(segment_crosses_triangle(edge, triangle), meets);
             triangle.swap(0, 1);
-            assert_eq!(segment_meets_triangle(edge, triangle), meets);
+            assert_eq!(segment_crosses_triangle(edge, triangle), meets);
         }
     }
 }
@@ -48,13 +48,13 @@ fn both_sides_name_the_same_point() {
     let mut rng = Pcg64::seed_from_u64(1);
     let mut met = 0;
     for _ in 0..20_000 {
-        let thin = magnitude(&mut rng, -9.0, 0.0);
+        let thin = random_magnitude(&mut rng, -9.0, 0.0);
         let squeeze = DVec3::new(1.0, thin, 1.0);
-        let triangle = [(); 3].map(|()| squeeze * vector(&mut rng));
+        let triangle = [(); 3].map(|()| squeeze * random_vector(&mut rng));
         let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-        let offset = direction(&mut rng);
+        let offset = random_direction(&mut rng);
         let edge = [middle - 0.7 * offset, middle + 0.4 * offset];
-        if !segment_meets_triangle(edge, triangle) {
+        if !segment_crosses_triangle(edge, triangle) {
             continue;
         }
         met += 1;
@@ -95,7 +95,7 @@ fn tetrahedra_enclose_to_the_last_bit() {
 #[case(DVec3::new(1.0 + f64::EPSILON, 0.5, 0.5), false)]
 fn only_inner_corners_have_a_crossing(#[case] at: DVec3, #[case] inside: bool) {
     let (cube, point) = (cube(), point());
-    let placed = moved(&cube, &point, at);
+    let placed = pair_with_b_moved(&cube, &point, at);
     let found = inner_corner_crossing(&placed.b, 0, &placed.a);
     assert_eq!(found.is_some(), inside);
     if let Some(found) = found {
@@ -113,12 +113,12 @@ fn only_inner_corners_have_a_crossing(#[case] at: DVec3, #[case] inside: bool) {
 fn faces_are_pierced_anywhere() {
     let (cube, needle) = (cube(), needle(3.0 * DVec3::Z));
     for (x, y) in [(0.0, 0.0), (0.9, -0.9), (-0.5, 0.5), (1.0, 1.0), (0.0, 1.0)] {
-        let placed = moved(&cube, &needle, DVec3::new(x, y, 0.0));
+        let placed = pair_with_b_moved(&cube, &needle, DVec3::new(x, y, 0.0));
         for normal in [DVec3::Z, -DVec3::Z] {
-            let found = edge_face_crossing(&placed.b, 0, &placed.a, face(&cube, normal));
+            let found = edge_face_crossing(&placed.b, 0, &placed.a, face_along(&cube, normal));
             assert!(found.is_some());
         }
-        let beside = edge_face_crossing(&placed.b, 0, &placed.a, face(&cube, DVec3::X));
+        let beside = edge_face_crossing(&placed.b, 0, &placed.a, face_along(&cube, DVec3::X));
         assert!(beside.is_none());
     }
 }
@@ -131,7 +131,7 @@ fn faces_are_pierced_anywhere() {
 #[case(DVec3::new(9.0, 0.0, 0.0), false)]
 fn the_search_finds_common_points(#[case] at: DVec3, #[case] meets: bool) {
     let (one, other) = (cube(), cube());
-    let placed = moved(&one, &other, at);
+    let placed = pair_with_b_moved(&one, &other, at);
     let found =
         search_crossing(&placed.a, &placed.b).or_else(|| search_crossing(&placed.b, &placed.a));
     assert_eq!(found.is_some(), meets);

@@ -1,6 +1,6 @@
 use super::{PlacedPair, PlacedPolytope};
 use crate::polytope::Polytope;
-use crate::rational::{Exact3, exact};
+use crate::rational::{Exact3, exact_fraction};
 use crate::tolerance::PLACEMENT_ERROR;
 use crate::worst::{RandomCase, WorstCaseSearch, share};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -17,7 +17,7 @@ fn corners(tape: &mut RandomCase) -> [DVec3; 3] {
 /// Errors of the rotation and translation are excluded: they move all vertices alike.
 #[test]
 fn worst_placing() {
-    let found = WorstCaseSearch::of("PLACING", 6_000).search(|tape| {
+    let found = WorstCaseSearch::new("PLACING", 6_000).search(|tape| {
         let points = [corners(tape), corners(tape)];
         let turn = DVec3::from(tape.vector(-8..=1));
         let frame = Frame {
@@ -39,18 +39,19 @@ fn worst_placing() {
             let nearer = |p: &&DVec3, q: &&DVec3| p.distance(at).total_cmp(&q.distance(at));
             *all.iter().min_by(nearer).expect("three points")
         };
-        let [x, y] = [given(&a, i, &points[0]), given(&b, j, &points[1])].map(Exact3::of);
-        let columns = [0, 1, 2].map(|k| Exact3::of(frame.rotation.col(k)));
-        let to = Exact3::of(placed.b.origin());
+        let [x, y] =
+            [given(&a, i, &points[0]), given(&b, j, &points[1])].map(Exact3::from_coordinates);
+        let columns = [0, 1, 2].map(|k| Exact3::from_coordinates(frame.rotation.col(k)));
+        let to = Exact3::from_coordinates(placed.b.origin());
         let [x, y] = [
-            x.minus(&Exact3::of(a.origin)),
-            y.minus(&Exact3::of(b.origin)),
+            x.minus(&Exact3::from_coordinates(a.origin)),
+            y.minus(&Exact3::from_coordinates(b.origin)),
         ];
         let truth = [0, 1, 2].map(|k| {
             let row = Exact3([0, 1, 2].map(|l| columns[l].0[k].clone()));
             row.dot(&y) + &to.0[k] - &x.0[k]
         });
-        let off = [0, 1, 2].map(|k| (exact(offset[k]) - &truth[k]).to_f64().value());
+        let off = [0, 1, 2].map(|k| (exact_fraction(offset[k]) - &truth[k]).to_f64().value());
         let off = DVec3::from(off).length();
         // Points that coincide up to rounding may be swapped.
         let size = placed.scale.size;

@@ -45,7 +45,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
         edges: Vec::new(),
         faces: faces.collect(),
         sides: Vec::with_capacity(loops.iter().map(Vec::len).sum()),
-        direction_table: None,
+        start_vertex_table: None,
     };
     let edge = |v: u32, w: u32| Edge {
         start: out.vertices[v as usize].point,

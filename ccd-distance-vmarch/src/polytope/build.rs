@@ -1,7 +1,7 @@
 //! Prepares pieces for marching: merges their facets into faces, and checks that they are convex.
 
 use super::facets::{Facets, distance_from_line};
-use super::support::DirectionTable;
+use super::support::StartVertexTable;
 use super::{Polytope, assemble, convex, merge};
 use crate::tolerance::{COPLANARITY_TOLERANCE, MAX_SCANNED_CORNERS};
 use ccd_core::glam::DVec3;
@@ -49,7 +49,7 @@ impl Polytope {
     fn from_outlines(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
         let mut polytope = assemble::assemble_polytope(points, ends, loops);
         if polytope.vertices.len() > MAX_SCANNED_CORNERS {
-            polytope.direction_table = Some(Box::new(DirectionTable::new(&polytope)));
+            polytope.start_vertex_table = Some(Box::new(StartVertexTable::new(&polytope)));
         }
         polytope
     }

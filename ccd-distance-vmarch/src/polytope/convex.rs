@@ -40,7 +40,10 @@ impl ConvexityCheck<'_> {
             return false;
         }
         // The distance from the face's plane that rounding of the corners allows.
-        let width = greater(f64::MIN_POSITIVE, width(self.polytope, face));
+        let width = greater(
+            f64::MIN_POSITIVE,
+            face_width_lower_bound(self.polytope, face),
+        );
         let slack = self.rounding * (1.0 + self.polytope.reach / width);
         let at = |k: usize| self.corner(sides[k % sides.len()].vertex);
         let first = at(0);
@@ -82,7 +85,7 @@ impl ConvexityCheck<'_> {
 }
 
 /// Returns a lower bound of a face's width, at least a quarter of it: the area over the extent from the first vertex.
-fn width(polytope: &Polytope, face: u32) -> f64 {
+fn face_width_lower_bound(polytope: &Polytope, face: u32) -> f64 {
     let sides = polytope.sides_of(face);
     let first = polytope.vertex(sides[0].vertex).point;
     let arm = |side: &Side| polytope.vertex(side.vertex).point - first;

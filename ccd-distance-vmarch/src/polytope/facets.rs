@@ -21,7 +21,7 @@ pub(crate) struct Plane {
     pub(crate) normal: DVec3,
     pub(crate) area: f64,
     /// The area of the polygon over its longest side.
-    pub(crate) width: f64,
+    pub(crate) area_per_longest_side: f64,
 }
 
 impl Facets {
@@ -31,7 +31,7 @@ impl Facets {
         points: &[DVec3],
         loops: impl Iterator<Item = &'a [u32]>,
     ) -> Option<Self> {
-        let welded = weld(points);
+        let welded = first_equal_points(points);
         let mut kept: Vec<Vec<u32>> = Vec::new();
         for corners in loops {
             let corners = corners.iter().map(|&v| welded.get(v as usize).copied());
@@ -98,7 +98,7 @@ impl Plane {
         Plane {
             normal,
             area,
-            width: if longest > 0.0 { area / longest } else { 0.0 },
+            area_per_longest_side: if longest > 0.0 { area / longest } else { 0.0 },
         }
     }
 }
@@ -129,7 +129,7 @@ pub(crate) fn distance_from_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
 }
 
 /// Returns for every point the index of the first point at the same position.
-fn weld(points: &[DVec3]) -> Vec<u32> {
+fn first_equal_points(points: &[DVec3]) -> Vec<u32> {
     // Zero is added so that -0 is 0.
     let key = |v: u32| {
         (points[v as usize] + DVec3::ZERO)

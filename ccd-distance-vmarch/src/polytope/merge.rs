@@ -52,7 +52,7 @@ fn group_coplanar_facets(points: &[DVec3], facets: &Facets, rounding: f64) -> (V
         let joins = |facet: u32| {
             let plane = &facets.planes[facet as usize];
             // A facet no wider than rounding has no direction of its own.
-            let alike = plane.normal.dot(normal) > 0.0 || !(plane.width > rounding);
+            let alike = plane.normal.dot(normal) > 0.0 || !(plane.area_per_longest_side > rounding);
             let near = |&v: &u32| normal.dot(points[v as usize] - base).abs() <= rounding;
             alike && facets.loops[facet as usize].iter().all(near)
         };

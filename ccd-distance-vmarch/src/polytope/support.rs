@@ -8,24 +8,24 @@ use ccd_core::glam::DVec3;
 /// A direction belongs to the square through which it passes. In most polytopes the vertex of the square is one or two
 /// edges from the extremal one.
 #[derive(Clone, Debug)]
-pub(crate) struct DirectionTable([u32; SQUARE_COUNT]);
+pub(crate) struct StartVertexTable([u32; CUBE_MAP_SQUARE_COUNT]);
 
 /// The number of squares along an edge of the cube.
-const SQUARES_PER_EDGE: usize = 4;
+const CUBE_MAP_SQUARES_PER_EDGE: usize = 4;
 
 /// The number of squares on all sides of the cube.
-const SQUARE_COUNT: usize = 6 * SQUARES_PER_EDGE * SQUARES_PER_EDGE;
+const CUBE_MAP_SQUARE_COUNT: usize = 6 * CUBE_MAP_SQUARES_PER_EDGE * CUBE_MAP_SQUARES_PER_EDGE;
 
-impl DirectionTable {
+impl StartVertexTable {
     /// Fills the table by hill climbing, from square to square.
     pub(crate) fn new(polytope: &Polytope) -> Self {
-        let mut corners = [0; SQUARE_COUNT];
+        let mut corners = [0; CUBE_MAP_SQUARE_COUNT];
         let mut at = 0;
         for (square, corner) in corners.iter_mut().enumerate() {
             at = polytope.hill_climb(at, centre_of_square(square));
             *corner = at;
         }
-        DirectionTable(corners)
+        StartVertexTable(corners)
     }
 
     /// Returns the table's vertex for a direction of any length; an arbitrary vertex if the direction is not finite.
@@ -44,22 +44,22 @@ fn square_towards(direction: DVec3) -> usize {
     };
     let side = 2 * axis + usize::from(direction[axis] < 0.0);
     let step = |across: f64| {
-        let part = 0.5 * SQUARES_PER_EDGE as f64 * (1.0 + across / size[axis]);
+        let part = 0.5 * CUBE_MAP_SQUARES_PER_EDGE as f64 * (1.0 + across / size[axis]);
         // NaN is cast to 0.
-        (part as usize).min(SQUARES_PER_EDGE - 1)
+        (part as usize).min(CUBE_MAP_SQUARES_PER_EDGE - 1)
     };
     let (u, v) = (direction[(axis + 1) % 3], direction[(axis + 2) % 3]);
-    (side * SQUARES_PER_EDGE + step(u)) * SQUARES_PER_EDGE + step(v)
+    (side * CUBE_MAP_SQUARES_PER_EDGE + step(u)) * CUBE_MAP_SQUARES_PER_EDGE + step(v)
 }
 
 /// Returns the direction at the centre of a square.
 fn centre_of_square(square: usize) -> DVec3 {
     let (side, u, v) = (
-        square / (SQUARES_PER_EDGE * SQUARES_PER_EDGE),
-        square / SQUARES_PER_EDGE % SQUARES_PER_EDGE,
-        square % SQUARES_PER_EDGE,
+        square / (CUBE_MAP_SQUARES_PER_EDGE * CUBE_MAP_SQUARES_PER_EDGE),
+        square / CUBE_MAP_SQUARES_PER_EDGE % CUBE_MAP_SQUARES_PER_EDGE,
+        square % CUBE_MAP_SQUARES_PER_EDGE,
     );
-    let across = |step: usize| (step as f64 + 0.5) / (0.5 * SQUARES_PER_EDGE as f64) - 1.0;
+    let across = |step: usize| (step as f64 + 0.5) / (0.5 * CUBE_MAP_SQUARES_PER_EDGE as f64) - 1.0;
     let axis = side / 2;
     let mut out = DVec3::ZERO;
     out[axis] = if side % 2 == 1 { -1.0 } else { 1.0 };
@@ -71,7 +71,7 @@ fn centre_of_square(square: usize) -> DVec3 {
 impl Polytope {
     /// Returns a corner that is farthest along a direction, up to rounding.
     pub(crate) fn extremal_vertex(&self, direction: DVec3) -> u32 {
-        if let Some(table) = &self.direction_table {
+        if let Some(table) = &self.start_vertex_table {
             return self.hill_climb(table.start_vertex(direction), direction);
         }
         let heights = self

@@ -2,7 +2,9 @@
 
 use super::{NO_FACE, Polytope};
 use crate::tests::setting::prepared_polytope;
-use crate::tests::shape::{self, Pcg64, SeedableRng, Shape, direction, magnitude, vector};
+use crate::tests::shape::{
+    self, Pcg64, SeedableRng, Shape, random_direction, random_magnitude, random_vector,
+};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{GiveUpReason, Piece};
 use rstest::rstest;
@@ -119,8 +121,11 @@ fn coplanar_facets_are_one_face_and_corners_within_are_none() {
     // Rounded corners are as coplanar as they come.
     let mut rng = Pcg64::seed_from_u64(1);
     for _ in 0..200 {
-        let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
-        let (size, shift) = (magnitude(&mut rng, -6.0, 6.0), vector(&mut rng));
+        let turn = DQuat::from_scaled_axis(3.0 * random_vector(&mut rng));
+        let (size, shift) = (
+            random_magnitude(&mut rng, -6.0, 6.0),
+            random_vector(&mut rng),
+        );
         let moved = subdivided_cube().with_mapped_points(|p| size * (turn * p + shift));
         let polytope = prepared_polytope(&moved);
         assert_eq!(feature_counts(&polytope), [8, 12, 6]);
@@ -153,16 +158,18 @@ fn thin_polytopes_are_sound() {
     for _ in 0..300 {
         let squeeze = DVec3::new(
             1.0,
-            magnitude(&mut rng, -12.0, 0.0),
-            magnitude(&mut rng, -12.0, 0.0),
+            random_magnitude(&mut rng, -12.0, 0.0),
+            random_magnitude(&mut rng, -12.0, 0.0),
         );
-        let points: Vec<DVec3> = (0..9).map(|_| squeeze * direction(&mut rng)).collect();
+        let points: Vec<DVec3> = (0..9)
+            .map(|_| squeeze * random_direction(&mut rng))
+            .collect();
         let hull = shape::hull(&points);
         let pieces = hull.pieces();
         let made = Polytope::new(&pieces.get(0));
         assert_valid_polytope(&made.unwrap_or_else(|why| panic!("{why:?}: {squeeze} {hull:?}")));
         // Turned, its corners are rounded, and its facets no more exactly convex.
-        let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
+        let turn = DQuat::from_scaled_axis(3.0 * random_vector(&mut rng));
         let turned = hull.with_mapped_points(|p| turn * p);
         let pieces = turned.pieces();
         assert!(Polytope::new(&pieces.get(0)).is_ok(), "{turned:?}");

@@ -2,7 +2,9 @@
 
 use super::{Cache, extremal_pair};
 use crate::feature::{Feature, Pair};
-use crate::tests::setting::{cube, face, moved, point, prepared_polytope, vertex};
+use crate::tests::setting::{
+    cube, face_along, nearest_vertex, pair_with_b_moved, point, prepared_polytope,
+};
 use crate::tests::shape;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -15,15 +17,15 @@ use rstest::rstest;
 #[case(Feature::Edge(u32::MAX), Feature::Vertex(u32::MAX))]
 fn invalid_states_are_no_start(#[case] a: Feature, #[case] b: Feature) {
     let cube = cube();
-    let placed = moved(&cube, &cube, DVec3::new(3.0, 2.5, 2.2));
+    let placed = pair_with_b_moved(&cube, &cube, DVec3::new(3.0, 2.5, 2.2));
     let corners = Pair {
-        a: Feature::Vertex(vertex(&cube, DVec3::ONE)),
-        b: Feature::Vertex(vertex(&cube, -DVec3::ONE)),
+        a: Feature::Vertex(nearest_vertex(&cube, DVec3::ONE)),
+        b: Feature::Vertex(nearest_vertex(&cube, -DVec3::ONE)),
     };
-    assert_eq!(Cache::default().start(&placed), corners);
+    assert_eq!(Cache::default().start_features(&placed), corners);
     let mut cache = Cache::default();
     cache.store(&placed, Pair { a, b }, DVec3::ONE);
-    assert_eq!(cache.start(&placed), corners);
+    assert_eq!(cache.start_features(&placed), corners);
 }
 
 /// Tests that a replaced polytope starts at a vertex along the last axis, while the unchanged one reuses its last
@@ -34,16 +36,16 @@ fn a_part_is_begun_with_along_the_last_axis() {
     let mut cache = Cache::default();
     let [far, near] = [DVec3::new(9.0, 0.1, 0.2), DVec3::new(2.0, 0.1, 0.2)];
     let pair = Pair {
-        a: Feature::Face(face(&cube, DVec3::X)),
+        a: Feature::Face(face_along(&cube, DVec3::X)),
         b: Feature::Vertex(3),
     };
-    cache.store(&moved(&cube, &cube, far), pair, DVec3::X);
-    let to_point = cache.start(&moved(&cube, &point, near));
+    cache.store(&pair_with_b_moved(&cube, &cube, far), pair, DVec3::X);
+    let to_point = cache.start_features(&pair_with_b_moved(&cube, &point, near));
     assert_eq!((to_point.a, to_point.b), (pair.a, Feature::Vertex(0)));
-    let from_point = cache.start(&moved(&point, &cube, near));
+    let from_point = cache.start_features(&pair_with_b_moved(&point, &cube, near));
     assert_eq!((from_point.a, from_point.b), (Feature::Vertex(0), pair.b));
     let larger = prepared_polytope(&shape::cuboid(DVec3::splat(1.5)));
-    let start = cache.start(&moved(&larger, &larger, near));
+    let start = cache.start_features(&pair_with_b_moved(&larger, &larger, near));
     let Pair {
         a: Feature::Vertex(v),
         b: Feature::Vertex(w),
@@ -57,14 +59,14 @@ fn a_part_is_begun_with_along_the_last_axis() {
 #[test]
 fn the_nearest_features_are_the_next_start() {
     let cube = cube();
-    let placed = moved(&cube, &cube, 3.0 * DVec3::X);
+    let placed = pair_with_b_moved(&cube, &cube, 3.0 * DVec3::X);
     let pair = Pair {
         a: Feature::Face(3),
         b: Feature::Vertex(2),
     };
     let mut cache = Cache::default();
     cache.store(&placed, pair, DVec3::X);
-    assert_eq!(cache.start(&placed), pair);
+    assert_eq!(cache.start_features(&placed), pair);
     assert!(size_of::<Cache>() <= 64);
 }
 
@@ -75,7 +77,7 @@ fn axes_are_turned_into_bs_frame() {
         prepared_polytope(&shape::cuboid(DVec3::new(0.5, 0.6, 0.7))),
     );
     let turn = ccd_core::glam::DQuat::from_rotation_z(1.2);
-    let placed = crate::tests::setting::turned(&one, &other, turn, 4.0 * DVec3::X);
+    let placed = crate::tests::setting::pair_with_placed_b(&one, &other, turn, 4.0 * DVec3::X);
     let axis = DVec3::new(1.0, 0.4, 0.2);
     let pair = extremal_pair(&placed, axis);
     let Feature::Vertex(b) = pair.b else {

@@ -1,9 +1,9 @@
 //! Tests claims about pieces that touch, contain each other, spin, or are invalid.
 
 use super::scene::{self, Body, PairKind, Scene};
-use super::shape::{self, Pcg64, RngExt, SeedableRng, Shape, direction, magnitude};
+use super::shape::{self, Pcg64, RngExt, SeedableRng, Shape, random_direction, random_magnitude};
 use super::twin::{self, ReferencePolytope};
-use super::{Tally, cases};
+use super::{Tally, case_count};
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -76,8 +76,8 @@ fn pieces_inside_intersect() {
     let mut oracle = Vmarch::default();
     for _ in 0..500 {
         let b_to_a = Frame {
-            rotation: DMat3::from_quat(scene::rotation(&mut rng)),
-            translation: 0.8 * shape::vector(&mut rng).clamp_length_max(1.0),
+            rotation: DMat3::from_quat(scene::random_rotation(&mut rng)),
+            translation: 0.8 * shape::random_vector(&mut rng).clamp_length_max(1.0),
         };
         let mut tally = Tally::default();
         let inside = Scene {
@@ -104,7 +104,7 @@ fn pieces_inside_intersect() {
             &around,
             oracle.separation(&around.pair(), &mut Cache::default()),
         );
-        assert_eq!((tally.intersecting_pairs, tally.give_ups), (2, 0));
+        assert_eq!((tally.intersecting_pair_count, tally.give_up_count), (2, 0));
     }
     assert_eq!(oracle.counters().penetrations, 1000);
 }
@@ -131,7 +131,7 @@ fn odd_coordinates_end() {
         }))
     };
     let mut oracle = Vmarch::default();
-    for k in 0..cases() {
+    for k in 0..case_count() {
         let [a, b] = [1 + k as usize % 3, 3].map(|count| {
             let points: Vec<DVec3> = (0..count).map(|_| point()).collect();
             Body::new(shape::shape_of_points(&points))
@@ -241,13 +241,15 @@ fn changes_of_features_are_exact_to_the_last_bit() {
     let mut rng = Pcg64::seed_from_u64(8);
     let cube = Body::new(shape::cuboid(DVec3::ONE));
     let (mut oracle, mut tally) = (Vmarch::default(), Tally::default());
-    for _ in 0..cases() / 4 {
-        let tilt = DQuat::from_scaled_axis(magnitude(&mut rng, -12.0, 0.0) * direction(&mut rng));
+    for _ in 0..case_count() / 4 {
+        let tilt = DQuat::from_scaled_axis(
+            random_magnitude(&mut rng, -12.0, 0.0) * random_direction(&mut rng),
+        );
         let pose = |offset: DVec3| Frame {
             rotation: DMat3::from_quat(tilt),
             translation: offset,
         };
-        let far = |rng: &mut Pcg64| 4.0 * direction(rng);
+        let far = |rng: &mut Pcg64| 4.0 * random_direction(rng);
         let (mut from, mut to) = (far(&mut rng), far(&mut rng));
         let mut ask = |offset: DVec3, cache: &mut Cache| {
             let scene = Scene {
@@ -277,7 +279,10 @@ fn changes_of_features_are_exact_to_the_last_bit() {
             }
         }
     }
-    assert!(tally.claims > cases() && tally.give_ups == 0, "{tally:?}");
+    assert!(
+        tally.claim_count > case_count() && tally.give_up_count == 0,
+        "{tally:?}"
+    );
 }
 
 /// Tests that the claimed combinations are the same bits if both pieces are scaled by a power of two.
@@ -293,7 +298,7 @@ fn size_does_not_matter() {
         let pool = scene::body_pool(kind, &mut rng);
         for _ in 0..300 {
             let scene = scene::draw(kind, &pool, &mut rng);
-            let power = [-150, -40, 30][(magnitude(&mut rng, 0.0, 1.0) as usize) % 3];
+            let power = [-150, -40, 30][(random_magnitude(&mut rng, 0.0, 1.0) as usize) % 3];
             let scale = 2f64.powi(power);
             let [a, b] = [scene.a, scene.b]
                 .map(|body| Body::new(body.shape.clone().with_mapped_points(|p| scale * p)));
@@ -321,7 +326,7 @@ fn place_does_not_matter() {
     let pool = scene::body_pool(PairKind::Random, &mut rng);
     for _ in 0..500 {
         let scene = scene::draw(PairKind::Random, &pool, &mut rng);
-        let shift = 1e6 * shape::vector(&mut rng);
+        let shift = 1e6 * shape::random_vector(&mut rng);
         let [a, b] = [scene.a, scene.b]
             .map(|body| Body::new(body.shape.clone().with_mapped_points(|p| p + shift)));
         let mut b_to_a = scene.b_to_a;
@@ -337,7 +342,7 @@ fn place_does_not_matter() {
             &far,
             Vmarch::default().separation(&far.pair(), &mut Cache::default()),
         );
-        assert_eq!(tally.give_ups, 0);
+        assert_eq!(tally.give_up_count, 0);
     }
 }
 

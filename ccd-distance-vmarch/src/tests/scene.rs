@@ -1,6 +1,6 @@
 //! Draws random pairs of polytopes of the kinds that are hard for Voronoi marching.
 
-use super::shape::{self, Pcg64, RngExt, Shape, direction, magnitude, vector};
+use super::shape::{self, Pcg64, RngExt, Shape, random_direction, random_magnitude, random_vector};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Frame, PiecePair, Pieces};
@@ -74,7 +74,7 @@ pub(crate) fn body_pool(kind: PairKind, rng: &mut Pcg64) -> Vec<Body> {
     // Most pieces have separate frames; some kinds lose their special property if they are turned.
     let kept = matches!(kind, PairKind::Grid | PairKind::Coplanar | PairKind::Sliver);
     let placed = shapes.into_iter().map(|shape| {
-        let (turn, shift) = (rotation(rng), vector(rng));
+        let (turn, shift) = (random_rotation(rng), random_vector(rng));
         let placed = |p| if kept { p } else { turn * p + shift };
         Body::new(shape.with_mapped_points(placed))
     });
@@ -100,9 +100,11 @@ fn slivers(rng: &mut Pcg64) -> Vec<Shape> {
     let mut out = [6, 10, 20].map(shape::cyclic_polytope).to_vec();
     for count in [4, 5, 6, 8, 12] {
         for _ in 0..4 {
-            let mut thin = || magnitude(rng, -8.0, 0.0);
+            let mut thin = || random_magnitude(rng, -8.0, 0.0);
             let squeeze = DVec3::new(1.0, thin(), thin());
-            let points: Vec<DVec3> = (0..count).map(|_| squeeze * direction(rng)).collect();
+            let points: Vec<DVec3> = (0..count)
+                .map(|_| squeeze * random_direction(rng))
+                .collect();
             out.push(shape::hull(&points));
         }
     }
@@ -122,7 +124,7 @@ fn grid_shapes(rng: &mut Pcg64) -> Vec<Shape> {
 fn plates(rng: &mut Pcg64) -> Vec<Shape> {
     let mut out = Vec::new();
     for _ in 0..6 {
-        let thin = magnitude(rng, -9.0, -2.0);
+        let thin = random_magnitude(rng, -9.0, -2.0);
         out.push(shape::cuboid(DVec3::new(1.0, 0.7, thin)));
         out.push(shape::prism(7).with_mapped_points(|p| p * DVec3::new(1.0, 1.0, thin)));
         out.push(shape::cuboid(DVec3::new(1.0, thin, thin)));
@@ -133,8 +135,8 @@ fn plates(rng: &mut Pcg64) -> Vec<Shape> {
 fn few_point_shapes(rng: &mut Pcg64) -> Vec<Shape> {
     let mut out = hulls(rng, &[6, 10]);
     for _ in 0..4 {
-        let [p, q, r] = std::array::from_fn(|_| vector(rng));
-        let beside = p.lerp(q, 0.3) + magnitude(rng, -9.0, -1.0) * r;
+        let [p, q, r] = std::array::from_fn(|_| random_vector(rng));
+        let beside = p.lerp(q, 0.3) + random_magnitude(rng, -9.0, -1.0) * r;
         out.push(shape::shape_of_points(&[p]));
         out.push(shape::shape_of_points(&[p, q]));
         out.push(shape::shape_of_points(&[p, q, r]));
@@ -143,8 +145,8 @@ fn few_point_shapes(rng: &mut Pcg64) -> Vec<Shape> {
     out
 }
 
-pub(crate) fn rotation(rng: &mut Pcg64) -> DQuat {
-    DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
+pub(crate) fn random_rotation(rng: &mut Pcg64) -> DQuat {
+    DQuat::from_axis_angle(random_direction(rng), rng.random_range(-3.1..3.1))
 }
 
 /// Draws a rotation that maps coordinate axes to coordinate axes.
@@ -198,7 +200,7 @@ pub(crate) fn draw<'a>(kind: PairKind, pool: &'a [Body], rng: &mut Pcg64) -> Sce
     let mut rotation = match rng.random_range(0..4) {
         0 if !aligned => DMat3::IDENTITY,
         1 if !aligned => random_axis_aligned_rotation(rng),
-        _ if !aligned => DMat3::from_quat(rotation(rng)),
+        _ if !aligned => DMat3::from_quat(random_rotation(rng)),
         0 => DMat3::IDENTITY,
         _ => random_axis_aligned_rotation(rng),
     };
@@ -212,7 +214,8 @@ pub(crate) fn draw<'a>(kind: PairKind, pool: &'a [Body], rng: &mut Pcg64) -> Sce
                 rotation
             };
         }
-        let tilt = DQuat::from_scaled_axis(magnitude(rng, -16.0, -6.0) * direction(rng));
+        let tilt =
+            DQuat::from_scaled_axis(random_magnitude(rng, -16.0, -6.0) * random_direction(rng));
         rotation = DMat3::from_quat(tilt) * rotation;
     }
     let meets = rng.random_bool(0.15)
@@ -227,7 +230,7 @@ pub(crate) fn draw<'a>(kind: PairKind, pool: &'a [Body], rng: &mut Pcg64) -> Sce
         };
         (inner(a, rng) - rotation * inner(b, rng), 0.0)
     } else {
-        apart(kind, a, b, rotation, rng)
+        random_separated_position(kind, a, b, rotation, rng)
     };
     let b_to_a = Frame {
         rotation,
@@ -237,18 +240,24 @@ pub(crate) fn draw<'a>(kind: PairKind, pool: &'a [Body], rng: &mut Pcg64) -> Sce
 }
 
 /// Returns a position of B at which it is apart from A, and the support gap along the direction of separation.
-fn apart(kind: PairKind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (DVec3, f64) {
+fn random_separated_position(
+    kind: PairKind,
+    a: &Body,
+    b: &Body,
+    rotation: DMat3,
+    rng: &mut Pcg64,
+) -> (DVec3, f64) {
     let whole = kind == PairKind::Grid;
     let n = match rng.random_range(0..4) {
-        0 => direction(rng),
+        0 => random_direction(rng),
         1 if has_aligned_axes(kind) => [DVec3::X, DVec3::Y, DVec3::Z][rng.random_range(0..3)],
         2 => edge_cross_product(a, b, rotation, rng).unwrap_or(DVec3::Z),
-        _ => normal(a, rng).unwrap_or_else(|| direction(rng)),
+        _ => normal(a, rng).unwrap_or_else(|| random_direction(rng)),
     };
     let gap = if whole {
         f64::from(rng.random_range(1i32..5))
     } else {
-        magnitude(rng, -6.0, 3.0)
+        random_magnitude(rng, -6.0, 3.0)
     };
     let high = a
         .shape
@@ -264,8 +273,8 @@ fn apart(kind: PairKind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -
         .fold(f64::INFINITY, lesser);
     let lateral = match rng.random_range(0..3) {
         0 => DVec3::ZERO,
-        1 => vector(rng),
-        _ => 0.3 * vector(rng),
+        1 => random_vector(rng),
+        _ => 0.3 * random_vector(rng),
     };
     let lateral = if whole { lateral.round() } else { lateral };
     let base = a.middle - rotation * b.middle + lateral;

@@ -26,11 +26,16 @@ pub(crate) fn needle(half: DVec3) -> Polytope {
     prepared_polytope(&shape::shape_of_points(&[-half, half]))
 }
 
-pub(crate) fn moved<'a>(a: &'a Polytope, b: &'a Polytope, by: DVec3) -> PlacedPair<'a> {
-    turned(a, b, DQuat::IDENTITY, by)
+pub(crate) fn pair_with_b_moved<'a>(a: &'a Polytope, b: &'a Polytope, by: DVec3) -> PlacedPair<'a> {
+    pair_with_placed_b(a, b, DQuat::IDENTITY, by)
 }
 
-pub(crate) fn turned<'a>(a: &'a Polytope, b: &'a Polytope, by: DQuat, to: DVec3) -> PlacedPair<'a> {
+pub(crate) fn pair_with_placed_b<'a>(
+    a: &'a Polytope,
+    b: &'a Polytope,
+    by: DQuat,
+    to: DVec3,
+) -> PlacedPair<'a> {
     let frame = Frame {
         rotation: DMat3::from_quat(by),
         translation: to,
@@ -39,22 +44,22 @@ pub(crate) fn turned<'a>(a: &'a Polytope, b: &'a Polytope, by: DQuat, to: DVec3)
 }
 
 /// Returns the corner nearest to a point, in the polytope's own coordinates.
-pub(crate) fn vertex(polytope: &Polytope, at: DVec3) -> u32 {
-    nearest(polytope.vertices.iter().map(|v| v.point), at)
+pub(crate) fn nearest_vertex(polytope: &Polytope, at: DVec3) -> u32 {
+    nearest_index(polytope.vertices.iter().map(|v| v.point), at)
 }
 
 /// Returns the edge whose middle is nearest to a point.
-pub(crate) fn edge(polytope: &Polytope, at: DVec3) -> u32 {
+pub(crate) fn nearest_edge(polytope: &Polytope, at: DVec3) -> u32 {
     let middle = |e: &crate::polytope::Edge| e.start + 0.5 * e.length * e.along;
-    nearest(polytope.edges.iter().map(middle), at)
+    nearest_index(polytope.edges.iter().map(middle), at)
 }
 
 /// Returns the face whose normal is nearest to a direction.
-pub(crate) fn face(polytope: &Polytope, along: DVec3) -> u32 {
-    nearest(polytope.faces.iter().map(|f| f.normal), along)
+pub(crate) fn face_along(polytope: &Polytope, along: DVec3) -> u32 {
+    nearest_index(polytope.faces.iter().map(|f| f.normal), along)
 }
 
-fn nearest(points: impl Iterator<Item = DVec3>, at: DVec3) -> u32 {
+fn nearest_index(points: impl Iterator<Item = DVec3>, at: DVec3) -> u32 {
     let distances = points.map(|p| p.distance(at)).zip(0..);
     let least = distances.min_by(|one, other| one.0.total_cmp(&other.0));
     least.expect("a feature").1

@@ -67,13 +67,13 @@ impl Shape {
 }
 
 /// Draws a vector in the cube of side two about the origin.
-pub(crate) fn vector(rng: &mut Pcg64) -> DVec3 {
+pub(crate) fn random_vector(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)))
 }
 
-pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
+pub(crate) fn random_direction(rng: &mut Pcg64) -> DVec3 {
     loop {
-        let v = vector(rng);
+        let v = random_vector(rng);
         if (0.01..1.0).contains(&v.length_squared()) {
             return v.normalize();
         }
@@ -81,7 +81,7 @@ pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
 }
 
 /// Draws a number between two powers of ten, with every order of magnitude equally likely.
-pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
+pub(crate) fn random_magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
@@ -293,7 +293,7 @@ pub(crate) fn shape_of_points(points: &[DVec3]) -> Shape {
 
 /// Computes the hull of random points of the unit sphere.
 pub(crate) fn random_hull(rng: &mut Pcg64, count: usize) -> Shape {
-    let points: Vec<DVec3> = (0..count).map(|_| direction(rng)).collect();
+    let points: Vec<DVec3> = (0..count).map(|_| random_direction(rng)).collect();
     hull(&points)
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct ReferencePolytope {
 struct Segment {
     ends: [DVec3; 2],
     middle: DVec3,
-    half: f64,
+    half_length: f64,
 }
 
 struct Polygon {
@@ -34,7 +34,7 @@ impl ReferencePolytope {
             Segment {
                 ends,
                 middle: 0.5 * (ends[0] + ends[1]),
-                half: 0.5 * ends[0].distance(ends[1]),
+                half_length: 0.5 * ends[0].distance(ends[1]),
             }
         };
         let mut loops = shape.loops.clone();
@@ -62,7 +62,7 @@ impl ReferencePolytope {
         }
     }
 
-    fn highest(&self, n: DVec3) -> f64 {
+    fn max_height(&self, n: DVec3) -> f64 {
         self.points
             .iter()
             .map(|p| n.dot(*p))
@@ -72,7 +72,7 @@ impl ReferencePolytope {
 
 /// Returns the support gap from A to B along a unit vector.
 pub(crate) fn gap(a: &ReferencePolytope, b: &ReferencePolytope, n: DVec3) -> f64 {
-    -b.highest(-n) - a.highest(n)
+    -b.max_height(-n) - a.max_height(n)
 }
 
 /// Returns the distance of the surfaces of two polytopes. It is that of the polytopes, if neither is inside the other
@@ -100,9 +100,9 @@ pub(crate) fn distance(a: &ReferencePolytope, b: &ReferencePolytope) -> f64 {
     for e in &a.edges {
         for f in &b.edges {
             // Segments in balls that are farther apart than the best so far can be passed over.
-            let reach = best + e.half + f.half;
+            let reach = best + e.half_length + f.half_length;
             if e.middle.distance_squared(f.middle) <= reach * reach {
-                best = lesser(best, crossing(e, f));
+                best = lesser(best, distance_near_line_crossing(e, f));
             }
         }
     }
@@ -137,7 +137,7 @@ fn height(p: DVec3, face: &Polygon) -> f64 {
 }
 
 /// Returns the distance of two points of two segments, taken near the nearest points of the segments' lines.
-fn crossing(e: &Segment, f: &Segment) -> f64 {
+fn distance_near_line_crossing(e: &Segment, f: &Segment) -> f64 {
     let [p, q] = e.ends;
     let [r, s] = f.ends;
     let (d, g, w) = (
@@ -154,7 +154,7 @@ fn crossing(e: &Segment, f: &Segment) -> f64 {
     on_f.distance(foot(on_f, e))
 }
 
-fn turned(shape: &Shape, by: DQuat, to: DVec3) -> ReferencePolytope {
+fn placed_reference(shape: &Shape, by: DQuat, to: DVec3) -> ReferencePolytope {
     let frame = Frame {
         rotation: DMat3::from_quat(by),
         translation: to,
@@ -176,7 +176,7 @@ fn brute_force_is_right() {
             }
         };
         let straight = |x: f64, y: f64, z: f64| {
-            turned(&cuboid(DVec3::ONE), DQuat::IDENTITY, DVec3::new(x, y, z))
+            placed_reference(&cuboid(DVec3::ONE), DQuat::IDENTITY, DVec3::new(x, y, z))
         };
         close(&cube, &straight(2.0 + gap, 0.3, -0.9), gap);
         close(
@@ -189,30 +189,30 @@ fn brute_force_is_right() {
         // A corner down: half the diagonal below the middle.
         let down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
         let half = 3f64.sqrt();
-        let standing = turned(&cuboid(DVec3::ONE), down, (1.0 + half + gap) * DVec3::Z);
+        let standing = placed_reference(&cuboid(DVec3::ONE), down, (1.0 + half + gap) * DVec3::Z);
         close(&cube, &standing, gap);
         // Edges crossed at right angles: half the diagonals of two faces.
         let eighth = std::f64::consts::FRAC_PI_4;
-        let roof = turned(
+        let roof = placed_reference(
             &cuboid(DVec3::ONE),
             DQuat::from_rotation_x(eighth),
             DVec3::ZERO,
         );
         let up = (2.0 * 2f64.sqrt() + gap) * DVec3::Z;
-        let keel = turned(&cuboid(DVec3::ONE), DQuat::from_rotation_y(eighth), up);
+        let keel = placed_reference(&cuboid(DVec3::ONE), DQuat::from_rotation_y(eighth), up);
         close(&roof, &keel, gap);
         // Needles whose directions differ by an angle of any size cross at their middles.
         let flat =
             ReferencePolytope::new(&shape_of_points(&[-DVec3::X, DVec3::X]), &Frame::IDENTITY);
         for angle in [1e-12, 1e-8, 1e-4, 1.0] {
-            let other = turned(
+            let other = placed_reference(
                 &shape_of_points(&[-DVec3::X, DVec3::X]),
                 DQuat::from_rotation_z(angle),
                 gap * DVec3::Z,
             );
             close(&flat, &other, gap);
         }
-        let square = turned(
+        let square = placed_reference(
             &polygon(4),
             DQuat::IDENTITY,
             DVec3::new(0.1, 0.2, 1.0 + gap),

@@ -3,17 +3,20 @@
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
-use crate::tests::setting::{cube, edge, face, moved, needle, point, turned, vertex};
+use crate::tests::setting::{
+    cube, face_along, nearest_edge, nearest_vertex, needle, pair_with_b_moved, pair_with_placed_b,
+    point,
+};
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
 /// Returns the step for a point and the cube's edge along x at y = z = 1, and asserts that their order does not matter.
 fn step_of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
-    let placed = moved(&cube, &point, at);
-    let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let placed = pair_with_b_moved(&cube, &point, at);
+    let edge = nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0));
     let there = next(&placed.b, 0, &placed.a, edge, placed.scale);
-    let back = moved(&point, &cube, -at);
+    let back = pair_with_b_moved(&point, &cube, -at);
     assert_eq!(there, next(&back.a, 0, &back.b, edge, back.scale));
     there
 }
@@ -37,7 +40,7 @@ fn points_in_the_edges_region_stop_the_march(
 #[case(DVec3::new(1.0 + f64::EPSILON, 2.0, 2.0), DVec3::ONE)]
 #[case(DVec3::new(-7.0, 2.0, 2.0), DVec3::new(-1.0, 1.0, 1.0))]
 fn points_beyond_an_end_continue_to_it(#[case] at: DVec3, #[case] corner: DVec3) {
-    let corner = vertex(&cube(), corner);
+    let corner = nearest_vertex(&cube(), corner);
     assert_eq!(
         step_of_point(at),
         MarchStep::Continue(Feature::Vertex(0), Feature::Vertex(corner))
@@ -52,7 +55,7 @@ fn points_beyond_an_end_continue_to_it(#[case] at: DVec3, #[case] corner: DVec3)
 #[case(DVec3::new(0.0, 0.9, 0.5), DVec3::Y)]
 #[case(DVec3::new(0.0, 0.5, 0.9), DVec3::Z)]
 fn points_over_a_face_continue_to_it(#[case] at: DVec3, #[case] normal: DVec3) {
-    let face = face(&cube(), normal);
+    let face = face_along(&cube(), normal);
     assert_eq!(
         step_of_point(at),
         MarchStep::Continue(Feature::Vertex(0), Feature::Face(face))
@@ -73,8 +76,8 @@ fn corners_continue_to_descending_edges(#[case] slope: f64, #[case] falls: Optio
     let turn = DQuat::from_rotation_y(-slope);
     // The needle's first corner is a millionth above the edge's bisector.
     let up = DVec3::new(0.0, 1.0, 1.0) + 1e-6 * DVec3::new(0.0, 1.0, 1.0);
-    let placed = turned(&cube, &needle, turn, up - turn * (-0.4 * DVec3::X));
-    let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let placed = pair_with_placed_b(&cube, &needle, turn, up - turn * (-0.4 * DVec3::X));
+    let edge = nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0));
     let said = next(&placed.b, 0, &placed.a, edge, placed.scale);
     match falls {
         Some(_) => assert_eq!(

@@ -3,17 +3,19 @@
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep, WhichPolytope};
-use crate::tests::setting::{cube, edge, face, moved, needle, point, turned};
+use crate::tests::setting::{
+    cube, face_along, nearest_edge, needle, pair_with_b_moved, pair_with_placed_b, point,
+};
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
 /// Returns the step for a point and the cube's top face, and asserts that their order does not matter.
 fn step_of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
-    let placed = moved(&cube, &point, at);
-    let top = face(&cube, DVec3::Z);
+    let placed = pair_with_b_moved(&cube, &point, at);
+    let top = face_along(&cube, DVec3::Z);
     let there = next(&placed.b, 0, &placed.a, top, placed.scale);
-    let back = moved(&point, &cube, -at);
+    let back = pair_with_b_moved(&point, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
         (MarchStep::LocalMinimum(..), MarchStep::LocalMinimum(..)) => {}
@@ -42,7 +44,7 @@ fn points_above_the_face_stop_the_march(
 #[case(DVec3::new(-2.0, -3.0, 2.0), DVec3::new(0.0, -1.0, 1.0))]
 #[case(DVec3::new(0.0, 5.0, -9.0), DVec3::new(0.0, 1.0, 1.0))]
 fn points_continue_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) {
-    let edge = edge(&cube(), middle);
+    let edge = nearest_edge(&cube(), middle);
     assert_eq!(
         step_of_point(at),
         MarchStep::Continue(Feature::Vertex(0), Feature::Edge(edge))
@@ -56,7 +58,7 @@ fn points_behind_the_face_are_local_minima(#[case] at: DVec3) {
     let MarchStep::LocalMinimum(which, minimum) = step_of_point(at) else {
         panic!("it is below the top");
     };
-    let top = face(&cube(), DVec3::Z);
+    let top = face_along(&cube(), DVec3::Z);
     assert_eq!(
         (which, minimum.feature, minimum.face),
         (WhichPolytope::X, Feature::Vertex(0), top)
@@ -72,13 +74,13 @@ fn points_behind_the_face_are_local_minima(#[case] at: DVec3) {
 #[case(1e-14, false)]
 fn corners_continue_along_descending_edges(#[case] slope: f64, #[case] falls: bool) {
     let (cube, needle) = (cube(), needle(0.4 * DVec3::X));
-    let placed = turned(
+    let placed = pair_with_placed_b(
         &cube,
         &needle,
         DQuat::from_rotation_y(-slope),
         1.5 * DVec3::Z,
     );
-    let top = face(&cube, DVec3::Z);
+    let top = face_along(&cube, DVec3::Z);
     let said = next(&placed.b, 0, &placed.a, top, placed.scale);
     if falls {
         assert_eq!(

@@ -1,9 +1,12 @@
 //! Tests the nearest points of two features, and the combinations that represent these points.
 
-use super::{Witness, foot};
+use super::{Witness, clamped_foot_weights};
 use crate::feature::{Feature, Pair};
-use crate::tests::setting::{cube, edge, face, moved, needle, point, prepared_polytope, vertex};
-use crate::tests::shape::{self, Pcg64, RngExt, SeedableRng, magnitude, vector};
+use crate::tests::setting::{
+    cube, face_along, nearest_edge, nearest_vertex, needle, pair_with_b_moved, point,
+    prepared_polytope,
+};
+use crate::tests::shape::{self, Pcg64, RngExt, SeedableRng, random_magnitude, random_vector};
 use ccd_core::glam::DVec3;
 
 /// Returns the nearest points of a pair, after a check that the combinations represent them.
@@ -14,7 +17,7 @@ fn witness(
     of: impl Fn(&crate::polytope::Polytope, &crate::polytope::Polytope) -> Pair,
 ) -> Witness {
     let (one, other) = (prepared_polytope(a), prepared_polytope(b));
-    let placed = moved(&one, &other, at);
+    let placed = pair_with_b_moved(&one, &other, at);
     let witness = Witness::new(&placed, of(&one, &other));
     let claim = witness.claim;
     let on_a = claim.a.position(&a.points).expect("a point of A");
@@ -31,25 +34,25 @@ fn features_have_nearest_points() {
     let at = DVec3::new(0.25, 3.0, 4.0);
     let single = shape::shape_of_points(&[DVec3::ZERO]);
     let corner = witness(&cuboid, &single, at, |a, _| Pair {
-        a: Feature::Vertex(vertex(a, DVec3::ONE)),
+        a: Feature::Vertex(nearest_vertex(a, DVec3::ONE)),
         b: Feature::Vertex(0),
     });
     assert_eq!(corner.claim.axis, at - DVec3::ONE);
     let side = witness(&cuboid, &single, at, |a, _| Pair {
-        a: Feature::Edge(edge(a, DVec3::Y + DVec3::Z)),
+        a: Feature::Edge(nearest_edge(a, DVec3::Y + DVec3::Z)),
         b: Feature::Vertex(0),
     });
     assert_eq!(side.offset(), DVec3::new(0.0, 2.0, 3.0));
     assert_eq!(side.claim.axis, side.offset());
     let top = witness(&cuboid, &single, DVec3::new(0.25, -0.5, 4.0), |a, _| Pair {
-        a: Feature::Face(face(a, DVec3::Z)),
+        a: Feature::Face(face_along(a, DVec3::Z)),
         b: Feature::Vertex(0),
     });
     assert_eq!((top.offset(), top.claim.axis), (3.0 * DVec3::Z, DVec3::Z));
     let back = witness(&single, &cuboid, DVec3::new(0.25, -0.5, -4.0), |_, b| {
         Pair {
             a: Feature::Vertex(0),
-            b: Feature::Face(face(b, DVec3::Z)),
+            b: Feature::Face(face_along(b, DVec3::Z)),
         }
     });
     assert_eq!(
@@ -84,7 +87,7 @@ fn axes_are_those_of_the_features() {
         .normalize();
     for gap in [1e-3, 1e-9, 1e-15] {
         for side in [normal, -normal] {
-            let placed = moved(&one, &other, gap * side);
+            let placed = pair_with_b_moved(&one, &other, gap * side);
             let pair = Pair {
                 a: Feature::Edge(0),
                 b: Feature::Edge(0),
@@ -98,7 +101,7 @@ fn axes_are_those_of_the_features() {
 #[test]
 fn pairs_that_are_never_a_stop_have_points() {
     let (cube, point) = (cube(), point());
-    let placed = moved(&cube, &cube, 4.0 * DVec3::X);
+    let placed = pair_with_b_moved(&cube, &cube, 4.0 * DVec3::X);
     let pair = Pair {
         a: Feature::Face(0),
         b: Feature::Face(1),
@@ -112,9 +115,9 @@ fn pairs_that_are_never_a_stop_have_points() {
 fn feet_are_right_on_needles() {
     let mut rng = Pcg64::seed_from_u64(4);
     for _ in 0..20_000 {
-        let thin = magnitude(&mut rng, -12.0, 0.0);
+        let thin = random_magnitude(&mut rng, -12.0, 0.0);
         let corners = [(); 3].map(|()| {
-            let v = vector(&mut rng);
+            let v = random_vector(&mut rng);
             DVec3::new(v.x, thin * v.y, 0.0)
         });
         let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).z;
@@ -125,7 +128,7 @@ fn feet_are_right_on_needles() {
         };
         let (s, t): (f64, f64) = (rng.random_range(0.0..0.5), rng.random_range(0.0..0.5));
         let below = triangle[0] + s * (triangle[1] - triangle[0]) + t * (triangle[2] - triangle[0]);
-        let weights = foot(
+        let weights = clamped_foot_weights(
             below + rng.random_range(0.0..2.0) * DVec3::Z,
             triangle,
             DVec3::Z,
@@ -149,7 +152,7 @@ fn feet_outside_of_the_triangle_are_clamped_into_it() {
         (0.5, 7.0),
         (f64::NAN, 0.0),
     ] {
-        let weights = foot(DVec3::new(x, y, 1.0), triangle, DVec3::Z);
+        let weights = clamped_foot_weights(DVec3::new(x, y, 1.0), triangle, DVec3::Z);
         assert!(
             weights.iter().all(|w| (0.0..=1.0).contains(w)),
             "{weights:?}"
@@ -165,14 +168,14 @@ fn axes_certify_edges_that_cross_at_any_angle() {
     let mut rng = Pcg64::seed_from_u64(9);
     for _ in 0..5_000 {
         let (angle, gap) = (
-            magnitude(&mut rng, -9.0, 0.0),
-            magnitude(&mut rng, -9.0, 0.0),
+            random_magnitude(&mut rng, -9.0, 0.0),
+            random_magnitude(&mut rng, -9.0, 0.0),
         );
-        let offset = shape::direction(&mut rng);
+        let offset = shape::random_direction(&mut rng);
         let normal = offset.any_orthonormal_vector();
         let other = ccd_core::glam::DQuat::from_axis_angle(normal, angle) * offset;
         let (one, other) = (needle(0.9 * offset), needle(0.8 * other));
-        let placed = moved(&one, &other, gap * normal + 0.1 * offset);
+        let placed = pair_with_b_moved(&one, &other, gap * normal + 0.1 * offset);
         let pair = Pair {
             a: Feature::Edge(0),
             b: Feature::Edge(0),

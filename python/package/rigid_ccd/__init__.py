@@ -20,10 +20,11 @@ Lengths are in any one unit, times in the motions' unit, angles in radians. Quat
 tables of the command ``ccd``.
 """
 
-from ._answers import Contact, Distance
+from ._answers import Contact, Distance, PathContact, PathDistance
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
+    Cell,
     Chain,
     InputError,
     Interrupted,
@@ -31,6 +32,7 @@ from ._rigid_ccd import (
     Link,
     Motion,
     Path,
+    Robot,
     Table,
     Unresolved,
     closest_approach,
@@ -48,6 +50,7 @@ from ._tables import (
 
 __all__ = [
     "Body",
+    "Cell",
     "Chain",
     "Contact",
     "Distance",
@@ -57,6 +60,9 @@ __all__ = [
     "Link",
     "Motion",
     "Path",
+    "PathContact",
+    "PathDistance",
+    "Robot",
     "Table",
     "TableQuery",
     "Unresolved",

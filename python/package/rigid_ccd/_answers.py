@@ -57,3 +57,39 @@ class Distance:
     witness_a: Point | None
     witness_b: Point | None
     clearance: Literal["kept", "violated", "unverified"] | None
+
+
+@dataclass(frozen=True)
+class PathContact:
+    """A pair of a cell that touches on a path, or is nearest there.
+
+    Attributes:
+        segment: the number of the segment between two configurations, from 0. An edge has only segment 0.
+        share: the share of the segment that is passed, from 0 to 1. Nothing touches before a first contact.
+        a: the name of the link, or of the body attached to one.
+        b: the name of the other link, attached body or obstacle.
+        witness_a: the point of `a` nearest to `b`, in the frame of the robot's base.
+        witness_b: the point of `b` nearest to `a`.
+    """
+
+    segment: int
+    share: float
+    a: str
+    b: str
+    witness_a: Point
+    witness_b: Point
+
+
+@dataclass(frozen=True)
+class PathDistance:
+    """Bounds of the least distance on a path, to within the tolerance unless a limit was reached.
+
+    Attributes:
+        lower: nothing is ever nearer than this.
+        upper: the nearest pair comes at least as near as this.
+        nearest: the nearest pair; None if no pair was measured.
+    """
+
+    lower: float
+    upper: float
+    nearest: PathContact | None

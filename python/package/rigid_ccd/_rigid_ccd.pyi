@@ -1,17 +1,18 @@
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from os import PathLike
 from typing import Any, Literal, Protocol, TypeAlias, Unpack, final
 
 from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
-from ._answers import Contact, Distance
+from ._answers import Contact, Distance, PathContact, PathDistance
 from ._settings import OfApproaches as _OfApproaches
 from ._settings import OfContacts as _OfContacts
 from ._settings import OfDistances as _OfDistances
 
 __all__ = [
     "Body",
+    "Cell",
     "Chain",
     "InputError",
     "Interrupted",
@@ -19,6 +20,7 @@ __all__ = [
     "Link",
     "Motion",
     "Path",
+    "Robot",
     "Table",
     "Unresolved",
     "answer_table",
@@ -156,6 +158,78 @@ class Link:
     def duration(self) -> float: ...
     def seen_from(self, link: int) -> Link: ...
     def pose(self, time: float) -> NDArray[float64]: ...
+
+@final
+class Robot:
+    @classmethod
+    def from_urdf(
+        cls,
+        path: str | PathLike[str],
+        srdf: str | PathLike[str] | None = None,
+        packages: Sequence[str | PathLike[str]] | None = None,
+        *,
+        geometry: Literal["collision", "visual"] = "collision",
+        meshes: Literal["exact", "hull"] = "exact",
+    ) -> Robot: ...
+    @property
+    def joint_names(self) -> list[str]: ...
+    @property
+    def link_names(self) -> list[str]: ...
+    @property
+    def limits(self) -> NDArray[float64]: ...
+    @property
+    def checked_pairs(self) -> list[tuple[str, str]]: ...
+    def pose(self, link: str, configuration: ArrayLike) -> NDArray[float64]: ...
+
+@final
+class Cell:
+    def __new__(cls, robot: Robot) -> Cell: ...
+    def add(self, name: str, body: Body, pose: _Pose | None = None) -> None: ...
+    def move_to(self, name: str, pose: _Pose) -> None: ...
+    def remove(self, name: str) -> None: ...
+    def attach(
+        self,
+        name: str,
+        body: Body,
+        link: str,
+        pose: _Pose | None = None,
+        may_touch: Sequence[str] = ...,
+    ) -> None: ...
+    def detach(self, name: str) -> None: ...
+    def set_padding(self, link: str, distance: float) -> None: ...
+    def set_clearance(self, a: str, b: str, distance: float) -> None: ...
+    def is_free(
+        self,
+        path: ArrayLike,
+        **settings: Unpack[_OfContacts],
+    ) -> bool: ...
+    def first_contact(
+        self,
+        path: ArrayLike,
+        **settings: Unpack[_OfContacts],
+    ) -> PathContact | None: ...
+    def closest_approach(
+        self,
+        path: ArrayLike,
+        **settings: Unpack[_OfDistances],
+    ) -> PathDistance: ...
+    def edges(
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
+        *,
+        threads: int | None = None,
+        **settings: Unpack[_OfContacts],
+    ) -> Table: ...
+    def paths(
+        self,
+        paths: ArrayLike,
+        ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
+        *,
+        threads: int | None = None,
+        **settings: Unpack[_OfContacts],
+    ) -> Table: ...
 
 @final
 class Table:

@@ -59,10 +59,10 @@ pub(crate) fn answer(
     let mut pieces = RowChunks::new(source, asked.question, IdReading::Skipped, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
-        let found = rows(asked, &piece, &columns, solver, stop);
+        let found = answer_rows(asked, &piece, &columns, solver, stop);
         done.fetch_add(found.len(), Ordering::Relaxed);
-        size.adapt(piece.rows(), start.elapsed());
-        let is_whole = found.len() == piece.rows();
+        size.adapt(piece.row_count(), start.elapsed());
+        let is_whole = found.len() == piece.row_count();
         let found = results::batch(asked.question, piece.ids(found.len()), &found);
         found.map(|found| (found, is_whole))
     });
@@ -89,7 +89,7 @@ pub(crate) fn answer(
 ///
 /// All rows are read before the first is asked about, and results are made after the last: in turn, each of the three
 /// would start with cold caches.
-fn rows(
+fn answer_rows(
     asked: TableQuestion<'_>,
     piece: &RowChunk,
     columns: &Columns,

@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(crate) struct Batch {
     /// The index of the batch's first row in the table.
     pub(crate) first: usize,
-    pub(crate) rows: usize,
+    pub(crate) row_count: usize,
     /// The column `id` with the caller's own values.
     id: Option<ArrayRef>,
     id_reading: IdReading,
@@ -38,7 +38,7 @@ struct NumberColumn {
 /// Whether the ids of rows are read as text; results have the caller's own values in either case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IdReading {
-    Read,
+    AsText,
     Skipped,
 }
 
@@ -47,7 +47,7 @@ pub(crate) enum IdReading {
 pub(crate) struct Row {
     pub(crate) batch: Arc<Batch>,
     /// The index of the row in its batch.
-    pub(crate) at: usize,
+    pub(crate) row_index: usize,
 }
 
 /// Returns the names of a table's columns.
@@ -156,7 +156,7 @@ impl Batch {
         }
         Ok(Batch {
             first,
-            rows: batch.num_rows(),
+            row_count: batch.num_rows(),
             id,
             id_reading: names,
             columns,
@@ -217,32 +217,32 @@ fn inexact_integers<T: ArrowPrimitiveType<Native: Into<i128>>>(
 impl Record for Row {
     fn text(&self, _: usize) -> Option<String> {
         let id = self.batch.id.as_ref()?;
-        let is_null = id.is_null(self.at) || id.data_type().is_null();
+        let is_null = id.is_null(self.row_index) || id.data_type().is_null();
         if self.batch.id_reading == IdReading::Skipped || is_null {
             return None;
         }
         let options = FormatOptions::default();
         let texts = ArrayFormatter::try_new(id.as_ref(), &options).ok()?;
-        texts.value(self.at).try_to_string().ok()
+        texts.value(self.row_index).try_to_string().ok()
     }
 
     fn has_value(&self, cell: usize) -> bool {
-        matches!(self.batch.columns.get(cell), Some(Some(column)) if column.values.is_valid(self.at))
+        matches!(self.batch.columns.get(cell), Some(Some(column)) if column.values.is_valid(self.row_index))
     }
 
     fn number(&self, cell: usize) -> Result<Option<f64>, String> {
         let Some(Some(column)) = self.batch.columns.get(cell) else {
             return Ok(None);
         };
-        if column.values.is_null(self.at) {
+        if column.values.is_null(self.row_index) {
             return Ok(None);
         }
         if let Some(inexact) = &column.inexact_integers
-            && let Some(whole) = inexact.get(&self.at)
+            && let Some(whole) = inexact.get(&self.row_index)
         {
             return Err(whole.clone());
         }
-        match column.values.value(self.at) {
+        match column.values.value(self.row_index) {
             value if value.is_finite() => Ok(Some(value)),
             value => Err(value.to_string()),
         }
@@ -250,7 +250,10 @@ impl Record for Row {
 }
 
 /// Reads a whole table as one batch, or its first rows if the flag `stop` is set meanwhile.
-pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, ArrowError> {
+pub(crate) fn read_whole_table(
+    reader: Reader,
+    stop: &AtomicBool,
+) -> Result<RecordBatch, ArrowError> {
     let fields = reader.schema().fields().clone();
     let fields = fields.iter().map(|field| {
         let kind = decoded_type(field.data_type()).clone();
@@ -276,17 +279,20 @@ pub(crate) struct RowReader {
     header: Vec<String>,
     current_row: Row,
     /// The number of rows read so far.
-    rows_read: usize,
+    read_row_count: usize,
 }
 
 impl RowReader {
     /// Creates the iterator over all rows of a table; ids are read as text.
     pub(crate) fn new(table: &RecordBatch) -> Result<Self, TableError> {
-        let batch = Arc::new(Batch::new(table, 0, IdReading::Read)?);
+        let batch = Arc::new(Batch::new(table, 0, IdReading::AsText)?);
         Ok(RowReader {
             header: header(&table.schema()),
-            current_row: Row { batch, at: 0 },
-            rows_read: 0,
+            current_row: Row {
+                batch,
+                row_index: 0,
+            },
+            read_row_count: 0,
         })
     }
 
@@ -308,12 +314,12 @@ impl Records for RowReader {
     }
 
     fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
-        let row = self.rows_read;
-        if row == self.current_row.batch.rows {
+        let row = self.read_row_count;
+        if row == self.current_row.batch.row_count {
             return Ok(None);
         }
-        self.rows_read += 1;
-        self.current_row.at = row;
+        self.read_row_count += 1;
+        self.current_row.row_index = row;
         let line = row as u64;
         Ok(Some(RowPosition { row, line }))
     }

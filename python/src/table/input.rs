@@ -33,7 +33,7 @@ fn open_without_catching_panics(motions: &Bound<'_, PyAny>) -> PyResult<Reader> 
             reader.map(catch_reader_panics).map_err(failed)
         };
         return match library_of_frame(motions)?.as_deref() {
-            Some("pandas") => read(&frame_without_index(motions)?),
+            Some("pandas") => read(&frame_with_index_reset(motions)?),
             Some("polars") => read(&frame_without_null_types(motions)?),
             _ => read(motions),
         };
@@ -102,7 +102,7 @@ fn frame_without_null_types<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'p
 }
 
 /// Returns a pandas frame whose index is a column if it has a name, and is left out otherwise.
-fn frame_without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+fn frame_with_index_reset<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
     let how = PyDict::new(frame.py());
@@ -111,7 +111,7 @@ fn frame_without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Py
 }
 
 /// Returns the number of answers to expect; `None` if the table does not know its number of rows, or has paths.
-pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize> {
+pub(crate) fn expected_answer_count(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize> {
     if reader.schema().field_with_name(TIME_COLUMN).is_ok() {
         return None;
     }

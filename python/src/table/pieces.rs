@@ -1,7 +1,7 @@
 //! Splits a table into pieces, each answered by one thread.
 
 use super::batch::{
-    Batch, IdReading, Row, RowReader, check_types, header, unreadable_error, whole,
+    Batch, IdReading, Row, RowReader, check_types, header, read_whole_table, unreadable_error,
 };
 use super::input::Reader;
 use arrow_array::ArrayRef;
@@ -37,7 +37,7 @@ enum RowSource {
         reader: Reader,
         id_reading: IdReading,
         /// The number of rows read so far.
-        rows_read: usize,
+        read_row_count: usize,
         /// The remaining rows of the last batch.
         rest: Option<(Arc<Batch>, Range<usize>)>,
     },
@@ -106,7 +106,7 @@ impl<'p> RowChunks<'p> {
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
         let source = if columns.is_path_table() {
-            let rows = RowReader::new(&whole(reader, stop).map_err(unreadable_error)?)?;
+            let rows = RowReader::new(&read_whole_table(reader, stop).map_err(unreadable_error)?)?;
             let batch = rows.batch();
             RowSource::Paths(
                 Box::new(MovementRows::of(rows, question.path_grouping())?),
@@ -116,7 +116,7 @@ impl<'p> RowChunks<'p> {
             RowSource::Motions {
                 reader,
                 id_reading: names,
-                rows_read: 0,
+                read_row_count: 0,
                 rest: None,
             }
         };
@@ -161,7 +161,7 @@ impl RowSource {
             RowSource::Motions {
                 reader,
                 id_reading: names,
-                rows_read: read,
+                read_row_count: read,
                 rest,
             } => {
                 let (batch, rows) = match rest.take() {
@@ -172,8 +172,8 @@ impl RowSource {
                             return Ok(None);
                         };
                         let batch = Batch::new(&batch, *read, *names)?;
-                        *read += batch.rows;
-                        let rows = 0..batch.rows;
+                        *read += batch.row_count;
+                        let rows = 0..batch.row_count;
                         (Arc::new(batch), rows)
                     }
                 };
@@ -198,7 +198,7 @@ impl RowSource {
 
 impl RowChunk {
     /// Returns the number of rows or paths in the piece.
-    pub(crate) fn rows(&self) -> usize {
+    pub(crate) fn row_count(&self) -> usize {
         match self {
             RowChunk::Motions(_, rows) => rows.len(),
             RowChunk::Path(..) => 1,
@@ -218,7 +218,7 @@ impl RowChunk {
         &'p self,
         columns: &'p Columns,
     ) -> impl Iterator<Item = CourseRow> + 'p {
-        (0..self.rows()).map(move |k| match self {
+        (0..self.row_count()).map(move |k| match self {
             RowChunk::Motions(batch, rows) => read_row(batch, rows.start + k, columns),
             RowChunk::Path(row, _) => (**row).clone(),
         })
@@ -234,7 +234,7 @@ fn read_row(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
     };
     let record = Row {
         batch: Arc::clone(batch),
-        at,
+        row_index: at,
     };
     match motions::query(columns, &record, row) {
         Ok(query) => Ok((position, Movements::Motions(query))),

@@ -1,17 +1,20 @@
 use super::*;
 
 const CORNERS: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
-const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+const TETRAHEDRON_FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 
 #[test]
 fn a_tetrahedron_is_closed() {
-    assert_eq!(find_open_edge(&CORNERS, &FACES), None);
+    assert_eq!(find_open_edge(&CORNERS, &TETRAHEDRON_FACES), None);
 }
 
 #[test]
 fn a_missing_or_turned_face_leaves_edges_open() {
-    assert_eq!(find_open_edge(&CORNERS, &FACES[..3]), Some([1, 2]));
-    let mut turned = FACES;
+    assert_eq!(
+        find_open_edge(&CORNERS, &TETRAHEDRON_FACES[..3]),
+        Some([1, 2])
+    );
+    let mut turned = TETRAHEDRON_FACES;
     turned[3] = [1, 3, 2];
     assert_eq!(find_open_edge(&CORNERS, &turned), Some([1, 2]));
 }
@@ -19,7 +22,7 @@ fn a_missing_or_turned_face_leaves_edges_open() {
 #[test]
 fn vertices_at_one_place_are_one() {
     // Each face has corners of its own, and some zeros are negative.
-    let corners: Vec<DVec3> = FACES
+    let corners: Vec<DVec3> = TETRAHEDRON_FACES
         .iter()
         .flatten()
         .map(|&k| CORNERS[k as usize])
@@ -43,7 +46,7 @@ fn vertices_at_one_place_are_one() {
 
 #[test]
 fn faces_without_area_change_nothing() {
-    let mut faces = FACES.to_vec();
+    let mut faces = TETRAHEDRON_FACES.to_vec();
     faces.extend([[0, 0, 1], [2, 2, 2]]);
     assert_eq!(find_open_edge(&CORNERS, &faces), None);
 }

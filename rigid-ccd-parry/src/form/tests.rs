@@ -1,6 +1,6 @@
 use super::*;
 
-fn sub_shapes_with_points(form: &ShapeGeometry) -> Vec<(u32, DVec3)> {
+fn first_points_with_sub_shape_indices(form: &ShapeGeometry) -> Vec<(u32, DVec3)> {
     let (body, numbers) = form.body().expect("a body");
     let pieces = body.pieces().iter().map(|piece| piece.points[0]);
     let mut at: Vec<(u32, DVec3)> = numbers.into_iter().zip(pieces).collect();
@@ -17,7 +17,7 @@ fn pieces_keep_their_numbers_in_any_order() {
         let pose = Pose::at([f64::from(k * 7 % 50), 0.0, 0.0]).expect("a pose");
         parts.push_at_pose(&pose, &inner, k).expect("a part");
     }
-    for (number, first) in sub_shapes_with_points(&parts) {
+    for (number, first) in first_points_with_sub_shape_indices(&parts) {
         assert_eq!(first.x, f64::from(number * 7 % 50));
     }
     let mut mesh = ShapeGeometry::EMPTY;
@@ -26,13 +26,13 @@ fn pieces_keep_their_numbers_in_any_order() {
         let corners = [DVec3::ZERO, DVec3::Y, DVec3::Z].map(|v| DVec3::X * x + v);
         mesh.push_triangles(corners, &[[0, 1, 2]], [k]);
     }
-    assert_eq!(sub_shapes_with_points(&mesh).len(), 50);
-    for (number, first) in sub_shapes_with_points(&mesh) {
+    assert_eq!(first_points_with_sub_shape_indices(&mesh).len(), 50);
+    for (number, first) in first_points_with_sub_shape_indices(&mesh) {
         assert_eq!(first.x, f64::from(number * 7 % 50));
     }
     // Triangles combined with other parts.
     mesh.push_hull_of_points([DVec3::X * 100.0, DVec3::Y], 0.0, 50);
-    let at = sub_shapes_with_points(&mesh);
+    let at = first_points_with_sub_shape_indices(&mesh);
     assert_eq!((at.len(), at[50]), (51, (50, DVec3::X * 100.0)));
     assert!(
         at[..50]

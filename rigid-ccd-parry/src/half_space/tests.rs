@@ -1,7 +1,12 @@
 use super::*;
 use ccd_core::{Motion, Pose};
 
-fn at(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3], reach: f64) -> MotionWithExtent {
+fn motion_with_extent(
+    place: [f64; 3],
+    velocity: [f64; 3],
+    spin: [f64; 3],
+    reach: f64,
+) -> MotionWithExtent {
     let pose = Pose::at(place).expect("a pose");
     MotionWithExtent {
         motion: Motion::new(pose, velocity, spin).expect("a motion"),
@@ -26,7 +31,7 @@ fn the_box_is_above_the_plane_by_a_hair_and_as_wide_as_the_reach() {
         ] {
             let side = MotionWithExtent {
                 about,
-                ..at([0.0; 3], [0.0; 3], [0.0; 3], 0.0)
+                ..motion_with_extent([0.0; 3], [0.0; 3], [0.0; 3], 0.0)
             };
             let reach = 30.0;
             let body = plane.covering_box(side, reach).expect("a box");
@@ -71,29 +76,50 @@ fn normals_without_direction_are_refused() {
 #[test]
 fn the_horizon_ends_when_bodies_are_inside_or_away() {
     let plane = HalfSpace::new(DVec3::Y).expect("a normal");
-    let ground = at([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
+    let ground = motion_with_extent([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
     let horizon = |body| plane.horizon(ground, body, 0.25, f64::INFINITY);
-    let QueryDuration::WholeCast(falls) =
-        horizon(at([0.0, 3.0, 0.0], [5.0, -2.0, 0.0], [0.0; 3], 1.0))
-    else {
+    let QueryDuration::WholeCast(falls) = horizon(motion_with_extent(
+        [0.0, 3.0, 0.0],
+        [5.0, -2.0, 0.0],
+        [0.0; 3],
+        1.0,
+    )) else {
         panic!("it falls through");
     };
     assert!((2.125..2.126).contains(&falls), "{falls}");
-    let QueryDuration::WholeCast(rises) =
-        horizon(at([0.0, -3.0, 0.0], [5.0, 2.0, 0.0], [1.0; 3], 1.0))
-    else {
+    let QueryDuration::WholeCast(rises) = horizon(motion_with_extent(
+        [0.0, -3.0, 0.0],
+        [5.0, 2.0, 0.0],
+        [1.0; 3],
+        1.0,
+    )) else {
         panic!("it comes out");
     };
     assert!((2.125..2.126).contains(&rises), "{rises}");
-    let away = horizon(at([0.0, 3.0, 0.0], [5.0, 2.0, 0.0], [1.0; 3], 1.0));
+    let away = horizon(motion_with_extent(
+        [0.0, 3.0, 0.0],
+        [5.0, 2.0, 0.0],
+        [1.0; 3],
+        1.0,
+    ));
     assert_eq!(away, QueryDuration::WholeCast(0.0));
-    let slides = horizon(at([0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [1.0; 3], 1.0));
+    let slides = horizon(motion_with_extent(
+        [0.0, 3.0, 0.0],
+        [5.0, 0.0, 0.0],
+        [1.0; 3],
+        1.0,
+    ));
     let QueryDuration::WholeCast(turn) = slides else {
         panic!("it repeats itself");
     };
     assert!(turn > 3.6 && turn < 3.7, "{turn}");
     assert_eq!(
-        horizon(at([0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [0.0; 3], 1.0)),
+        horizon(motion_with_extent(
+            [0.0, 3.0, 0.0],
+            [5.0, 0.0, 0.0],
+            [0.0; 3],
+            1.0
+        )),
         QueryDuration::WholeCast(0.0)
     );
 }
@@ -101,9 +127,9 @@ fn the_horizon_ends_when_bodies_are_inside_or_away() {
 #[test]
 fn a_motion_that_may_be_along_a_tilted_plane_has_a_long_horizon() {
     let plane = HalfSpace::new(DVec3::new(1.0, 1.0, 1.0)).expect("a normal");
-    let ground = at([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
+    let ground = motion_with_extent([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
     // Rounding hides whether the body comes down.
-    let along = at([3.0, 3.0, 3.0], [5.0, -2.0, -3.0], [0.0; 3], 1.0);
+    let along = motion_with_extent([3.0, 3.0, 3.0], [5.0, -2.0, -3.0], [0.0; 3], 1.0);
     let horizon = plane.horizon(ground, along, 0.25, f64::INFINITY);
     assert!(
         matches!(horizon, QueryDuration::Part(duration) if duration > 1e6),

@@ -16,7 +16,7 @@ fn motion_with_extent(
     }
 }
 
-fn still(reach: f64) -> MotionWithExtent {
+fn resting_motion(reach: f64) -> MotionWithExtent {
     motion_with_extent([0.0; 3], [0.0; 3], [0.0; 3], reach)
 }
 
@@ -25,7 +25,7 @@ fn the_horizon_ends_when_bodies_have_passed() {
     for speed in [1e-30, 1.0, 1e30] {
         let flies = motion_with_extent([-4.0, 0.0, 0.0], [speed, 0.0, 0.0], [0.0; 3], 1.0);
         let QueryDuration::WholeCast(duration) =
-            QueryDuration::new([flies, still(2.0)], 0.5, f64::INFINITY)
+            QueryDuration::new([flies, resting_motion(2.0)], 0.5, f64::INFINITY)
         else {
             panic!("it passes");
         };
@@ -35,7 +35,7 @@ fn the_horizon_ends_when_bodies_have_passed() {
             duration >= exact && duration < exact * (1.0 + 1e-12),
             "{speed:e}: {duration:e}"
         );
-        let short = QueryDuration::new([flies, still(2.0)], 0.5, 0.1 * exact);
+        let short = QueryDuration::new([flies, resting_motion(2.0)], 0.5, 0.1 * exact);
         assert_eq!(short, QueryDuration::WholeCast(0.1 * exact));
     }
 }
@@ -64,7 +64,8 @@ fn the_horizon_of_periodic_motions_is_one_period() {
 #[test]
 fn travel_and_turn_stay_within_the_engines_limits() {
     let spins = motion_with_extent([-4.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [0.0, 0.0, 1e3], 1.0);
-    let QueryDuration::Part(duration) = QueryDuration::new([spins, still(1.0)], 0.0, 1e9) else {
+    let QueryDuration::Part(duration) = QueryDuration::new([spins, resting_motion(1.0)], 0.0, 1e9)
+    else {
         panic!("it turns too often");
     };
     assert!(duration * 1e3 < MAX_ROTATION_ANGLE && duration * 1e3 > 0.99 * MAX_ROTATION_ANGLE);

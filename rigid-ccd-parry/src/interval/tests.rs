@@ -16,7 +16,7 @@ fn times_are_rounded_down_and_stay_within() {
             assert!(whole.length() >= length || exact(whole.length()) >= start + length);
             for share in [0.0, 0.3, 0.7, 1.0] {
                 let after = share * length;
-                let time = whole.time_after_start(after);
+                let time = whole.cast_time_at_offset(after);
                 assert!(
                     time >= start && time <= start + length,
                     "{start} {length} {share}"
@@ -33,7 +33,7 @@ fn times_are_rounded_down_and_stay_within() {
 #[test]
 fn from_zero_times_are_exact() {
     let whole = interval(0.0, f64::INFINITY);
-    assert_eq!(whole.time_after_start(0.1), 0.1);
+    assert_eq!(whole.cast_time_at_offset(0.1), 0.1);
     assert_eq!(whole.length(), f64::INFINITY);
 }
 

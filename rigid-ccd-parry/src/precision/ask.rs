@@ -12,7 +12,7 @@ use ccd_core::{Motion, StartPolicy};
 use rigid_ccd::Solver;
 
 /// Converts the arguments of `cast_shapes_nonlinear` to a cast; `None` if the end time is before the start time.
-pub(super) fn nonlinear_cast(
+pub(super) fn nonlinear_cast_from_arguments(
     motions: [&NonlinearRigidMotion; 2],
     times: [Real; 2],
     stop_at_penetration: bool,
@@ -24,7 +24,7 @@ pub(super) fn nonlinear_cast(
 }
 
 /// Converts the arguments of `cast_shapes` to a cast; `None` if the maximum time is negative.
-pub(super) fn linear_cast(
+pub(super) fn linear_cast_from_arguments(
     bodies: [(&Pose, Vector); 2],
     asked: ShapeCastOptions,
     options: &Options,

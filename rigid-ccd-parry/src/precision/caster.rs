@@ -1,6 +1,6 @@
 //! Casts that cache the bodies of shapes.
 
-use super::ask::{self, linear_cast, nonlinear_cast};
+use super::ask::{self, linear_cast_from_arguments, nonlinear_cast_from_arguments};
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
 use super::library::shape::{SharedShape, TypedShape};
@@ -73,7 +73,8 @@ impl Caster {
         stop_at_penetration: bool,
     ) -> Result<Option<ShapeCastHit>, CastError> {
         let (motions, times) = ([motion1, motion2], [start_time, end_time]);
-        let cast = nonlinear_cast(motions, times, stop_at_penetration, &self.options)?;
+        let cast =
+            nonlinear_cast_from_arguments(motions, times, stop_at_penetration, &self.options)?;
         self.answer(cast, [g1, g2])
     }
 
@@ -95,7 +96,8 @@ impl Caster {
         g2: &SharedShape,
         options: ShapeCastOptions,
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let cast = linear_cast([(pos1, vel1), (pos2, vel2)], options, &self.options)?;
+        let cast =
+            linear_cast_from_arguments([(pos1, vel1), (pos2, vel2)], options, &self.options)?;
         self.answer(cast, [g1, g2])
     }
 
@@ -134,7 +136,8 @@ impl Caster {
         stop_at_penetration: bool,
     ) -> Result<Recording, CastError> {
         let (motions, times) = ([motion1, motion2], [start_time, end_time]);
-        let cast = nonlinear_cast(motions, times, stop_at_penetration, &self.options)?;
+        let cast =
+            nonlinear_cast_from_arguments(motions, times, stop_at_penetration, &self.options)?;
         let [a, b] = CastError::shapes_or_error([g1, g2].map(|shape| self.prepared_shape(shape)))?;
         let cast = cast.ok_or(CastError::EmptyInterval)?;
         cast.with_scene([&a, &b], |scene| Ok(Recording::new(scene)))

@@ -1,6 +1,6 @@
 //! Functions with parry's names and signatures.
 
-use super::ask::{self, linear_cast, nonlinear_cast};
+use super::ask::{self, linear_cast_from_arguments, nonlinear_cast_from_arguments};
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions, Unsupported};
 use super::library::shape::{Shape, TypedShape};
@@ -66,7 +66,8 @@ pub fn try_cast_shapes_nonlinear(
     stop_at_penetration: bool,
 ) -> Result<Option<ShapeCastHit>, CastError> {
     let options = Options::default();
-    let cast = nonlinear_cast([motion1, motion2], times, stop_at_penetration, &options)?;
+    let cast =
+        nonlinear_cast_from_arguments([motion1, motion2], times, stop_at_penetration, &options)?;
     answer(cast, [g1, g2])
 }
 
@@ -115,7 +116,8 @@ pub fn try_cast_shapes(
     (pos2, vel2, g2): (&Pose, Vector, &dyn Shape),
     options: ShapeCastOptions,
 ) -> Result<Option<ShapeCastHit>, CastError> {
-    let cast = linear_cast([(pos1, vel1), (pos2, vel2)], options, &Options::default())?;
+    let cast =
+        linear_cast_from_arguments([(pos1, vel1), (pos2, vel2)], options, &Options::default())?;
     answer(cast, [g1, g2])
 }
 

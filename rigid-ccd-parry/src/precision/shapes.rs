@@ -83,7 +83,9 @@ fn geometry_at_depth(
         TypedShape::Segment(segment) => {
             form.push_hull_of_points([segment.a, segment.b].map(point), 0.0, 0);
         }
-        TypedShape::Triangle(t) => form.push_triangles([t.a, t.b, t.c].map(point), &ONE, 0..),
+        TypedShape::Triangle(t) => {
+            form.push_triangles([t.a, t.b, t.c].map(point), &SINGLE_TRIANGLE_FACE, 0..)
+        }
         TypedShape::RoundTriangle(round) => {
             let corners = round.inner_shape.vertices().map(point);
             form.push_hull_of_points(corners, border_radius(round.border_radius)?, 0);
@@ -102,7 +104,7 @@ fn geometry_at_depth(
         TypedShape::Voxels(voxels) => push_voxels(&mut form, voxels)?,
         TypedShape::Compound(compound) => push_compound(&mut form, compound, options, depth)?,
         TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
-        TypedShape::Custom(_) => return Err(ShapeError::Custom),
+        TypedShape::Custom(_) => return Err(ShapeError::CustomShapeType),
         typed => return solid_of_revolution_geometry(&typed, options),
     }
     Ok(form)
@@ -120,7 +122,7 @@ fn solid_of_revolution_geometry(
         TypedShape::Cone(s) => (cone(s), 0.0),
         TypedShape::RoundCylinder(s) => (cylinder(&s.inner_shape), s.border_radius),
         TypedShape::RoundCone(s) => (cone(&s.inner_shape), s.border_radius),
-        _ => return Err(ShapeError::Custom),
+        _ => return Err(ShapeError::CustomShapeType),
     };
     Ok(ShapeGeometry::from_solid_of_revolution(
         made?,
@@ -171,7 +173,7 @@ fn push_polyline(form: &mut ShapeGeometry, line: &Polyline) {
 }
 
 /// The only face of a mesh that has one triangle.
-const ONE: [[u32; 3]; 1] = [[0, 1, 2]];
+const SINGLE_TRIANGLE_FACE: [[u32; 3]; 1] = [[0, 1, 2]];
 
 /// Adds the triangles of a height field to a geometry, with parry's sub-shape indices and order of corners.
 fn push_height_field(form: &mut ShapeGeometry, field: &HeightField) {
@@ -182,7 +184,11 @@ fn push_height_field(form: &mut ShapeGeometry, field: &HeightField) {
             let number = j * rows + i;
             for (triangle, number) in [(left, number), (right, number + rows * columns)] {
                 if let Some(triangle) = triangle {
-                    form.push_triangles(triangle.vertices().map(point), &ONE, number as u32..);
+                    form.push_triangles(
+                        triangle.vertices().map(point),
+                        &SINGLE_TRIANGLE_FACE,
+                        number as u32..,
+                    );
                 }
             }
         }

@@ -1,7 +1,9 @@
 //! Tests that casts agree with the engine's answers for bodies that are made by the engine's own constructors.
 
 use crate::double::make;
-use crate::scenes::{MotionSpec, ShapeSpec, motions, number, seeded_rng, shape, vector};
+use crate::scenes::{
+    MotionSpec, ShapeSpec, number, random_motions, random_shape, random_vector, seeded_rng,
+};
 use rigid_ccd::body::{Pieces, Volume};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
@@ -57,8 +59,8 @@ fn casts_are_the_engines_answers() {
             [0, 1, 3, 9][seed as usize % 4],
             [0, 1, 3, 9][seed as usize / 4 % 4],
         ];
-        let recipes = kinds.map(|kind| shape(&mut rng, kind));
-        let moves = motions(&mut rng);
+        let recipes = kinds.map(|kind| random_shape(&mut rng, kind));
+        let moves = random_motions(&mut rng);
         let config = Settings {
             tolerance: 1e-9,
             ..Settings::DEFAULT
@@ -112,8 +114,8 @@ fn an_interval_is_part_of_the_whole() {
     let mut later = 0;
     for seed in 0..300 {
         let mut rng = seeded_rng(1000 + seed);
-        let shapes = [0, 9].map(|kind| make::shape(&shape(&mut rng, kind)));
-        let moves = motions(&mut rng);
+        let shapes = [0, 9].map(|kind| make::shape(&random_shape(&mut rng, kind)));
+        let moves = random_motions(&mut rng);
         let [p, q] = moves.map(|moves| make::motion(&moves));
         let cast = |from, to| {
             let hit = cast_shapes_nonlinear(&p, &*shapes[0], &q, &*shapes[1], from, to, true);
@@ -142,8 +144,9 @@ fn an_interval_is_part_of_the_whole() {
 fn the_order_of_the_shapes_does_not_matter() {
     for seed in 0..200 {
         let mut rng = seeded_rng(2000 + seed);
-        let shapes = [seed as u32, seed as u32 / 2].map(|kind| make::shape(&shape(&mut rng, kind)));
-        let [p, q] = motions(&mut rng).map(|moves| make::motion(&moves));
+        let shapes =
+            [seed as u32, seed as u32 / 2].map(|kind| make::shape(&random_shape(&mut rng, kind)));
+        let [p, q] = random_motions(&mut rng).map(|moves| make::motion(&moves));
         let [a, b] = &shapes;
         let there = cast_shapes_nonlinear(&p, &**a, &q, &**b, 0.0, 2.0, true).expect("served");
         let back = cast_shapes_nonlinear(&q, &**b, &p, &**a, 0.0, 2.0, true).expect("served");
@@ -153,6 +156,6 @@ fn the_order_of_the_shapes_does_not_matter() {
             [t, u] => t == u,
         };
         assert!(near, "seed {seed}: {times:?}");
-        let _ = vector(&mut rng, 1.0);
+        let _ = random_vector(&mut rng, 1.0);
     }
 }

@@ -6,7 +6,9 @@ use crate::double::library::math::{Pose, Real};
 use crate::double::library::query::{NonlinearRigidMotion, ShapeCastOptions, distance};
 use crate::double::library::shape::TypedShape;
 use crate::double::make::SharedShape;
-use crate::scenes::{KINDS, MotionSpec, ShapeSpec, motions, number, seeded_rng, shape};
+use crate::scenes::{
+    MotionSpec, SHAPE_KIND_COUNT, ShapeSpec, number, random_motions, random_shape, seeded_rng,
+};
 use crate::{double, single};
 use ccd_core::order::{greater, lesser};
 use rand::RngExt;
@@ -30,11 +32,14 @@ impl Scene {
     fn new(seed: u64) -> Self {
         let mut rng = seeded_rng(seed);
         // Hulls and height fields differ in single precision.
-        let kinds = [seed as u32 % KINDS, seed as u32 / KINDS % KINDS];
+        let kinds = [
+            seed as u32 % SHAPE_KIND_COUNT,
+            seed as u32 / SHAPE_KIND_COUNT % SHAPE_KIND_COUNT,
+        ];
         let kinds = kinds.map(|kind| if [7, 8, 10].contains(&kind) { 9 } else { kind });
         let scale = [1.0, 1.0, 0.0078125, 4096.0][rng.random_range(0..4)];
-        let recipes = kinds.map(|kind| shape(&mut rng, kind).scaled(scale));
-        let moves = motions(&mut rng).map(|moves| moves.scaled(scale));
+        let recipes = kinds.map(|kind| random_shape(&mut rng, kind).scaled(scale));
+        let moves = random_motions(&mut rng).map(|moves| moves.scaled(scale));
         let shapes = [0, 1].map(|k| double::make::shape(&recipes[k]));
         Scene {
             parts: [0, 1].map(|k| parts(Pose::IDENTITY, &shapes[k])),
@@ -69,9 +74,9 @@ impl Scene {
     /// Returns the least distance over all pairs of convex parts at a time, computed by parry in both orders, the
     /// smaller first. parry's distance of many parts may be far off, as may that of two parts in one order. The true
     /// distance is between the two.
-    fn least_distance(&self, time: Real) -> (Real, Real) {
+    fn least_distance_interval(&self, time: Real) -> (Real, Real) {
         let [a, b] = self.parts.each_ref().map(|parts| {
-            let of_part = |(at, shape): &Part| triangles(*at, shape);
+            let of_part = |(at, shape): &Part| simple_parts(*at, shape);
             parts.iter().flat_map(of_part).collect::<Vec<Part>>()
         });
         let (there, least) = self.least_pair_distance(time, [&a, &b]);
@@ -94,11 +99,11 @@ impl Scene {
     }
 
     /// Returns whether the bodies are more than `by` apart at sampled times before the end.
-    fn are_bodies_apart(&self, [start, end]: [Real; 2], by: Real) -> bool {
+    fn are_apart_at_sampled_times(&self, [start, end]: [Real; 2], by: Real) -> bool {
         let at = |k: i32| start + (end - start) * Real::from(k) / 60.0;
         (0..60)
             .map(at)
-            .all(|time| self.distance(time) > by || self.least_distance(time).1 > by)
+            .all(|time| self.distance(time) > by || self.least_distance_interval(time).1 > by)
     }
 
     /// Returns a bound on the sum of both bodies' excess over their shapes.
@@ -110,7 +115,7 @@ impl Scene {
 
     /// Returns a bound on the error of parry's distances for shapes of this scene's size. For round shapes, parry's
     /// search stops at that error.
-    fn distance_error(&self) -> f64 {
+    fn max_distance_error(&self) -> f64 {
         let kinds = self.shape_specs.each_ref().map(ShapeSpec::name);
         let round = ["Round", "Capsule", "Cylinder", "Cone", "Compound"];
         let is_round = |kind: &String| round.iter().any(|round| kind.starts_with(round));
@@ -144,7 +149,7 @@ fn parts(at: Pose, shape: &SharedShape) -> Vec<Part> {
 }
 
 /// Returns the triangles of a mesh, the segments of a polyline, and any other shape itself.
-fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
+fn simple_parts(at: Pose, shape: &SharedShape) -> Vec<Part> {
     match shape.as_typed_shape() {
         TypedShape::TriMesh(mesh) => (mesh.triangles())
             .map(|triangle| (at, SharedShape::new(triangle)))
@@ -159,9 +164,9 @@ fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
 /// The number of hits after the start, of misses, and of hits at the start.
 #[derive(Debug, Default)]
 struct HitCounts {
-    hits: u64,
-    misses: u64,
-    hits_at_start: u64,
+    later_hit_count: u64,
+    miss_count: u64,
+    start_hit_count: u64,
 }
 
 impl HitCounts {
@@ -176,9 +181,9 @@ impl HitCounts {
         tolerance: f64,
         name: &str,
     ) {
-        let (until, distance_error) = (found.unwrap_or(end), scene.distance_error());
+        let (until, distance_error) = (found.unwrap_or(end), scene.max_distance_error());
         if found == Some(start) {
-            self.hits_at_start += 1;
+            self.start_hit_count += 1;
         } else {
             let by = if target > 0.0 {
                 target - distance_error
@@ -186,23 +191,28 @@ impl HitCounts {
                 0.0
             };
             assert!(
-                scene.are_bodies_apart([start, until], by),
+                scene.are_apart_at_sampled_times([start, until], by),
                 "{name}: before {until}"
             );
         }
         match found {
             Some(time) => {
-                self.hits += u64::from(time > start);
+                self.later_hit_count += u64::from(time > start);
                 let most = target + tolerance + scene.excess() + distance_error;
-                let near = scene.distance(time) <= most || scene.least_distance(time).0 <= most;
-                assert!(near, "{name}: {:e} at {time}", scene.least_distance(time).0);
+                let near =
+                    scene.distance(time) <= most || scene.least_distance_interval(time).0 <= most;
+                assert!(
+                    near,
+                    "{name}: {:e} at {time}",
+                    scene.least_distance_interval(time).0
+                );
             }
-            None => self.misses += 1,
+            None => self.miss_count += 1,
         }
     }
 }
 
-fn cases(count: u64) -> u64 {
+fn case_count(count: u64) -> u64 {
     let factor = std::env::var("CCD_TEST_CASES")
         .ok()
         .and_then(|given| given.parse().ok());
@@ -211,7 +221,7 @@ fn cases(count: u64) -> u64 {
 
 #[test]
 fn nothing_touches_before_a_hit() {
-    let (mut count, all) = (HitCounts::default(), cases(400));
+    let (mut count, all) = (HitCounts::default(), case_count(400));
     for seed in 0..all {
         let scene = Scene::new(seed);
         let start = [0.0, 0.0, -0.25, 0.125f32][seed as usize % 4];
@@ -241,9 +251,9 @@ fn nothing_touches_before_a_hit() {
         }
     }
     let HitCounts {
-        hits,
-        misses,
-        hits_at_start: starts,
+        later_hit_count: hits,
+        miss_count: misses,
+        start_hit_count: starts,
     } = count;
     assert!(
         hits > all / 2 && misses > all / 4 && starts < all / 6,
@@ -253,7 +263,7 @@ fn nothing_touches_before_a_hit() {
 
 #[test]
 fn straight_casts_keep_the_target_distance() {
-    let (mut count, all) = (HitCounts::default(), cases(400));
+    let (mut count, all) = (HitCounts::default(), case_count(400));
     for seed in 0..all {
         let mut scene = Scene::new(seed);
         let mut rng = seeded_rng(seed);
@@ -279,9 +289,9 @@ fn straight_casts_keep_the_target_distance() {
         count.check(&scene, [0.0, 2.0], target, found, 1e-9, &name);
     }
     let HitCounts {
-        hits,
-        misses,
-        hits_at_start: starts,
+        later_hit_count: hits,
+        miss_count: misses,
+        start_hit_count: starts,
     } = count;
     assert!(
         hits > all / 3 && misses > all / 8 && starts < all / 3,

@@ -4,16 +4,16 @@ use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, ShapeCastHit, ShapeCastOptions, ShapeCastStatus};
 use crate::double::library::shape::{Shape, TypedShape};
 use crate::double::make;
-use crate::scenes::{MotionSpec, motions, seeded_rng, shape};
+use crate::scenes::{MotionSpec, random_motions, random_shape, seeded_rng};
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
 /// The number of hits at about the same time as parry's, and how many of them agree in points, normals and sub-shapes.
 #[derive(Debug, Default)]
 struct AgreementCounts {
-    hits: u32,
-    points: u32,
-    normals: u32,
-    sub_shapes: u32,
+    hit_count: u32,
+    agreeing_point_count: u32,
+    agreeing_normal_count: u32,
+    agreeing_sub_shape_count: u32,
 }
 
 impl AgreementCounts {
@@ -31,11 +31,13 @@ impl AgreementCounts {
             return;
         }
         let near = |a: Vector, b: Vector| u32::from(a.distance(b) < 1e-3);
-        self.hits += 1;
-        self.points += near(ours.witness1, theirs.witness1) * near(ours.witness2, theirs.witness2);
-        self.normals += near(ours.normal1, theirs.normal1) * near(ours.normal2, theirs.normal2);
+        self.hit_count += 1;
+        self.agreeing_point_count +=
+            near(ours.witness1, theirs.witness1) * near(ours.witness2, theirs.witness2);
+        self.agreeing_normal_count +=
+            near(ours.normal1, theirs.normal1) * near(ours.normal2, theirs.normal2);
         let [a, b] = shapes;
-        self.sub_shapes += u32::from(
+        self.agreeing_sub_shape_count += u32::from(
             distance_to_sub_shape(a, ours.subshape1, ours.witness1) < 1e-6
                 && distance_to_sub_shape(b, ours.subshape2, ours.witness2) < 1e-6,
         );
@@ -44,10 +46,12 @@ impl AgreementCounts {
     /// Asserts that at least nine in ten hits agree with parry's. A few hits may differ: the nearest points of parallel
     /// edges are not unique.
     fn check(&self) {
-        let most = self.hits * 9 / 10;
-        assert!(self.hits > 100, "{self:?}");
+        let most = self.hit_count * 9 / 10;
+        assert!(self.hit_count > 100, "{self:?}");
         assert!(
-            self.points >= most && self.normals >= most && self.sub_shapes >= most,
+            self.agreeing_point_count >= most
+                && self.agreeing_normal_count >= most
+                && self.agreeing_sub_shape_count >= most,
             "{self:?}"
         );
     }
@@ -75,8 +79,8 @@ fn distance_to_sub_shape(shape: &make::SharedShape, number: u32, point: Vector) 
 
 fn pair(seed: u64, kinds: [u32; 2]) -> ([make::SharedShape; 2], [MotionSpec; 2]) {
     let mut rng = seeded_rng(seed);
-    let shapes = kinds.map(|kind| make::shape(&shape(&mut rng, kind)));
-    (shapes, motions(&mut rng))
+    let shapes = kinds.map(|kind| make::shape(&random_shape(&mut rng, kind)));
+    (shapes, random_motions(&mut rng))
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Tests that bodies have the extent of parry's shapes in every direction.
 
 use crate::double;
-use crate::scenes::{KINDS, ShapeSpec, seeded_rng, shape, turn};
+use crate::scenes::{SHAPE_KIND_COUNT, ShapeSpec, random_shape, seeded_rng, turn};
 use ccd_core::order::greater;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Shape, SharedShape, TypedShape};
@@ -74,10 +74,10 @@ fn directions(seed: u64) -> Vec<DVec3> {
 
 #[test]
 fn bodies_hold_their_shapes_and_exceed_them_by_what_they_say() {
-    for kind in 0..KINDS {
+    for kind in 0..SHAPE_KIND_COUNT {
         let (mut exact, mut most) = (true, 0.0);
         for seed in 0..20 {
-            let recipe = shape(&mut seeded_rng(seed), kind);
+            let recipe = random_shape(&mut seeded_rng(seed), kind);
             let theirs = double::make::shape(&recipe);
             let ours = rigid_ccd_parry::f64::body(&*theirs, &Options::default()).expect("served");
             exact &= ours.excess() == 0.0;
@@ -93,7 +93,7 @@ fn bodies_hold_their_shapes_and_exceed_them_by_what_they_say() {
             }
         }
         let round = matches!(
-            shape(&mut seeded_rng(0), kind),
+            random_shape(&mut seeded_rng(0), kind),
             ShapeSpec::Cylinder(..) | ShapeSpec::Cone(..)
         );
         assert_eq!(
@@ -107,9 +107,9 @@ fn bodies_hold_their_shapes_and_exceed_them_by_what_they_say() {
 #[test]
 fn single_precision_makes_the_same_bodies() {
     // Convex hulls and height fields are computed by parry, in its precision.
-    for kind in (0..KINDS).filter(|kind| ![7, 8, 10, 15].contains(kind)) {
+    for kind in (0..SHAPE_KIND_COUNT).filter(|kind| ![7, 8, 10, 15].contains(kind)) {
         for seed in 0..20 {
-            let recipe = shape(&mut seeded_rng(seed), kind);
+            let recipe = random_shape(&mut seeded_rng(seed), kind);
             let options = Options::default();
             let single = crate::single::make::shape(&recipe);
             let single = rigid_ccd_parry::f32::body(&*single, &options).expect("served");

@@ -4,7 +4,7 @@ use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, NonlinearRigidMotion, ShapeCastOptions};
 use crate::double::library::shape::{HalfSpace, Shape};
 use crate::double::make;
-use crate::scenes::{motions, number, seeded_rng, shape, turn};
+use crate::scenes::{number, random_motions, random_shape, seeded_rng, turn};
 use ccd_core::order::lesser;
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
@@ -21,10 +21,10 @@ fn straight_casts_are_parrys() {
     for seed in 0..400 {
         let mut rng = seeded_rng(seed);
         let kind = [0, 1, 2, 3, 4, 5, 7, 8][seed as usize % 8];
-        let body = make::shape(&shape(&mut rng, kind));
+        let body = make::shape(&random_shape(&mut rng, kind));
         let [x, y, z, _] = turn(&mut rng).map(f64::from);
         let plane = HalfSpace::new(Vector::new(x, y, z).normalize());
-        let moves = motions(&mut rng);
+        let moves = random_motions(&mut rng);
         let [p, q] = moves.map(|moves| make::pose(moves.place, moves.turned));
         let [v, w] = moves.map(|moves| make::vector(moves.velocity));
         // Half of the bodies fly away.
@@ -61,9 +61,9 @@ fn turning_bodies_stay_above_until_they_are_hit() {
     for seed in 0..300 {
         let mut rng = seeded_rng(seed);
         let kind = [1, 3, 5, 8][seed as usize % 4];
-        let body = make::shape(&shape(&mut rng, kind));
+        let body = make::shape(&random_shape(&mut rng, kind));
         let plane = HalfSpace::new(Vector::Y);
-        let [mut moves, mut ground] = motions(&mut rng);
+        let [mut moves, mut ground] = random_motions(&mut rng);
         moves.place[1] = number(&mut rng, 1.0, 2.0);
         // The ground tilts in half of the cases.
         let tilt = [0.0, 0.3][seed as usize / 4 % 2];

@@ -21,7 +21,12 @@ fn linear_motion(x: f32, speed: f32) -> NonlinearRigidMotion {
     }
 }
 
-fn time(a: &dyn Shape, b: &dyn Shape, motions: [NonlinearRigidMotion; 2], end: f32) -> Option<f32> {
+fn impact_time(
+    a: &dyn Shape,
+    b: &dyn Shape,
+    motions: [NonlinearRigidMotion; 2],
+    end: f32,
+) -> Option<f32> {
     let [m, n] = &motions;
     let hit = cast_shapes_nonlinear(m, a, n, b, 0.0, end, true).expect("served");
     hit.map(|hit| hit.time_of_impact)
@@ -40,7 +45,7 @@ fn shapes_without_size_meet() {
     ];
     for a in &shapes {
         for b in &shapes {
-            let found = time(
+            let found = impact_time(
                 &**a,
                 &**b,
                 [linear_motion(-4.0, 2.0), motion_at_rest(0.0)],
@@ -53,7 +58,7 @@ fn shapes_without_size_meet() {
                 start: Pose::translation(-4.0, 0.001, 0.0),
                 ..linear_motion(0.0, 2.0)
             };
-            assert_eq!(time(&**a, &**b, [past, beside], 9.0), None);
+            assert_eq!(impact_time(&**a, &**b, [past, beside], 9.0), None);
         }
     }
 }
@@ -62,7 +67,7 @@ fn shapes_without_size_meet() {
 fn tiny_bodies_are_not_in_contact_at_their_own_size() {
     for scale in [1e-6, 1e-12, 1e-20, 1e-30f32] {
         let (ball, cube) = (Ball::new(scale), Cuboid::new(Vector::splat(scale)));
-        let found = time(
+        let found = impact_time(
             &ball,
             &cube,
             [linear_motion(-4.0 * scale, scale), motion_at_rest(0.0)],
@@ -76,7 +81,7 @@ fn tiny_bodies_are_not_in_contact_at_their_own_size() {
             ..past
         };
         assert_eq!(
-            time(&ball, &cube, [past, motion_at_rest(0.0)], 9.0),
+            impact_time(&ball, &cube, [past, motion_at_rest(0.0)], 9.0),
             None,
             "{scale:e}"
         );
@@ -89,7 +94,7 @@ fn large_scenes_and_far_origins_are_met_in_time() {
     for far in [0.0, 65536.0, 1e9, 68719476736.0f32] {
         let (ball, cube) = (Ball::new(1.0), Cuboid::new(Vector::splat(1.0)));
         let step = greater(far * 1e-6, 8.0).log2().ceil().exp2();
-        let found = time(
+        let found = impact_time(
             &ball,
             &cube,
             [linear_motion(far - step, 1.0), motion_at_rest(far)],
@@ -104,7 +109,7 @@ fn large_scenes_and_far_origins_are_met_in_time() {
     }
     for size in [1e3, 1e6, 1e9f32] {
         let (ball, cube) = (Ball::new(size), Cuboid::new(Vector::splat(size)));
-        let found = time(
+        let found = impact_time(
             &ball,
             &cube,
             [linear_motion(-4.0 * size, size), motion_at_rest(0.0)],
@@ -132,7 +137,7 @@ fn large_scenes_and_far_origins_are_met_in_time() {
 fn speeds_beyond_all_scales_are_met() {
     let ball = Ball::new(1.0);
     for speed in [1e-30, 1e-3, 1e6, 1e15, 1e30, 3e38f32] {
-        let found = time(
+        let found = impact_time(
             &ball,
             &ball,
             [linear_motion(-4.0, speed), motion_at_rest(0.0)],
@@ -145,7 +150,7 @@ fn speeds_beyond_all_scales_are_met() {
             "{speed:e}: {found:e}"
         );
         assert_eq!(
-            time(
+            impact_time(
                 &ball,
                 &ball,
                 [linear_motion(-4.0, -speed), motion_at_rest(0.0)],
@@ -156,7 +161,7 @@ fn speeds_beyond_all_scales_are_met() {
     }
     // Two bodies that fly along each other, at any speed.
     let along = [linear_motion(-4.0, 1e30), linear_motion(0.0, 1e30)];
-    assert_eq!(time(&ball, &ball, along, f32::INFINITY), None);
+    assert_eq!(impact_time(&ball, &ball, along, f32::INFINITY), None);
 }
 
 #[test]
@@ -263,10 +268,10 @@ fn a_speed_that_both_have_costs_no_digits() {
         linvel: orbit,
         ..motion_at_rest(0.0)
     };
-    let found = time(&ball, &ball, [near, ahead], f32::INFINITY).expect("they meet");
+    let found = impact_time(&ball, &ball, [near, ahead], f32::INFINITY).expect("they meet");
     assert!(found <= 64.0 && found > 64.0 - 2e-5, "{found}");
     assert_eq!(
-        time(
+        impact_time(
             &ball,
             &ball,
             [ahead, ahead.append_translation(3.0 * Vector::Y)],
@@ -287,7 +292,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
     };
     for speed in [0.0, 1.0, 1e6, 1e30] {
         for spin in [0.0, 1.0] {
-            let found = time(
+            let found = impact_time(
                 &ball,
                 &*ground,
                 [slides(1.5, speed, spin), motion_at_rest(0.0)],
@@ -297,7 +302,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
             let known = speed < 1e30 || spin == 0.0;
             assert_eq!(found.is_none(), known, "{speed:e} {spin}");
         }
-        let found = time(
+        let found = impact_time(
             &ball,
             &*ground,
             [slides(1.0, speed, 0.0), motion_at_rest(0.0)],
@@ -306,7 +311,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
         assert_eq!(found, Some(0.0), "{speed:e}");
     }
     // The body rotates about a point beside its middle, and comes down by a quarter.
-    let found = time(
+    let found = impact_time(
         &ball,
         &*ground,
         [slides(1.2, 1.0, 1.0), motion_at_rest(0.0)],

@@ -30,7 +30,7 @@ fn cast_ball(x: f32, speed: f32, options: ShapeCastOptions) -> Option<(f32, Shap
         .map(|hit| (hit.time_of_impact, hit.status))
 }
 
-fn is_just_before(found: Option<(f32, ShapeCastStatus)>, time: f32) -> bool {
+fn is_converged_just_before(found: Option<(f32, ShapeCastStatus)>, time: f32) -> bool {
     found.is_some_and(|(found, status)| {
         found <= time && found > time - 2e-6 && status == ShapeCastStatus::Converged
     })
@@ -42,10 +42,19 @@ fn a_target_distance_is_kept() {
         target_distance,
         ..ShapeCastOptions::default()
     };
-    assert!(is_just_before(cast_ball(-4.0, 1.0, options(0.0)), 2.0));
-    assert!(is_just_before(cast_ball(-4.0, 1.0, options(0.5)), 1.5));
+    assert!(is_converged_just_before(
+        cast_ball(-4.0, 1.0, options(0.0)),
+        2.0
+    ));
+    assert!(is_converged_just_before(
+        cast_ball(-4.0, 1.0, options(0.5)),
+        1.5
+    ));
     // Larger than both bodies.
-    assert!(is_just_before(cast_ball(-40.0, 8.0, options(30.0)), 1.0));
+    assert!(is_converged_just_before(
+        cast_ball(-40.0, 8.0, options(30.0)),
+        1.0
+    ));
     let within = cast_ball(-4.0, 1.0, options(2.5)).expect("it is within");
     assert_eq!(
         within,
@@ -73,10 +82,16 @@ fn a_target_distance_is_kept() {
 #[test]
 fn no_hit_is_after_the_end() {
     let until = ShapeCastOptions::with_max_time_of_impact;
-    assert!(is_just_before(cast_ball(-4.0, 1.0, until(2.1)), 2.0));
+    assert!(is_converged_just_before(
+        cast_ball(-4.0, 1.0, until(2.1)),
+        2.0
+    ));
     assert_eq!(cast_ball(-4.0, 1.0, until(1.99)), None);
     for end in [f32::MAX, f32::INFINITY] {
-        assert!(is_just_before(cast_ball(-4.0, 1.0, until(end)), 2.0));
+        assert!(is_converged_just_before(
+            cast_ball(-4.0, 1.0, until(end)),
+            2.0
+        ));
         assert_eq!(cast_ball(-4.0, -1.0, until(end)), None);
         assert_eq!(cast_ball(-4.0, 0.0, until(end)), None);
         assert_eq!(
@@ -105,9 +120,9 @@ fn times_count_from_the_start_of_the_motion() {
         hit.expect("served")
             .map(|hit| (hit.time_of_impact, hit.status))
     };
-    assert!(is_just_before(cast(0.0, 9.0), 2.0));
-    assert!(is_just_before(cast(1.0, 9.0), 2.0));
-    assert!(is_just_before(cast(-5.0, 9.0), 2.0));
+    assert!(is_converged_just_before(cast(0.0, 9.0), 2.0));
+    assert!(is_converged_just_before(cast(1.0, 9.0), 2.0));
+    assert!(is_converged_just_before(cast(-5.0, 9.0), 2.0));
     // They overlap from 2 to 6.
     assert_eq!(
         cast(3.0, 9.0),
@@ -116,7 +131,7 @@ fn times_count_from_the_start_of_the_motion() {
     assert_eq!(cast(6.5, 9.0), None);
     assert_eq!(cast(0.0, 1.5), None);
     assert_eq!(cast(3.0, 2.0), None);
-    assert!(is_just_before(cast(0.0, f32::INFINITY), 2.0));
+    assert!(is_converged_just_before(cast(0.0, f32::INFINITY), 2.0));
 }
 
 #[test]
@@ -248,7 +263,7 @@ fn a_mesh_is_a_surface_unless_the_options_make_it_a_solid() {
         (Meshes::SolidIfOriented, TriMeshFlags::empty()),
     ] {
         assert!(
-            is_just_before(inside(meshes, flags), 1.5),
+            is_converged_just_before(inside(meshes, flags), 1.5),
             "{meshes:?} {flags:?}"
         );
     }

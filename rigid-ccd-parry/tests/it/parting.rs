@@ -7,7 +7,7 @@ use crate::double::library::query::{
 use crate::double::library::shape::{Ball, Cuboid, HalfSpace, HeightField, Shape, SharedShape};
 use crate::double::library::utils::Array2;
 use crate::double::make;
-use crate::scenes::{motions, seeded_rng, shape, vector};
+use crate::scenes::{random_motions, random_shape, random_vector, seeded_rng};
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
 fn options() -> ShapeCastOptions {
@@ -18,7 +18,7 @@ fn options() -> ShapeCastOptions {
     }
 }
 
-fn at(x: f64, y: f64, z: f64) -> Pose {
+fn pose_at(x: f64, y: f64, z: f64) -> Pose {
     Pose::translation(x, y, z)
 }
 
@@ -53,9 +53,9 @@ fn parting_convex_shapes_are_ignored_as_in_parry() {
             [0, 1, 2, 3, 8][seed as usize % 5],
             [0, 1, 2, 3, 8][seed as usize / 5 % 5],
         ];
-        let [a, b] = kinds.map(|kind| make::shape(&shape(&mut rng, kind)));
-        let [moves, beside] = motions(&mut rng);
-        let near = vector(&mut rng, 0.3);
+        let [a, b] = kinds.map(|kind| make::shape(&random_shape(&mut rng, kind)));
+        let [moves, beside] = random_motions(&mut rng);
+        let near = random_vector(&mut rng, 0.3);
         let [p, q] = [
             make::pose(near, moves.turned),
             make::pose([0.0; 3], beside.turned),
@@ -99,7 +99,7 @@ fn a_body_slides_on_a_floor_that_it_is_in() {
         SharedShape::new(HalfSpace::new(Vector::Y)),
     ];
     for (floor, top) in floors.iter().zip([1.0, 0.0]) {
-        let within = at(-2.0, top + 0.49, 0.1);
+        let within = pose_at(-2.0, top + 0.49, 0.1);
         let slide = Vector::new(1.0, 0.0, 0.3);
         assert_eq!(cast(&ball, within, slide, &**floor), None);
         assert_eq!(
@@ -121,10 +121,10 @@ fn a_body_that_parts_from_flat_triangles_is_ignored_as_in_parry() {
     let (mut gone, mut kept) = (0, 0);
     for seed in 0..200 {
         let mut rng = seeded_rng(seed);
-        let [x, _, z] = vector(&mut rng, 2.0).map(f64::from);
-        let [vx, vy, vz] = vector(&mut rng, 1.0).map(f64::from);
+        let [x, _, z] = random_vector(&mut rng, 2.0).map(f64::from);
+        let [vx, vy, vz] = random_vector(&mut rng, 1.0).map(f64::from);
         // The body moves upwards: off the plane, and into the edges of triangles within the plane.
-        let (from, velocity) = (at(x, 0.45, z), Vector::new(vx, vy.abs(), vz));
+        let (from, velocity) = (pose_at(x, 0.45, z), Vector::new(vx, vy.abs(), vz));
         let theirs = query::cast_shapes(
             &from,
             velocity,
@@ -151,19 +151,23 @@ fn a_body_that_parts_from_flat_triangles_is_ignored_as_in_parry() {
 #[test]
 fn a_body_that_leaves_one_part_hits_the_next() {
     // The body leaves one box of a compound, and flies at the next one.
-    let boxes = [0.0, 4.0, 8.0].map(|x| (at(x, 0.0, 0.0), SharedShape::cuboid(0.5, 3.0, 3.0)));
+    let boxes = [0.0, 4.0, 8.0].map(|x| (pose_at(x, 0.0, 0.0), SharedShape::cuboid(0.5, 3.0, 3.0)));
     let walls = SharedShape::compound(boxes.to_vec());
     let ball = Ball::new(0.5);
-    let (time, status) = cast(&ball, at(0.8, 0.0, 0.0), Vector::X, &*walls).expect("the next one");
+    let (time, status) =
+        cast(&ball, pose_at(0.8, 0.0, 0.0), Vector::X, &*walls).expect("the next one");
     assert_eq!(status, ShapeCastStatus::Converged);
     assert!(time <= 2.2 && time > 2.2 - 1e-6, "{time}");
-    assert_eq!(cast(&ball, at(-0.8, 0.0, 0.0), -Vector::X, &*walls), None);
     assert_eq!(
-        cast(&ball, at(-0.8, 0.0, 0.0), Vector::X, &*walls),
+        cast(&ball, pose_at(-0.8, 0.0, 0.0), -Vector::X, &*walls),
+        None
+    );
+    assert_eq!(
+        cast(&ball, pose_at(-0.8, 0.0, 0.0), Vector::X, &*walls),
         Some((0.0, PENETRATING_STATUS))
     );
     let hit = cast_shapes(
-        &at(0.8, 0.0, 0.0),
+        &pose_at(0.8, 0.0, 0.0),
         Vector::X,
         &ball,
         &Pose::IDENTITY,
@@ -178,7 +182,7 @@ fn a_body_that_leaves_one_part_hits_the_next() {
         &Pose::IDENTITY,
         still,
         &*walls,
-        &at(0.8, 0.0, 0.0),
+        &pose_at(0.8, 0.0, 0.0),
         flies,
         &ball,
         options(),
@@ -189,7 +193,8 @@ fn a_body_that_leaves_one_part_hits_the_next() {
 #[test]
 fn bodies_that_turn_are_in_contact_where_they_overlap() {
     let cube = Cuboid::new(Vector::splat(0.5));
-    let leaves = |spin| NonlinearRigidMotion::new(at(0.9, 0.0, 0.0), Vector::ZERO, Vector::X, spin);
+    let leaves =
+        |spin| NonlinearRigidMotion::new(pose_at(0.9, 0.0, 0.0), Vector::ZERO, Vector::X, spin);
     let rests = NonlinearRigidMotion::identity();
     let cast = |spin: Vector, stop| {
         let hit = cast_shapes_nonlinear(&leaves(spin), &cube, &rests, &cube, 0.0, 5.0, stop);
@@ -216,7 +221,7 @@ fn inside_a_mesh_that_is_a_solid_nothing_parts() {
         });
         let rests = (Pose::IDENTITY, Vector::ZERO);
         let hit = caster.cast_shapes(
-            &at(x, 0.1, 0.2),
+            &pose_at(x, 0.1, 0.2),
             -Vector::X,
             &ball,
             &rests.0,

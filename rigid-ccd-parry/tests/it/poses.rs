@@ -1,6 +1,6 @@
 //! Tests that the engine's motions equal parry's.
 
-use crate::scenes::{MotionSpec, motions, number, seeded_rng, vector};
+use crate::scenes::{MotionSpec, number, random_motions, random_vector, seeded_rng};
 use crate::{double, single};
 use ccd_core::order::greater;
 use rigid_ccd::{Motion, glam::DVec3};
@@ -10,8 +10,8 @@ fn largest_error(rounds: u64, error: impl Fn(&MotionSpec, f32, [f32; 3]) -> f64)
     let mut rng = seeded_rng(1);
     let mut worst = 0.0;
     for _ in 0..rounds {
-        let [moves, _] = motions(&mut rng);
-        let (time, point) = (number(&mut rng, -2.0, 5.0), vector(&mut rng, 2.0));
+        let [moves, _] = random_motions(&mut rng);
+        let (time, point) = (number(&mut rng, -2.0, 5.0), random_vector(&mut rng, 2.0));
         worst = greater(worst, error(&moves, time, point));
     }
     worst

@@ -103,7 +103,7 @@ pub(crate) fn number(rng: &mut impl Rng, low: f32, high: f32) -> f32 {
     low + (high - low) * rng.random::<f32>()
 }
 
-pub(crate) fn vector(rng: &mut impl Rng, size: f32) -> [f32; 3] {
+pub(crate) fn random_vector(rng: &mut impl Rng, size: f32) -> [f32; 3] {
     std::array::from_fn(|_| number(rng, -size, size))
 }
 
@@ -118,13 +118,13 @@ pub(crate) fn turn(rng: &mut impl Rng) -> [f32; 4] {
 }
 
 /// The number of kinds of shapes.
-pub(crate) const KINDS: u32 = 16;
+pub(crate) const SHAPE_KIND_COUNT: u32 = 16;
 
 /// Returns a random shape of a kind, of size about 1.
-pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> ShapeSpec {
+pub(crate) fn random_shape(rng: &mut impl Rng, kind: u32) -> ShapeSpec {
     let size = |rng: &mut _| number(rng, 0.1, 0.5);
-    let points = |rng: &mut _| vector(rng, 0.5);
-    match kind % KINDS {
+    let points = |rng: &mut _| random_vector(rng, 0.5);
+    match kind % SHAPE_KIND_COUNT {
         0 => ShapeSpec::Ball(size(rng)),
         1 => ShapeSpec::Cuboid([size(rng), size(rng), size(rng)]),
         2 => ShapeSpec::RoundCuboid([size(rng), size(rng), size(rng)], 0.3 * size(rng)),
@@ -134,7 +134,7 @@ pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> ShapeSpec {
         6 => ShapeSpec::RoundTriangle([points(rng), points(rng), points(rng)], 0.3 * size(rng)),
         7 => ShapeSpec::Hull((0..12).map(|_| points(rng)).collect(), 0.0),
         8 => ShapeSpec::Hull((0..12).map(|_| points(rng)).collect(), 0.3 * size(rng)),
-        9 => mesh(rng),
+        9 => random_torus(rng),
         10 => {
             let heights = (0..20).map(|_| number(rng, -0.2, 0.2)).collect();
             ShapeSpec::Heights(heights, 5, [1.5, 1.0, 1.0])
@@ -154,7 +154,7 @@ pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> ShapeSpec {
                 // Composite shapes are refused by parry.
                 let kind =
                     [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13][number(rng, 0.0, 11.99) as usize];
-                (vector(rng, 0.5), turn(rng), shape(rng, kind))
+                (random_vector(rng, 0.5), turn(rng), random_shape(rng, kind))
             };
             ShapeSpec::Compound((0..3).map(|_| part(rng)).collect())
         }
@@ -162,7 +162,7 @@ pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> ShapeSpec {
 }
 
 /// Returns a torus of a few triangles; one in four is not closed.
-fn mesh(rng: &mut impl Rng) -> ShapeSpec {
+fn random_torus(rng: &mut impl Rng) -> ShapeSpec {
     let (rings, sides) = (7, 5);
     let thick = number(rng, 0.1, 0.25);
     let vertex = |k: u32| {
@@ -184,21 +184,21 @@ fn mesh(rng: &mut impl Rng) -> ShapeSpec {
 }
 
 /// Returns two motions of bodies that start apart; in most cases the first one is aimed at the second one.
-pub(crate) fn motions(rng: &mut impl Rng) -> [MotionSpec; 2] {
+pub(crate) fn random_motions(rng: &mut impl Rng) -> [MotionSpec; 2] {
     let moves = |rng: &mut _, place, velocity| {
         let fast = [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize];
         MotionSpec {
             place,
             turned: turn(rng),
-            centre: vector(rng, 0.3),
+            centre: random_vector(rng, 0.3),
             velocity,
-            spin: vector(rng, fast),
+            spin: random_vector(rng, fast),
         }
     };
     let start = turn(rng);
     let place = [start[0], start[1], start[2]].map(|x| 4.0 * x);
-    let aside = vector(rng, 1.0);
+    let aside = random_vector(rng, 1.0);
     let velocity = std::array::from_fn(|k| aside[k] - place[k] * number(rng, 0.5, 1.5));
-    let drift = vector(rng, 0.3);
+    let drift = random_vector(rng, 0.3);
     [moves(rng, place, velocity), moves(rng, [0.0; 3], drift)]
 }

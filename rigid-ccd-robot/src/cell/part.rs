@@ -38,7 +38,7 @@ pub(crate) struct Part {
     pub(crate) frame: usize,
     /// The corners of the hull.
     pub(crate) points: Vec<DVec3>,
-    pub(crate) support: SupportScan,
+    pub(crate) support_scan: SupportScan,
     /// The radius of the ball by which the hull is grown.
     pub(crate) radius: f64,
     /// Whether the grown hull is the body itself.
@@ -54,7 +54,7 @@ impl PlacedBody {
     /// Creates a body in a cell, which at most `max_hulls` hulls enclose. The engine takes the triangles of a polytope
     /// against other bodies of many triangles.
     pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize, max_hulls: usize) -> Self {
-        let body = match surface_of(&body) {
+        let body = match hull_surface_of_polytope(&body) {
             Some(surface) => Body::clone(&body)
                 .with_surface(surface)
                 .map_or(body, Arc::new),
@@ -90,7 +90,7 @@ impl Hull {
 
 /// Returns the triangles of the hull of a body that is one polytope with a volume and has no surface yet; `None` for other
 /// bodies. The hull is computed anew: the facets that a polytope comes with are not checked.
-fn surface_of(body: &Body) -> Option<Body> {
+fn hull_surface_of_polytope(body: &Body) -> Option<Body> {
     if body.pieces().len() != 1 || body.volume() != Volume::Solid || body.has_surface() {
         return None;
     }
@@ -129,7 +129,7 @@ impl Part {
         Part {
             owner,
             frame: placed.frame,
-            support: SupportScan::new(&points),
+            support_scan: SupportScan::new(&points),
             points,
             radius,
             is_convex: placed.body.pieces().len() == 1,

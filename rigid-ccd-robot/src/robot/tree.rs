@@ -66,7 +66,10 @@ impl Tree {
             (Some(base), None) => base,
             (Some(first), Some(second)) => {
                 let (first, second) = (name(first), name(second));
-                return Err(RobotError::TwoBases { first, second });
+                return Err(RobotError::TwoBases {
+                    first_base: first,
+                    second_base: second,
+                });
             }
             (None, _) if links.is_empty() => return Err(RobotError::NoLinks),
             (None, _) => return Err(RobotError::Loop { link: name(0) }),

@@ -17,7 +17,7 @@ impl Search<'_> {
             return Ok(Continue(()));
         }
         let mut suspects = std::mem::take(&mut self.suspects);
-        suspects.sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
+        suspects.sort_unstable_by(|a, b| a.proof_distance_share.total_cmp(&b.proof_distance_share));
         let mut step = Ok(Continue(()));
         for (k, pair) in suspects.iter().enumerate() {
             let bodies = pair.owners(self.cell.parts());
@@ -53,9 +53,9 @@ impl Search<'_> {
 
     /// Lets the engine decide about each open pair.
     pub(super) fn ask_engine(&mut self) -> Result<(), Error> {
-        let mut open = std::mem::take(&mut self.open);
+        let mut open = std::mem::take(&mut self.open_pairs);
         let result = self.decide(open.in_order(self.question));
-        self.open = open;
+        self.open_pairs = open;
         result
     }
 

@@ -16,7 +16,7 @@ pub(crate) struct Kinematics {
     /// For each joint of the robot, its number among those that move; `None` for a fixed one.
     numbers: Vec<Option<usize>>,
     /// The sum of the lengths of all joints' origins, and the number of all joints.
-    pub(crate) arms: f64,
+    pub(crate) arm_length_sum: f64,
     pub(crate) joint_count: usize,
 }
 
@@ -66,7 +66,7 @@ impl Kinematics {
             joints,
             links,
             numbers,
-            arms,
+            arm_length_sum: arms,
             joint_count: robot.joints().len(),
         }
     }

@@ -52,7 +52,7 @@ pub(crate) fn measure(
         return Measured::Free;
     }
     if skips_far && displacement > FAR_DISPLACEMENT && gap > thresholds.near {
-        pair.share = 1.0;
+        pair.proof_distance_share = 1.0;
         return Measured::Open(f64::INFINITY);
     }
     let first_axis = if pair.axis != DVec3::ZERO {
@@ -75,7 +75,7 @@ pub(crate) fn measure(
         return Measured::Free;
     }
     pair.axis = bounds.axis;
-    pair.share = (bounds.lower - radii) / required;
+    pair.proof_distance_share = (bounds.lower - radii) / required;
     let upper = bounds.upper - radii + rounding;
     if bounds.upper <= until.upper {
         Measured::Near
@@ -134,8 +134,8 @@ fn vertex([a, b]: [&Part; 2], frames: &[Frame; 2], direction: DVec3) -> Vertex {
     let in_a = frames[0].inverse_vector(direction);
     let in_b = -frames[1].inverse_vector(direction);
     let (index_a, index_b) = (
-        a.support.extremal_point(in_a),
-        b.support.extremal_point(in_b),
+        a.support_scan.extremal_point(in_a),
+        b.support_scan.extremal_point(in_b),
     );
     let point_a = frames[0].point(a.points[index_a as usize]);
     let point_b = frames[1].point(b.points[index_b as usize]);

@@ -60,7 +60,8 @@ impl OpenPairs {
             Some(open) => {
                 open.from = lesser(open.from, from);
                 open.to = greater(open.to, to);
-                open.pair.share = lesser(open.pair.share, pair.share);
+                open.pair.proof_distance_share =
+                    lesser(open.pair.proof_distance_share, pair.proof_distance_share);
             }
             None => self.0.push(OpenPair {
                 pair,
@@ -77,9 +78,11 @@ impl OpenPairs {
     pub(crate) fn in_order(&mut self, question: Question) -> &[OpenPair] {
         match question {
             Question::FirstContact => self.0.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
-            Question::AnyContact | Question::ClosestApproach => self
-                .0
-                .sort_unstable_by(|a, b| a.pair.share.total_cmp(&b.pair.share)),
+            Question::AnyContact | Question::ClosestApproach => self.0.sort_unstable_by(|a, b| {
+                a.pair
+                    .proof_distance_share
+                    .total_cmp(&b.pair.proof_distance_share)
+            }),
         }
         &self.0
     }

@@ -19,7 +19,7 @@ pub(crate) struct PartPair {
     /// The direction from A to B along which they were farthest apart so far; zero if there was none.
     pub(crate) axis: DVec3,
     /// The distance in the middle of the last stretch, as a share of what would prove it free.
-    pub(crate) share: f64,
+    pub(crate) proof_distance_share: f64,
 }
 
 /// All pairs of a cell's parts that are checked, and what finds those that come near each other.
@@ -42,7 +42,7 @@ impl PartPair {
             slots,
             margin,
             axis: DVec3::ZERO,
-            share: 0.0,
+            proof_distance_share: 0.0,
         }
     }
 
@@ -54,7 +54,7 @@ impl PartPair {
 
 impl<'c> PartPairs<'c> {
     pub(crate) fn new(cell: &'c Cell, displacements: &Displacements) -> Self {
-        let own = cell.own_pairs().map(|([a, b], frame)| {
+        let own = cell.own_part_pairs_with_frames().map(|([a, b], frame)| {
             let slots = [a, b].map(|part| displacements.slot(cell.kinematics(), part, frame));
             PartPair::new([a, b], slots, 0.0)
         });

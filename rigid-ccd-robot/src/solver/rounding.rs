@@ -26,7 +26,7 @@ pub(crate) fn point_error(
     positions: impl Iterator<Item = f64>,
 ) -> f64 {
     let joints = kinematics.joints();
-    let (mut angles, mut arms) = (0.0, kinematics.arms);
+    let (mut angles, mut arms) = (0.0, kinematics.arm_length_sum);
     for (joint, position) in joints.iter().zip(positions) {
         if joint.is_prismatic {
             arms += position;

@@ -35,7 +35,7 @@ pub(crate) struct Search<'c> {
     /// what was found.
     pub(super) suspects: Vec<PartPair>,
     /// What the engine is to decide.
-    pub(super) open: OpenPairs,
+    pub(super) open_pairs: OpenPairs,
     pub(super) solver: Solver,
     /// The positions at both ends of the stretch that the engine is asked about.
     pub(super) ends: [Vec<f64>; 2],
@@ -82,7 +82,7 @@ impl<'c> Search<'c> {
             placement,
             candidates: Vec::new(),
             suspects: Vec::new(),
-            open: OpenPairs::default(),
+            open_pairs: OpenPairs::default(),
             solver: Solver::new(),
             ends: Default::default(),
             settings: Settings::DEFAULT,
@@ -127,7 +127,7 @@ impl<'c> Search<'c> {
         self.path.set(self.cell.kinematics(), path);
         self.placement.begin(self.cell, &self.path);
         self.candidates.clear();
-        self.open.clear();
+        self.open_pairs.clear();
         let whole = Stretch::whole(self.path.segments());
         match self.search(whole, None)? {
             Break(()) => Ok(()),
@@ -147,12 +147,12 @@ impl<'c> Search<'c> {
             return Ok(Continue(()));
         }
         if let Some(limit) = self.time_limit.reached() {
-            self.found.limit = Some((limit, lesser(stretch.from, self.open.start())));
+            self.found.limit = Some((limit, lesser(stretch.from, self.open_pairs.start())));
             self.found.lower = 0.0;
             return Ok(Break(()));
         }
         let base = self.candidates.len();
-        let level = self.settings.vector_instructions.level();
+        let level = self.settings.vector_instructions.simd_level();
         let Continue(first) = vectorize!(level, _token => self.look(stretch, among)) else {
             return Ok(Break(()));
         };
@@ -161,7 +161,8 @@ impl<'c> Search<'c> {
         }
         let undecided = first..self.candidates.len();
         if !undecided.is_empty() {
-            self.candidates[first..].sort_unstable_by(|a, b| a.share.total_cmp(&b.share));
+            self.candidates[first..]
+                .sort_unstable_by(|a, b| a.proof_distance_share.total_cmp(&b.proof_distance_share));
             let [earlier, later] = stretch.halves();
             let halves = match self.question {
                 Question::FirstContact => [earlier, later],
@@ -208,7 +209,7 @@ impl<'c> Search<'c> {
                 Measured::Open(_) => {}
             }
             if is_last {
-                self.open
+                self.open_pairs
                     .leave(pair, pair.owners(self.cell.parts()), &stretch);
             } else {
                 self.candidates.push(pair);

@@ -89,7 +89,7 @@ fn random_cell(random: &mut Pcg64) -> Cell {
 }
 
 fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
-    let names = robot.joint_names();
+    let names = robot.free_joint_names();
     names.map(|_| random.random_range(-1.5..1.5)).collect()
 }
 
@@ -119,7 +119,7 @@ fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
             }
         }
     }
-    for [one, other] in LinkPairs::from_robot(robot).checked() {
+    for [one, other] in LinkPairs::from_robot(robot).checked_pairs() {
         for a in &robot.links()[one].bodies {
             for b in &robot.links()[other].bodies {
                 let at = |link: usize, pose: &Pose| poses[link].compose(pose);
@@ -130,7 +130,7 @@ fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     least
 }
 
-fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+fn configuration_between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
     let ends = from.iter().zip(to);
     ends.map(|(from, to)| from + share * (to - from)).collect()
 }
@@ -153,7 +153,7 @@ fn edges_agree_with_sampled_configurations() {
         for _ in 0..8 {
             let from = random_configuration(&mut random, cell.robot());
             let reach = [0.05, 0.5, 1.0][random.random_range(0..3)];
-            let to = between(
+            let to = configuration_between(
                 &from,
                 &random_configuration(&mut random, cell.robot()),
                 reach,
@@ -162,7 +162,7 @@ fn edges_agree_with_sampled_configurations() {
                 None => {
                     free += 1;
                     for k in 0..=12 {
-                        let at = between(&from, &to, f64::from(k) / 12.0);
+                        let at = configuration_between(&from, &to, f64::from(k) / 12.0);
                         let distance = least_distance(&cell, &at);
                         assert!(distance > margin, "{distance} on a free edge");
                         closest = lesser(closest, distance - margin);
@@ -170,7 +170,8 @@ fn edges_agree_with_sampled_configurations() {
                 }
                 Some(contact) => {
                     contacts += 1;
-                    let distance = least_distance(&cell, &between(&from, &to, contact.at.share));
+                    let distance =
+                        least_distance(&cell, &configuration_between(&from, &to, contact.at.share));
                     assert!(
                         distance <= margin + 1e-4 + 1e-9,
                         "{distance} in {contact:?}"
@@ -193,7 +194,7 @@ fn an_edge_backward_and_its_halves_agree() {
         let mut solver = cell.solver();
         let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
         let [from, to] = &ends;
-        let middle = between(from, to, 0.3);
+        let middle = configuration_between(from, to, 0.3);
         if solver.is_free(&[from, to]).unwrap() {
             free += 1;
             assert!(
@@ -204,7 +205,8 @@ fn an_edge_backward_and_its_halves_agree() {
         if solver.is_free(&[from, to]).unwrap() != solver.is_free(&[to, from]).unwrap() {
             // Both answers are right only within the tolerance.
             let shares = (0..=400).map(|k| f64::from(k) / 400.0);
-            let distances = shares.map(|share| least_distance(&cell, &between(from, to, share)));
+            let distances =
+                shares.map(|share| least_distance(&cell, &configuration_between(from, to, share)));
             let least = distances.fold(f64::INFINITY, lesser);
             assert!(least > 0.0 && least < 0.05, "{least}");
         }

@@ -23,9 +23,9 @@ pub enum MeshModel {
 
 /// Makes bodies of shapes and meshes; a mesh that occurs several times becomes one shared body.
 pub(super) struct BodyReader<'p> {
-    packages: &'p SearchFolders,
+    search_folders: &'p SearchFolders,
     model: MeshModel,
-    known: RefCell<HashMap<MeshKey, Arc<Body>>>,
+    bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
 }
 
 /// The key of a shared body: the file of the mesh, and the bits of its scale factors along x, y and z.
@@ -34,9 +34,9 @@ type MeshKey = (PathBuf, [u64; 3]);
 impl<'p> BodyReader<'p> {
     pub(super) fn new(packages: &'p SearchFolders, model: MeshModel) -> Self {
         BodyReader {
-            packages,
+            search_folders: packages,
             model,
-            known: RefCell::default(),
+            bodies_by_mesh: RefCell::default(),
         }
     }
 
@@ -52,17 +52,17 @@ impl<'p> BodyReader<'p> {
             }
             urdf_rs::Geometry::Mesh { filename, scale } => {
                 let scale = scale.map_or(DVec3::ONE, |scale| DVec3::from_array(scale.0));
-                return self.mesh(filename, scale);
+                return self.mesh_body(filename, scale);
             }
         };
         Ok(Arc::new(body))
     }
 
     /// Makes the body of a mesh that is scaled along its axes. Negative factors mirror it.
-    fn mesh(&self, uri: &str, scale: DVec3) -> Result<Arc<Body>, UrdfError> {
-        let file = self.packages.find(uri)?;
+    fn mesh_body(&self, uri: &str, scale: DVec3) -> Result<Arc<Body>, UrdfError> {
+        let file = self.search_folders.find(uri)?;
         let key = (file.clone(), scale.to_array().map(f64::to_bits));
-        if let Some(body) = self.known.borrow().get(&key) {
+        if let Some(body) = self.bodies_by_mesh.borrow().get(&key) {
             return Ok(Arc::clone(body));
         }
         let mesh = TriangleMesh::read(&file)?.transformed(DAffine3::from_scale(scale))?;
@@ -73,7 +73,9 @@ impl<'p> BodyReader<'p> {
         let prepared =
             body_from_mesh(&mesh, detail).map_err(|error| UrdfError::Prepare { file, error })?;
         let body = Arc::new(prepared.body);
-        self.known.borrow_mut().insert(key, Arc::clone(&body));
+        self.bodies_by_mesh
+            .borrow_mut()
+            .insert(key, Arc::clone(&body));
         Ok(body)
     }
 }

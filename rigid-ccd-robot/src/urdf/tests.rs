@@ -9,7 +9,7 @@ const TETRAHEDRON_OBJ: &str =
 
 /// Writes a mesh and a URDF whose three links have shapes, a mirrored mesh, and a visual larger than the collision
 /// shapes.
-fn folder(joints: &str) -> TempDir {
+fn write_robot_folder(joints: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("part.obj"), TETRAHEDRON_OBJ).unwrap();
     let text = format!(
@@ -48,7 +48,9 @@ fn urdf_in_folder(folder: &TempDir) -> Urdf {
 
 #[test]
 fn shapes_have_their_whole_sizes() {
-    let robot = urdf_in_folder(&folder(JOINTS_XML)).read().unwrap();
+    let robot = urdf_in_folder(&write_robot_folder(JOINTS_XML))
+        .read()
+        .unwrap();
     let spans: Vec<Vec<f64>> = robot
         .links()
         .iter()
@@ -74,11 +76,13 @@ fn shapes_have_their_whole_sizes() {
 
 #[test]
 fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
-    let robot = urdf_in_folder(&folder(JOINTS_XML)).read().unwrap();
+    let robot = urdf_in_folder(&write_robot_folder(JOINTS_XML))
+        .read()
+        .unwrap();
     let bodies = &robot.links()[2].bodies;
     assert!(Arc::ptr_eq(&bodies[0].body, &bodies[1].body));
     assert_eq!(bodies[0].body.volume(), rigid_ccd::body::Volume::Solid);
-    let hull = urdf_in_folder(&folder(JOINTS_XML))
+    let hull = urdf_in_folder(&write_robot_folder(JOINTS_XML))
         .with_mesh_model(MeshModel::OuterHull)
         .read()
         .unwrap();
@@ -87,8 +91,8 @@ fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
 
 #[test]
 fn visuals_are_a_choice() {
-    let robot = urdf_in_folder(&folder(JOINTS_XML))
-        .with_body_elements(Geometry::Visual)
+    let robot = urdf_in_folder(&write_robot_folder(JOINTS_XML))
+        .with_body_elements(BodyElements::Visual)
         .read()
         .unwrap();
     let counts: Vec<usize> = robot.links().iter().map(|link| link.bodies.len()).collect();
@@ -99,8 +103,10 @@ fn visuals_are_a_choice() {
 /// limits.
 #[test]
 fn joints_are_those_of_the_file() {
-    let robot = urdf_in_folder(&folder(JOINTS_XML)).read().unwrap();
-    assert_eq!(robot.joint_names().collect::<Vec<_>>(), ["turns"]);
+    let robot = urdf_in_folder(&write_robot_folder(JOINTS_XML))
+        .read()
+        .unwrap();
+    assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["turns"]);
     assert_eq!(robot.limits().collect::<Vec<_>>(), [[-1.0, 2.0]]);
     let origin = robot.pose("upper", &[0.0]).unwrap();
     let by_axes =
@@ -112,7 +118,7 @@ fn joints_are_those_of_the_file() {
 
 #[test]
 fn pairs_come_from_the_srdf() {
-    let folder = folder(JOINTS_XML);
+    let folder = write_robot_folder(JOINTS_XML);
     let srdf = folder.path().join("arm.srdf");
     fs::write(&srdf, r#"<robot name="arm"><disable_collisions link1="lower" link2="base" reason="Never"/></robot>"#).unwrap();
     let (urdf, robot) = (
@@ -122,12 +128,12 @@ fn pairs_come_from_the_srdf() {
     assert_eq!(
         urdf.link_pairs(&robot, None)
             .unwrap()
-            .checked()
+            .checked_pairs()
             .collect::<Vec<_>>(),
         [[0, 2]]
     );
     let pairs = urdf.link_pairs(&robot, Some(&srdf)).unwrap();
-    assert_eq!(pairs.checked().count(), 0);
+    assert_eq!(pairs.checked_pairs().count(), 0);
     assert_eq!(
         pairs.skip_reason(0, 2),
         Some(&SkipReason::Disabled("Never".into()))
@@ -147,7 +153,7 @@ fn pairs_come_from_the_srdf() {
 #[test]
 fn errors_name_file_link_and_joint() {
     let message = |joints: &str| {
-        urdf_in_folder(&folder(joints))
+        urdf_in_folder(&write_robot_folder(joints))
             .read()
             .unwrap_err()
             .to_string()
@@ -169,7 +175,7 @@ fn errors_name_file_link_and_joint() {
         message(&axis)
     );
 
-    let folder = folder(JOINTS_XML);
+    let folder = write_robot_folder(JOINTS_XML);
     fs::remove_file(folder.path().join("part.obj")).unwrap();
     let error = urdf_in_folder(&folder).read().unwrap_err().to_string();
     assert!(

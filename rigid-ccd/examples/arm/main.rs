@@ -81,7 +81,7 @@ fn steps_are_free(
 }
 
 /// Draws random edges of the graph whose start is free of contact.
-fn draw(
+fn draw_random_edges(
     scene: &Scene,
     solver: &mut Solver,
     random: &mut Pcg64,
@@ -124,7 +124,7 @@ fn main() -> anyhow::Result<()> {
         ..Settings::DEFAULT
     };
     let mut solver = Solver::new().with_settings(config.clone());
-    let edges = draw(&scene, &mut solver, &mut random, count)?;
+    let edges = draw_random_edges(&scene, &mut solver, &mut random, count)?;
     let mut out = std::io::stdout().lock();
 
     let begin = Instant::now();

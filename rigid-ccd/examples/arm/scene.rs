@@ -36,7 +36,7 @@ impl Scene {
             links,
             obstacles: Vec::new(),
         };
-        scene.find_separate_links()?;
+        scene.fill_tested_links()?;
         while scene.obstacles.len() < obstacles {
             let size = [(); 3].map(|()| random.random_range(0.03..0.12));
             let at = [(); 3].map(|()| random.random_range(-1.6..1.6));
@@ -61,7 +61,7 @@ impl Scene {
 
     /// Fills `tested_links` with the pairs of links that are more than 0.01 apart in the home position. Neighbouring
     /// links always touch, so they are left out.
-    fn find_separate_links(&mut self) -> Result<(), Error> {
+    fn fill_tested_links(&mut self) -> Result<(), Error> {
         let (home, mut solver) = (self.home_position(), Solver::new());
         for high in 0..self.links.len() {
             for low in 0..high.saturating_sub(1) {

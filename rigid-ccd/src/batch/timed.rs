@@ -51,7 +51,7 @@ impl Default for TimedQuestion {
 ///
 /// # Errors
 /// The query is not valid, or the method does not answer the question.
-pub(crate) fn time(
+pub(crate) fn answer_timed(
     bodies: Bodies<'_>,
     course: &Movements,
     timing: &TimedQuestion,

@@ -14,7 +14,7 @@ impl StatusCounts {
     }
 
     /// Returns the number of rows of all statuses together.
-    pub(super) fn rows(&self) -> usize {
+    pub(super) fn row_count(&self) -> usize {
         self.0.iter().sum()
     }
 

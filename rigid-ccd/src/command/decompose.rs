@@ -116,7 +116,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
     let out = args.out.as_deref().map(|out| claim(out, &source.file));
     let out = out.transpose()?;
     let (mesh, unit) = source.read()?;
-    let spinner = Progress::of("preparing", args.quiet);
+    let spinner = Progress::start_single_step("preparing", args.quiet);
     let name = source.to_string();
     let start = Instant::now();
     let (model, body) = args.build(&mesh, detail).with_context(|| name.clone())?;

@@ -114,7 +114,7 @@ pub(super) const SHORTCUTS: &Named<Shortcut> = &[
 ];
 
 /// The sets of vector instructions of `--instructions`.
-pub(super) const INSTRUCTIONS: &Named<Instructions> = &[
+pub(super) const VECTOR_INSTRUCTIONS: &Named<Instructions> = &[
     ("best", Instructions::Best, "The best of this machine"),
     (
         "baseline",

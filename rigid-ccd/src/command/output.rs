@@ -6,22 +6,25 @@ use std::path::{Path, PathBuf};
 
 /// The error of an output that cannot be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {place}: {source}")]
+#[error("cannot write {file_or_stream}: {source}")]
 pub struct OutputError {
     /// The path of the file, or the name of the stream.
-    pub place: String,
+    pub file_or_stream: String,
     /// The error of the operating system.
     pub source: io::Error,
 }
 
 impl OutputError {
-    pub(super) fn at(path: &Path, source: io::Error) -> Self {
+    pub(super) fn for_path(path: &Path, source: io::Error) -> Self {
         let place = output_name(path);
-        OutputError { place, source }
+        OutputError {
+            file_or_stream: place,
+            source,
+        }
     }
 
     pub(super) fn for_standard_output(source: io::Error) -> Self {
-        OutputError::at(Path::new("-"), source)
+        OutputError::for_path(Path::new("-"), source)
     }
 }
 
@@ -49,7 +52,7 @@ impl Output {
                 Destination::Stream => Output::Stream(path.to_owned()),
             })
         };
-        claim().map_err(|source| OutputError::at(path, source))
+        claim().map_err(|source| OutputError::for_path(path, source))
     }
 
     /// Reserves an output for a table other than a query's results; refuses to overwrite an interrupted query.
@@ -57,14 +60,14 @@ impl Output {
         let output = Output::claim(path)?;
         match &output {
             Output::File(claim, _)
-                if claim.left() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() =>
+                if claim.left_length() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() =>
             {
                 let problem = format!(
                     "{} has rows of an interrupted query; continue that with --resume, or delete the file",
                     claim.partial_path().display()
                 );
                 let source = io::Error::new(io::ErrorKind::ResourceBusy, problem);
-                Err(OutputError::at(path, source))
+                Err(OutputError::for_path(path, source))
             }
             _ => Ok(output),
         }
@@ -92,7 +95,10 @@ impl Output {
             Output::Stream(path) if is_standard_output(&path) => fill(&mut io::stdout().lock()),
             Output::Stream(path) => ccd_file::write(path, fill),
         };
-        written.map_err(|source| OutputError { place, source })
+        written.map_err(|source| OutputError {
+            file_or_stream: place,
+            source,
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::batch::{Bodies, SolverKind};
 use crate::command::files::{Rows, is_same_file};
 use crate::command::progress::Progress;
 use crate::command::size::Size;
-use crate::command::{print_error, print_line, print_remarks};
+use crate::command::{print_error, print_escaped_to_stderr, print_remarks};
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, PreparedBody, Unit, build_hull_tree};
@@ -62,9 +62,9 @@ impl BodiesArgs {
         };
         if let (Some((b, unit_b)), false) = (&b, quiet) {
             let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
-            match warn_of_mixed_units(sources) {
+            match mixed_units_warning(sources) {
                 Some(remark) => print_error(&remark),
-                None => Size::compare(Size::of(&a), Size::of(b)),
+                None => Size::warn_of_different_units(Size::of(&a), Size::of(b)),
             }
         }
         let b = b.map(|(b, _)| b);
@@ -82,7 +82,7 @@ impl BodiesArgs {
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
         let detail = self.meshes.pieces.detail();
-        let progress = Progress::of(&format!("preparing {text}"), quiet);
+        let progress = Progress::start_single_step(&format!("preparing {text}"), quiet);
         let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
         let PreparedBody {
             mut body,
@@ -98,7 +98,7 @@ impl BodiesArgs {
         if !quiet {
             let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
             let unit = unit.unwrap_or_default();
-            print_line(&format!("{option} {text}: {report}, size {size}{unit}"));
+            print_escaped_to_stderr(&format!("{option} {text}: {report}, size {size}{unit}"));
         } else if !remarks.is_empty() {
             print_error(&format!("{option} {text}: {remarks}"));
         }
@@ -133,7 +133,7 @@ impl Pair {
 
 /// Returns a warning if two files have different units, or if the unit of only one file is known; `None` otherwise.
 /// Primitives such as boxes have no unit: their numbers are the user's own.
-fn warn_of_mixed_units(
+fn mixed_units_warning(
     [(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2],
 ) -> Option<String> {
     let (known, unit, other) = match (a, b) {
@@ -153,7 +153,7 @@ fn warn_of_mixed_units(
 }
 
 fn is_from_file(source: &BodySource) -> bool {
-    matches!(source, BodySource::Mesh(_) | BodySource::Stored(_))
+    matches!(source, BodySource::Mesh(_) | BodySource::StoredBody(_))
 }
 
 fn with_hull_tree(body: Body) -> Result<Body> {
@@ -163,7 +163,7 @@ fn with_hull_tree(body: Body) -> Result<Body> {
 
 fn is_same_source(a: &BodySource, b: &BodySource) -> bool {
     match (a, b) {
-        (BodySource::Stored(a), BodySource::Stored(b)) => is_same_file(a, b),
+        (BodySource::StoredBody(a), BodySource::StoredBody(b)) => is_same_file(a, b),
         (BodySource::Mesh(a), BodySource::Mesh(b)) => {
             let same = a.part == b.part && a.adjustments == b.adjustments;
             same && is_same_file(&a.file, &b.file)
@@ -176,7 +176,7 @@ fn is_same_source(a: &BodySource, b: &BodySource) -> bool {
 fn files_of_source(source: &BodySource) -> Vec<PathBuf> {
     // An unreadable file is reported when its body is made.
     source.file_paths().unwrap_or_else(|_| match source {
-        BodySource::Stored(path) => vec![path.clone()],
+        BodySource::StoredBody(path) => vec![path.clone()],
         BodySource::Mesh(source) => vec![source.file.clone()],
         _ => Vec::new(),
     })

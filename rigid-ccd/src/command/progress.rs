@@ -15,11 +15,11 @@ use std::time::Duration;
 pub struct Progress {
     bar: ProgressBar,
     steps: Arc<AtomicU64>,
-    total: TotalWork,
+    total_work: TotalWork,
     /// The number of input bytes that each step of the current batch counts for, if the total is in bytes.
     bytes_per_step: AtomicU64,
     /// The end of the current batch's rows, in bytes of the input, if the total is in bytes.
-    end: AtomicU64,
+    batch_end: AtomicU64,
     /// The sender whose drop tells the displaying thread that the work is done.
     done_sender: Option<Sender<()>>,
     display_thread: Option<JoinHandle<()>>,
@@ -50,8 +50,8 @@ const PRINT_INTERVAL: Duration = Duration::from_secs(5);
 impl Progress {
     /// Starts to show progress; dropping the returned value ends the display.
     pub fn new(total: TotalWork) -> Self {
-        let mut progress = Progress::hidden();
-        progress.total = total;
+        let mut progress = Progress::new_hidden();
+        progress.total_work = total;
         let length = match total {
             TotalWork::Steps(steps) => Some(steps as u64),
             TotalWork::Bytes(bytes) => Some(bytes),
@@ -91,16 +91,16 @@ impl Progress {
     /// Starts to show progress through an input of rows, `length` bytes long if known; shows nothing if `quiet`.
     pub fn for_rows(length: Option<u64>, quiet: bool) -> Self {
         if quiet {
-            Progress::hidden()
+            Progress::new_hidden()
         } else {
             Progress::new(length.map_or(TotalWork::Unknown, TotalWork::Bytes))
         }
     }
 
     /// Starts to show `message` during one long step; shows nothing if `quiet`.
-    pub fn of(message: &str, quiet: bool) -> Self {
+    pub fn start_single_step(message: &str, quiet: bool) -> Self {
         if quiet {
-            return Progress::hidden();
+            return Progress::new_hidden();
         }
         let progress = Progress::new(TotalWork::SingleStep);
         progress.set_message(message);
@@ -108,13 +108,13 @@ impl Progress {
     }
 
     /// Creates a progress that shows nothing.
-    pub fn hidden() -> Self {
+    pub fn new_hidden() -> Self {
         Progress {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
             steps: Arc::default(),
-            total: TotalWork::Unknown,
+            total_work: TotalWork::Unknown,
             bytes_per_step: AtomicU64::new(0),
-            end: AtomicU64::new(0),
+            batch_end: AtomicU64::new(0),
             done_sender: None,
             display_thread: None,
         }
@@ -123,7 +123,7 @@ impl Progress {
     /// Counts one finished step.
     pub fn step(&self) {
         self.steps.fetch_add(1, Ordering::Relaxed);
-        match self.total {
+        match self.total_work {
             TotalWork::Steps(_) => self.bar.inc(1),
             TotalWork::Bytes(_) => self.bar.inc(self.bytes_per_step.load(Ordering::Relaxed)),
             TotalWork::Unknown | TotalWork::SingleStep => {}
@@ -133,8 +133,8 @@ impl Progress {
     /// Begins a batch of `steps` steps, which answer the input's rows up to byte `end`; rows before the batch count as
     /// answered.
     pub fn begin_batch(&self, steps: usize, end: u64) {
-        if let TotalWork::Bytes(_) = self.total {
-            let begin = self.end.swap(end, Ordering::Relaxed);
+        if let TotalWork::Bytes(_) = self.total_work {
+            let begin = self.batch_end.swap(end, Ordering::Relaxed);
             self.bar.set_position(begin);
             let bytes = end.saturating_sub(begin) / (steps as u64).max(1);
             self.bytes_per_step.store(bytes, Ordering::Relaxed);
@@ -180,7 +180,7 @@ fn progress_style(total: TotalWork, steps: Arc<AtomicU64>) -> ProgressStyle {
         .with_key(
             "rows",
             move |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
-                let _ = out.write_str(&rate(&steps, state.elapsed()));
+                let _ = out.write_str(&count_and_rate_text(&steps, state.elapsed()));
             },
         )
 }
@@ -190,14 +190,18 @@ fn line(bar: &ProgressBar, total: TotalWork, steps: &AtomicU64) -> String {
     let share = || 100 * bar.position() / bar.length().unwrap_or(1).max(1);
     match total {
         TotalWork::Steps(steps) => format!("{} of {steps} {}", bar.position(), bar.message()),
-        TotalWork::Bytes(_) => format!("{}, {} %", rate(steps, bar.elapsed()), share()),
-        TotalWork::Unknown => rate(steps, bar.elapsed()),
+        TotalWork::Bytes(_) => format!(
+            "{}, {} %",
+            count_and_rate_text(steps, bar.elapsed()),
+            share()
+        ),
+        TotalWork::Unknown => count_and_rate_text(steps, bar.elapsed()),
         TotalWork::SingleStep => format!("{}, {} s", bar.message(), bar.elapsed().as_secs()),
     }
 }
 
 /// Returns as text the number of rows answered, and the rows per second or the seconds per row.
-fn rate(steps: &AtomicU64, elapsed: Duration) -> String {
+fn count_and_rate_text(steps: &AtomicU64, elapsed: Duration) -> String {
     let steps = steps.load(Ordering::Relaxed);
     let seconds = elapsed.as_secs_f64();
     let rate = steps as f64 / seconds;

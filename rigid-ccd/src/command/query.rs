@@ -14,7 +14,7 @@ pub(super) use args::QueryArgs;
 
 use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
 use super::output::{Output, is_standard_output};
-use super::view::{ChosenRows, RowsPage, title, write_rows};
+use super::view::{ChosenRows, RowsPage, title, write_rows_page};
 use super::{RunOutcome, print_error};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion};
 use crate::command::pair::Pair;
@@ -47,7 +47,9 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         match OpenedTables::new(args, places, &recorded_options(args, given, &pair))? {
             OpenedTables::New(outputs) => (outputs, None),
             OpenedTables::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
-            OpenedTables::Finished(end) => return resume::report_finished(args, &mut rows, end),
+            OpenedTables::Finished(end) => {
+                return resume::verify_and_report_finished(args, &mut rows, end);
+            }
         };
     if args.resume {
         resume::report(args, earlier);
@@ -74,14 +76,14 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     drop(run.batch_run.progress);
     run.batch_run.bad_row_counter.print_total();
     let shown = write_page(args, &pair, run.page_rows.zip(html))?;
-    if run.summary.counts.rows() == 0 && earlier.is_none() {
+    if run.summary.counts.row_count() == 0 && earlier.is_none() {
         warn_of_no_rows(args, start.rows);
     }
     if !args.quiet {
         print_summary(args, &run.summary);
         pair.print_remarks(args.tolerance, &rows);
     }
-    Ok(match (run_outcome(args, end), shown) {
+    Ok(match (report_run_outcome(args, end), shown) {
         (RunOutcome::AllAnswered, shown) | (_, shown @ RunOutcome::SomeRowsBad) => shown,
         (bad, _) => bad,
     })
@@ -101,7 +103,7 @@ fn write_page(
         pair,
         context: query_context(args),
     };
-    write_rows(subject, chosen, html, args.quiet)
+    write_rows_page(subject, chosen, html, args.quiet)
 }
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
@@ -277,14 +279,14 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
 }
 
 /// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
-fn run_outcome(args: &QueryArgs, end: Checkpoint) -> RunOutcome {
+fn report_run_outcome(args: &QueryArgs, end: Checkpoint) -> RunOutcome {
     let failed = end
         .counts
         .nonzero_counts()
         .filter(|(status, _)| !status.proves_distance_kept());
     let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
-        let rows = end.counts.rows();
+        let rows = end.counts.row_count();
         print_error(&format!(
             "--check: {failed} of {rows} rows are not proven free or kept"
         ));

@@ -2,12 +2,12 @@
 
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
-use super::{print_error, print_line, print_remarks};
+use super::{print_error, print_escaped_to_stderr, print_remarks};
 use crate::picture::DrawnBody;
 use crate::scene::{Impact, PairError};
 use crate::table::columns::{BODY_COLUMN_NAME, Columns, TableKind};
 use crate::table::csv_records::CsvRecords;
-use crate::table::motions::{BodyRow, RowPosition, RowProblem, body};
+use crate::table::motions::{BodyRow, RowPosition, RowProblem, body_row};
 use crate::table::records::Records;
 use crate::{Remark, Scene};
 use anyhow::{Context, Result, anyhow, bail};
@@ -67,7 +67,7 @@ pub(super) fn read(
     };
     for (position, row) in rows {
         scene
-            .load(&row.text, how)
+            .load_once(&row.text, how)
             .with_context(|| format!("{}: line {}", name(), position.line))?;
         scene.rows.push(row);
     }
@@ -100,7 +100,7 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
     let columns = Columns::from_header(&header, TableKind::Scene)?;
     let mut rows: Vec<PlacedRow> = Vec::new();
     while let Some(position) = records.advance()? {
-        let row = body(&columns, records.current(), position.row, duration);
+        let row = body_row(&columns, records.current(), position.row, duration);
         let row =
             row.map_err(|problem| anyhow!("{position}: {}", row_problem_message(&problem)))?;
         rows.push((position, row));
@@ -138,7 +138,7 @@ fn refuse_equal_ids(rows: &[PlacedRow]) -> Result<()> {
 }
 
 impl SceneTable {
-    fn load(&mut self, text: &str, how: SceneArgs<'_>) -> Result<()> {
+    fn load_once(&mut self, text: &str, how: SceneArgs<'_>) -> Result<()> {
         if self.bodies.contains_key(text) {
             return Ok(());
         }
@@ -155,7 +155,7 @@ impl SceneTable {
     /// Prints the messages from loading, the duration if it is the default, and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
         for report in &self.load_messages {
-            print_line(report);
+            print_escaped_to_stderr(report);
         }
         if self.is_default_duration {
             print_error(&format!(

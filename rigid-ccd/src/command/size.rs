@@ -1,7 +1,7 @@
 //! Compares the sizes of bodies, to detect different units of length.
 
 use super::print_error;
-use crate::remark::{corners, sides};
+use crate::remark::{point_box_corners, sides};
 use crate::text::Number;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
@@ -18,7 +18,7 @@ const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
 impl Size {
     /// Returns the side lengths of a body's bounding box.
     pub fn of(body: &Body) -> Self {
-        Size(sides(corners(body)))
+        Size(sides(point_box_corners(body)))
     }
 
     fn largest_side(self) -> f64 {
@@ -26,7 +26,7 @@ impl Size {
     }
 
     /// Warns if two bodies may have different units of length.
-    pub fn compare(a: Size, b: Size) {
+    pub fn warn_of_different_units(a: Size, b: Size) {
         let (of_a, of_b) = (a.largest_side(), b.largest_side());
         let (large, small, ratio) = if of_a > of_b {
             ("--a", "--b", of_a / of_b)

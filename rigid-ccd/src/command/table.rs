@@ -19,7 +19,7 @@ pub struct TableWriter {
 
 /// The length in bytes and the checksum of the part of a table that has been written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct WrittenSize {
+pub(super) struct LengthAndChecksum {
     pub(super) bytes: u64,
     pub(super) checksum: u32,
 }
@@ -42,7 +42,7 @@ impl TableWriter {
         let name = output.name();
         let opened = match output {
             Output::File(mut claim, _) => claim
-                .cut(0)
+                .truncate(0)
                 .and_then(|()| cloned_file(&mut claim))
                 .map(|to| (to, Some(claim))),
             Output::Stream(path) if is_standard_output(&path) => {
@@ -54,7 +54,7 @@ impl TableWriter {
             }
         };
         let (to, claim) = opened.map_err(|source| OutputError {
-            place: name.clone(),
+            file_or_stream: name.clone(),
             source,
         })?;
         let measured = MeasuringWriter {
@@ -71,16 +71,16 @@ impl TableWriter {
     /// changed since.
     pub(super) fn resume(
         mut claim: Claim,
-        written: WrittenSize,
+        written: LengthAndChecksum,
     ) -> Result<Option<Self>, OutputError> {
         let name = claim.target().display().to_string();
         let opened = (|| {
             claim.file().rewind()?;
-            let (found, checksum) = measure(claim.file(), written.bytes)?;
+            let (found, checksum) = measure_beginning(claim.file(), written.bytes)?;
             if found != written {
                 return Ok(None);
             }
-            claim.cut(written.bytes)?;
+            claim.truncate(written.bytes)?;
             let to = cloned_file(&mut claim)?;
             Ok(Some(MeasuringWriter {
                 to,
@@ -93,7 +93,7 @@ impl TableWriter {
                 Ok(measured.map(|measured| TableWriter::new(name, measured, Some(claim))))
             }
             Err(source) => Err(OutputError {
-                place: name,
+                file_or_stream: name,
                 source,
             }),
         }
@@ -128,7 +128,7 @@ impl TableWriter {
     }
 
     /// Flushes all rows to the file, and returns the length and checksum of the table.
-    pub(super) fn flush_and_measure(&mut self) -> Result<WrittenSize, OutputError> {
+    pub(super) fn flush_and_measure(&mut self) -> Result<LengthAndChecksum, OutputError> {
         let flushed = self.writer.flush();
         flushed.map_err(|source| self.output_error(source))?;
         if let Some(claim) = &mut self.claim {
@@ -137,7 +137,7 @@ impl TableWriter {
         let MeasuringWriter {
             bytes, checksum, ..
         } = self.writer.get_ref();
-        Ok(WrittenSize {
+        Ok(LengthAndChecksum {
             bytes: *bytes,
             checksum: checksum.clone().finalize(),
         })
@@ -154,7 +154,7 @@ impl TableWriter {
 
     fn output_error(&self, source: io::Error) -> OutputError {
         OutputError {
-            place: self.name.clone(),
+            file_or_stream: self.name.clone(),
             source,
         }
     }
@@ -178,10 +178,10 @@ fn cloned_file(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
 }
 
 /// Returns the length and checksum of the first `bytes` bytes of a table, with a hasher that can continue the checksum.
-pub(super) fn measure(
+pub(super) fn measure_beginning(
     table: impl Read,
     bytes: u64,
-) -> io::Result<(WrittenSize, crc32fast::Hasher)> {
+) -> io::Result<(LengthAndChecksum, crc32fast::Hasher)> {
     let mut measured = MeasuringWriter {
         to: Box::new(io::sink()),
         bytes: 0,
@@ -189,7 +189,7 @@ pub(super) fn measure(
     };
     io::copy(&mut table.take(bytes), &mut measured)?;
     let checksum = measured.checksum;
-    let written = WrittenSize {
+    let written = LengthAndChecksum {
         bytes: measured.bytes,
         checksum: checksum.clone().finalize(),
     };

@@ -12,7 +12,7 @@ use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{RunOutcome, print_error};
-use crate::batch::{Question, SolverKind, TimedQuestion, time};
+use crate::batch::{Question, SolverKind, TimedQuestion, answer_timed};
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
@@ -72,14 +72,14 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
             None => {
-                let answer = time(pair.bodies(), &course, &timing, solver.as_mut());
+                let answer = answer_timed(pair.bodies(), &course, &timing, solver.as_mut());
                 Some(timing.row(pair.bodies(), &course, &answer))
             }
         };
         if let Some(row) = row {
             chosen.add_if_wanted(&course, &row);
         }
-        if chosen.is_full() {
+        if chosen.needs_no_more_rows() {
             break;
         }
     }
@@ -98,7 +98,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         pair: &pair,
         context: asked,
     };
-    write_rows(subject, chosen, out, args.quiet)
+    write_rows_page(subject, chosen, out, args.quiet)
 }
 
 /// The contents of a page of rows, apart from the rows: the title, the two bodies, and the context of the queries.
@@ -124,7 +124,7 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
 }
 
 /// Writes the page of the chosen rows. If no row can be shown, writes no page and prints a message.
-pub(super) fn write_rows(
+pub(super) fn write_rows_page(
     RowsPage {
         title,
         pair,

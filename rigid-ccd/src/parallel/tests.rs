@@ -161,9 +161,9 @@ fn limits_are_those_of_each_solver() {
 }
 
 /// A value that sets a flag when it is dropped: in a panic, after the panic has printed its message.
-struct UnwindGuard<'f>(&'f AtomicBool);
+struct SetFlagOnDrop<'f>(&'f AtomicBool);
 
-impl Drop for UnwindGuard<'_> {
+impl Drop for SetFlagOnDrop<'_> {
     fn drop(&mut self) {
         self.0.store(true, Ordering::SeqCst);
     }
@@ -207,7 +207,7 @@ fn a_panic_reaches_the_caller_and_stops_the_other_threads() {
         let mut counts = ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), || 0);
         let answer = |count: &mut usize, query: usize| {
             if query == 3 {
-                let _unwinds = UnwindGuard(&panicked);
+                let _unwinds = SetFlagOnDrop(&panicked);
                 panic!("query 3 is broken");
             }
             // The other threads wait until the panic unwinds.

@@ -5,7 +5,7 @@ use crate::batch::Bodies;
 use crate::table::courses::Movements;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, InputError, Settings, Stretch};
-use ccd_view::{Gap, GapSample};
+use ccd_view::{GapCurve, GapSample};
 use std::time::{Duration, Instant};
 
 /// The maximum number of poses, besides the start, at which a query's bodies are also drawn as translucent ghosts.
@@ -17,7 +17,7 @@ const MAX_ADVANCEMENT_STEPS: usize = 48;
 /// The time limit for all measurements of one query, checked after each measurement.
 const TIME_LIMIT: Duration = Duration::from_secs(1);
 /// The budget of one measurement of a distance, in the units of [`Settings::budget`].
-const BUDGET: u64 = 100_000;
+const MEASUREMENT_BUDGET: u64 = 100_000;
 /// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
 const ROUNDING_FACTOR: f64 = 1.0 + 1e-9;
 
@@ -25,9 +25,9 @@ const ROUNDING_FACTOR: f64 = 1.0 + 1e-9;
 #[derive(Clone, Debug)]
 pub struct GapOverTime {
     /// The measured distances, and the proven lower bound between them.
-    pub gap: Gap,
+    pub gap: GapCurve,
     /// The times of the steps, starting with 0; from each step to the next the bodies are proven to stay apart.
-    pub steps: Vec<f64>,
+    pub step_times: Vec<f64>,
 }
 
 impl GapOverTime {
@@ -41,7 +41,7 @@ impl GapOverTime {
     /// `duration` apart.
     pub fn ghost_times(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
-        for &step in &self.steps {
+        for &step in &self.step_times {
             if drawn
                 .last()
                 .is_none_or(|last| step - last > duration / MAX_GHOSTS)
@@ -53,7 +53,7 @@ impl GapOverTime {
     }
 
     /// Returns the time at which the measured distance is least.
-    pub fn nearest(&self) -> f64 {
+    pub fn nearest_time(&self) -> f64 {
         let points = self.gap.points.iter();
         let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
         nearest.map_or(0.0, |point| point.time)
@@ -73,24 +73,24 @@ pub fn gap(
     floor: f64,
 ) -> Result<GapOverTime, InputError> {
     solver.set_settings(Settings {
-        budget: BUDGET,
+        budget: MEASUREMENT_BUDGET,
         ..Settings::DEFAULT
     });
     let mut survey = GapSampler {
         solver,
         bodies,
         movements: course,
-        proven_distance: greater(floor, 0.0),
+        distance_floor: greater(floor, 0.0),
         deadline: Instant::now() + TIME_LIMIT,
     };
     let (mut points, steps) = survey.advance()?;
     survey.add_measurements(&mut points)?;
     Ok(GapOverTime {
-        gap: Gap {
+        gap: GapCurve {
             proven: survey.proven(&points)?,
             points,
         },
-        steps,
+        step_times: steps,
     })
 }
 
@@ -98,15 +98,15 @@ struct GapSampler<'a> {
     solver: &'a mut Solver,
     bodies: Bodies<'a>,
     movements: &'a Movements,
-    proven_distance: f64,
+    distance_floor: f64,
     deadline: Instant,
 }
 
 /// Bounds that hold between two times: of the closing speed of two bodies, and of their deviation from their motions.
 #[derive(Clone, Copy, Debug)]
 struct ApproachBounds {
-    speed: f64,
-    deviation: f64,
+    closing_speed_bound: f64,
+    deviation_bound: f64,
 }
 
 impl GapSampler<'_> {
@@ -118,7 +118,10 @@ impl GapSampler<'_> {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let ApproachBounds { speed, deviation } = self.approach_bounds(time, end)?;
+            let ApproachBounds {
+                closing_speed_bound: speed,
+                deviation_bound: deviation,
+            } = self.approach_bounds(time, end)?;
             let next = time + (point.lower - deviation) / speed;
             // At a contact the steps become shorter than rounding.
             if !(point.lower > deviation && next > time && next < end) {
@@ -136,7 +139,7 @@ impl GapSampler<'_> {
     fn add_measurements(&mut self, points: &mut Vec<GapSample>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
-            worths.push(self.area_between_bounds(points[k - 1], points[k])?);
+            worths.push(self.gain_of_measurement_between(points[k - 1], points[k])?);
         }
         while points.len() < MAX_MEASUREMENTS && Instant::now() < self.deadline {
             let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
@@ -145,8 +148,8 @@ impl GapSampler<'_> {
             };
             let (before, after) = (points[worst], points[worst + 1]);
             let middle = self.measure(0.5 * before.time + 0.5 * after.time)?;
-            worths[worst] = self.area_between_bounds(before, middle)?;
-            worths.insert(worst + 1, self.area_between_bounds(middle, after)?);
+            worths[worst] = self.gain_of_measurement_between(before, middle)?;
+            worths.insert(worst + 1, self.gain_of_measurement_between(middle, after)?);
             points.insert(worst + 1, middle);
         }
         Ok(())
@@ -154,12 +157,19 @@ impl GapSampler<'_> {
 
     /// Returns the gain of one more measurement between two others: an upper bound of the area between the distance and
     /// its proven lower bound.
-    fn area_between_bounds(&self, before: GapSample, after: GapSample) -> Result<f64, InputError> {
+    fn gain_of_measurement_between(
+        &self,
+        before: GapSample,
+        after: GapSample,
+    ) -> Result<f64, InputError> {
         let time = after.time - before.time;
         if !(time > 1e-6 * self.movements.duration()) {
             return Ok(0.0);
         }
-        let ApproachBounds { speed, deviation } = self.approach_bounds(before.time, after.time)?;
+        let ApproachBounds {
+            closing_speed_bound: speed,
+            deviation_bound: deviation,
+        } = self.approach_bounds(before.time, after.time)?;
         let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
@@ -183,9 +193,9 @@ impl GapSampler<'_> {
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(ApproachBounds {
-            speed: (shift + turns + gains) * ROUNDING_FACTOR,
+            closing_speed_bound: (shift + turns + gains) * ROUNDING_FACTOR,
             // Bound the deviation both at the measured times and between them.
-            deviation: 2.0
+            deviation_bound: 2.0
                 * (a.deviation_bound.at(reach_a) + b.deviation_bound.at(reach_b))
                 * ROUNDING_FACTOR,
         })
@@ -194,11 +204,14 @@ impl GapSampler<'_> {
     /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
     /// measurement, but not below what is proven for all times.
     fn proven(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
-        let floor = self.proven_distance;
+        let floor = self.distance_floor;
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let ApproachBounds { speed, deviation } = self.approach_bounds(one.time, two.time)?;
+            let ApproachBounds {
+                closing_speed_bound: speed,
+                deviation_bound: deviation,
+            } = self.approach_bounds(one.time, two.time)?;
             let height = |point: GapSample| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);

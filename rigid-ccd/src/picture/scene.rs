@@ -87,7 +87,7 @@ pub(crate) fn scene_verdict(
             let [a, b] = first.bodies.map(|k| &bodies[k].name);
             format!(
                 "{all}, {} in contact, {end}. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
-                pairs(hits.len()),
+                pair_count_text(hits.len()),
                 number(first.hit.time),
             )
         }
@@ -97,7 +97,7 @@ pub(crate) fn scene_verdict(
         let open = contacts.len() - hits.len();
         words += &format!(
             " {} without an answer, such as {a} and {b}: {}.",
-            pairs(open),
+            pair_count_text(open),
             error.error
         );
     }
@@ -109,7 +109,7 @@ fn hits(contacts: &[Result<Impact, PairError>]) -> Vec<&Impact> {
     hits.collect()
 }
 
-fn pairs(count: usize) -> String {
+fn pair_count_text(count: usize) -> String {
     match count {
         1 => "one pair".to_owned(),
         count => format!("{count} pairs"),

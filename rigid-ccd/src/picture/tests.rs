@@ -8,13 +8,13 @@ use ccd_core::{Motion, Settings};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-fn vector(random: &mut impl Rng, size: f64) -> DVec3 {
+fn random_vector(random: &mut impl Rng, size: f64) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| random.random_range(-size..size)))
 }
 
 fn pose(random: &mut impl Rng, size: f64) -> Pose {
-    let turn = DQuat::from_scaled_axis(vector(random, 3.0));
-    Pose::new(vector(random, size), turn).unwrap()
+    let turn = DQuat::from_scaled_axis(random_vector(random, 3.0));
+    Pose::new(random_vector(random, size), turn).unwrap()
 }
 
 fn bodies() -> Vec<Body> {
@@ -27,12 +27,18 @@ fn bodies() -> Vec<Body> {
     ]
 }
 
-fn motions(random: &mut impl Rng, spin: f64) -> Movements {
+fn random_movements(random: &mut impl Rng, spin: f64) -> Movements {
     let mut motion = |from: DVec3| {
         let start = pose(random, 1.0).translation() + from;
         let start = Pose::new(start, pose(random, 1.0).rotation()).unwrap();
-        let velocity = vector(random, 1.0) - 2.0 * from;
-        Motion::about(start, velocity, vector(random, spin), vector(random, 0.5)).unwrap()
+        let velocity = random_vector(random, 1.0) - 2.0 * from;
+        Motion::about(
+            start,
+            velocity,
+            random_vector(random, spin),
+            random_vector(random, 0.5),
+        )
+        .unwrap()
     };
     Movements::Motions(Motions {
         id: "throw".to_owned(),
@@ -57,7 +63,7 @@ fn path(random: &mut impl Rng) -> Movements {
     })
 }
 
-fn at(line: &[[f64; 2]], time: f64) -> f64 {
+fn interpolate_line(line: &[[f64; 2]], time: f64) -> f64 {
     let next = line
         .partition_point(|[t, _]| *t < time)
         .clamp(1, line.len() - 1);
@@ -78,8 +84,8 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
         let [a, b] = [k % 4, (k / 4) % 4].map(|k| &bodies[k]);
         let course = match k % 3 {
             0 => path(&mut random),
-            1 => motions(&mut random, 2.0),
-            _ => motions(&mut random, 40.0),
+            1 => random_movements(&mut random, 2.0),
+            _ => random_movements(&mut random, 40.0),
         };
         let found = gap(&mut solver, Bodies { a, b }, &course, 0.0).unwrap();
         let line = &found.gap.proven;
@@ -98,7 +104,7 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
                 Outcome::Overlapping { upper, .. } => upper,
                 ref nearest => nearest.upper(),
             };
-            let proven = at(line, time);
+            let proven = interpolate_line(line, time);
             assert!(proven <= upper + 1e-9, "{k}: {proven} > {upper} at {time}");
             looked += 1;
             tight += u32::from(upper > 0.0 && proven > 0.8 * upper);
@@ -117,7 +123,7 @@ fn nothing_touches_before_the_last_step() {
     let mut random = Pcg64Mcg::seed_from_u64(5);
     let mut contacts = 0;
     for k in 0..60 {
-        let Movements::Motions(query) = motions(&mut random, 5.0) else {
+        let Movements::Motions(query) = random_movements(&mut random, 5.0) else {
             continue;
         };
         let [a, b] = [k % 4, (k / 4) % 4].map(|k| &bodies[k]);
@@ -127,7 +133,7 @@ fn nothing_touches_before_the_last_step() {
         let hit = solver
             .first_contact((a, query.a), (b, query.b), query.duration)
             .unwrap();
-        let last = found.steps[found.steps.len() - 1];
+        let last = found.step_times[found.step_times.len() - 1];
         if let Some(hit) = hit.hit().unwrap() {
             contacts += 1;
             // The contact may be early by up to the tolerance.

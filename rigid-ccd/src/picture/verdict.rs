@@ -45,7 +45,7 @@ pub(super) fn verdict(
         None => "The clearance".to_owned(),
     };
     match row.status {
-        Status::Contact => describe_later_contact(row, asked, &time),
+        Status::Contact => describe_contact_after_start(row, asked, &time),
         Status::Free => describe_free_bodies(asked, end, proven),
         Status::Touching | Status::Overlapping => {
             let how = match row.status {
@@ -53,7 +53,7 @@ pub(super) fn verdict(
                 _ if asked.margin > 0.0 => "Within the margin",
                 _ => "In contact",
             };
-            let (contact, after) = (contact(row), describe_after_start_contact(row));
+            let (contact, after) = (contact(row), describe_end_of_start_contact(row));
             format!("{how} at the start: {contact}.{after}")
         }
         Status::Measured if asked.time_meaning == TimeMeaning::MeasurementTime => {
@@ -68,7 +68,7 @@ pub(super) fn verdict(
             format!("{clearance} is kept{when} {}.", describe_distance(row))
         }
         Status::Violated => match row.distance_upper {
-            Some(upper) if !is_overlap(row) => {
+            Some(upper) if !has_negative_distance(row) => {
                 let upper = number_rounded_up(upper);
                 format!("{clearance} is violated: at {time} at most {upper} apart.")
             }
@@ -99,14 +99,14 @@ pub(super) fn verdict(
 
 /// Describes after which time bodies that touch at the start are proven not to touch; empty for a row without
 /// `last_time`.
-fn describe_after_start_contact(row: &ResultRow) -> String {
+fn describe_end_of_start_contact(row: &ResultRow) -> String {
     row.last_time.map_or(String::new(), |last| {
         format!(" Proven: not after {}.", number_rounded_up(last))
     })
 }
 
 /// Describes in words a contact that begins after the start.
-fn describe_later_contact(row: &ResultRow, asked: QueryContext, time: &str) -> String {
+fn describe_contact_after_start(row: &ResultRow, asked: QueryContext, time: &str) -> String {
     let margin = number(asked.margin);
     let (first, at, before) = if asked.margin > 0.0 {
         (
@@ -181,7 +181,7 @@ pub(super) fn contact(row: &ResultRow) -> String {
     }
 }
 
-fn is_overlap(row: &ResultRow) -> bool {
+fn has_negative_distance(row: &ResultRow) -> bool {
     row.distance_lower.is_some_and(|lower| lower < 0.0)
 }
 

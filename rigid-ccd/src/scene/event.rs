@@ -103,7 +103,7 @@ impl Event {
     }
 
     /// Returns whether the bodies are in contact, and not proven to be at least `distance` apart.
-    pub(super) fn is_nearer_than(&self, distance: f64) -> bool {
+    pub(super) fn contact_may_be_nearer_than(&self, distance: f64) -> bool {
         let contact = match &self.what {
             EventKind::Hit(hit) => hit.contact(),
             EventKind::Unresolved(_) | EventKind::Refused(_) => None,

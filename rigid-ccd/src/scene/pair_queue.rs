@@ -22,7 +22,7 @@ pub(super) struct PairQueue<'r, 'a> {
     query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
     duration: f64,
     goal: &'r Goal,
-    waiting: Mutex<BinaryHeap<QueuedPair<'a>>>,
+    waiting_pairs: Mutex<BinaryHeap<QueuedPair<'a>>>,
 }
 
 /// A queued pair that is proven apart until a time; its search is `None` until it has begun.
@@ -46,20 +46,26 @@ impl<'r, 'a> PairQueue<'r, 'a> {
             query,
             duration,
             goal,
-            waiting: Mutex::new(pairs.iter().map(entry).collect()),
+            waiting_pairs: Mutex::new(pairs.iter().map(entry).collect()),
         }
     }
 
     /// Removes the pair with the earliest proven time from the queue, and returns it with the next pair's proven time.
     fn next(&self) -> Option<(QueuedPair<'a>, f64)> {
-        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut waiting = self
+            .waiting_pairs
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
         let entry = waiting.pop()?;
         let others = waiting.peek().map_or(f64::INFINITY, |other| other.time);
         Some((entry, others))
     }
 
     fn put_back_pair(&self, entry: QueuedPair<'a>) {
-        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut waiting = self
+            .waiting_pairs
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
         waiting.push(entry);
     }
 

@@ -95,9 +95,9 @@ impl Scene<'_> {
     /// ```
     pub fn find_stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
         let given = self.settings.clone();
-        self.settings = with_half_tolerance_as_margin(&given);
+        self.settings = stop_search_settings(&given);
         let clock = TimeLimits::new(duration, &self.settings);
-        let pairs = self.pairs(duration);
+        let pairs = self.candidate_pairs(duration);
         let events = self.run_pair_queue(&pairs, &clock, &Goal::AllPairs);
         let stops = StopSearch::new(self, &pairs, clock).run(events);
         self.settings = given;
@@ -107,7 +107,7 @@ impl Scene<'_> {
 
 /// Returns the settings with half of the tolerance moved into the margin, so that bodies that rest on each other do not
 /// sink into each other over many steps.
-fn with_half_tolerance_as_margin(given: &Settings) -> Settings {
+fn stop_search_settings(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
         margin: lesser(given.margin + half, MAX_COORDINATE),
@@ -163,7 +163,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
                 self.partners[a].retain(|&other| other != b);
                 self.partners[b].retain(|&other| other != a);
             } else {
-                coming.push(self.future_contact(event, 0.0));
+                coming.push(self.future_contact_from_event(event, 0.0));
             }
         }
         while let Some(FutureContact { what, .. }) = coming.pop() {
@@ -188,14 +188,14 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             }
             let stopped = event.bodies.into_iter().zip(moving);
             for (index, _) in stopped.filter(|&(_, moved)| moved) {
-                coming.extend(self.future_contacts_of(index));
+                coming.extend(self.find_future_contacts_of(index));
             }
         }
         Ok(self.stops)
     }
 
     /// Returns the future contacts of moving bodies with a body that has just stopped.
-    fn future_contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
+    fn find_future_contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
         let partners = std::mem::take(&mut self.partners[index]);
         let moving = partners.iter().filter(|&&other| self.moves(other));
@@ -205,25 +205,25 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         self.partners[index] = partners;
         let found = pairs
             .into_iter()
-            .filter_map(|pair| self.contact_after(time, pair));
+            .filter_map(|pair| self.find_contact_after(time, pair));
         found.collect()
     }
 
     /// Returns the first contact of two bodies after `time`, when one of them stopped; `None` if they stay apart.
-    fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
+    fn find_contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::from_answer(bodies, &answer)?,
             // The pose of a body is out of range, so the body stops here.
             Err(_) => Event::unexamined_pair(bodies),
         };
-        Some(self.future_contact(event, time))
+        Some(self.future_contact_from_event(event, time))
     }
 
     /// Returns the queue entry for an event of a query that started at time `from`. Bodies in contact that are nearer
     /// than the margin stop at `from`: otherwise rounding could bring them nearer in each step of a simulation.
-    fn future_contact(&self, event: Event, from: f64) -> FutureContact {
+    fn future_contact_from_event(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
-        let event = if event.is_nearer_than(kept) {
+        let event = if event.contact_may_be_nearer_than(kept) {
             event.with_time_zero()
         } else {
             event
@@ -247,7 +247,8 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let duration = self.time_limits.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
         let rounding = rounding(body(0), &a, duration)? + rounding(body(1), &b, duration)?;
-        let stray = self.deviation_at_stop(bodies[0])? + self.deviation_at_stop(bodies[1])?;
+        let stray =
+            self.deviation_bound_at_stop(bodies[0])? + self.deviation_bound_at_stop(bodies[1])?;
         let settings = Settings {
             margin: self.scene.settings.margin + rounding + stray,
             deadline: self.time_limits.left(),
@@ -274,7 +275,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     }
 
     /// Bounds how far the points of a stopped body may be from those of its computed pose; 0 for a body that moves.
-    fn deviation_at_stop(&self, index: usize) -> Result<f64, InputError> {
+    fn deviation_bound_at_stop(&self, index: usize) -> Result<f64, InputError> {
         if self.moves(index) {
             return Ok(0.0);
         }

@@ -16,7 +16,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 /// A body's index, its motion, whether it is fixed, and its groups.
-pub(super) type Part = (usize, Motion, Mobility, Groups);
+pub(super) type SceneMember = (usize, Motion, Mobility, Groups);
 
 /// Returns bodies of all kinds; the last one is a wide terrain.
 pub(super) fn bodies(rng: &mut Pcg64) -> Vec<Body> {
@@ -49,7 +49,7 @@ pub(super) fn bodies(rng: &mut Pcg64) -> Vec<Body> {
     bodies
 }
 
-pub(super) fn parts(rng: &mut Pcg64, kinds: usize, count: usize) -> Vec<Part> {
+pub(super) fn parts(rng: &mut Pcg64, kinds: usize, count: usize) -> Vec<SceneMember> {
     let any = |rng: &mut Pcg64, size: f64| {
         DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..=size)))
     };
@@ -84,7 +84,12 @@ pub(super) fn parts(rng: &mut Pcg64, kinds: usize, count: usize) -> Vec<Part> {
         .collect()
 }
 
-fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: &Settings) -> Scene<'a> {
+fn scene<'a>(
+    bodies: &'a [Body],
+    parts: &[SceneMember],
+    threads: usize,
+    config: &Settings,
+) -> Scene<'a> {
     let mut scene = Scene::with_threads(NonZeroUsize::new(threads).unwrap())
         .with_settings(config.clone())
         .with_filter(|a, b| (a + b) % 11 != 3);
@@ -101,7 +106,7 @@ fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: &Settin
 /// Queries every accepted pair alone, and returns the time, the indices and the result of each that is not free.
 fn contacts_one_by_one(
     bodies: &[Body],
-    parts: &[Part],
+    parts: &[SceneMember],
     config: &Settings,
     duration: f64,
 ) -> Vec<(f64, [usize; 2], Result<Hit, Limit>)> {
@@ -472,7 +477,7 @@ fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
         let mut solver = Solver::new();
         for b in 0..scene.len() {
             for a in 0..b {
-                let [of_a, of_b] = [a, b].map(|k| scene.members[k].moving());
+                let [of_a, of_b] = [a, b].map(|k| scene.members[k].moving_body());
                 let answer = solver.first_contact(of_a, of_b, 1.0).unwrap();
                 match answer.hit().unwrap() {
                     Some(hit) => expected.push((hit.time, [a, b], hit)),

@@ -292,12 +292,12 @@ fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> Tab
         return TableError::UnknownColumn {
             column: column.to_owned(),
             known: form.known_columns_text(),
-            nearest: Some(TIME_COLUMN_NAME.to_owned()),
+            most_similar_column: Some(TIME_COLUMN_NAME.to_owned()),
         };
     }
     if let Some(prefix) = body_prefix_of_angle_column(&lower, form) {
         let column = column.to_owned();
-        return TableError::Angle { column, prefix };
+        return TableError::AngleColumn { column, prefix };
     }
     let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
     let names = form.names();
@@ -308,7 +308,7 @@ fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> Tab
         column: column.to_owned(),
         known: form.known_columns_text(),
         // Names are short, so that a larger edit distance means another name.
-        nearest: nearest
+        most_similar_column: nearest
             .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
             .filter(|name| **name == lower || !of_other_form)
             .cloned(),

@@ -31,7 +31,7 @@ pub(crate) enum ContactListError {
 ///
 /// # Errors
 /// The query is not valid, or the contacts cannot be listed.
-pub(crate) fn rows(
+pub(crate) fn contact_rows(
     bodies: Bodies<'_>,
     course: &Movements,
     settings: &Settings,

@@ -136,9 +136,9 @@ impl<S: Records> MovementRows<S> {
     }
 
     /// Returns the number of bytes of the input up to the end of the last row, or of the last path.
-    pub fn bytes(&self) -> u64 {
-        let of_paths = self.path_reader.as_ref().map(|paths| paths.bytes);
-        of_paths.unwrap_or_else(|| self.rows.bytes())
+    pub fn consumed_bytes(&self) -> u64 {
+        let of_paths = self.path_reader.as_ref().map(|paths| paths.byte_count);
+        of_paths.unwrap_or_else(|| self.rows.consumed_bytes())
     }
 
     /// Returns the remarks about the rows so far, one of each kind.

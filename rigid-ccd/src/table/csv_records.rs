@@ -19,7 +19,7 @@ pub struct CsvRecords<R> {
     reader: Reader<R>,
     raw_record: csv::ByteRecord,
     /// The number of records read, without the header.
-    rows: usize,
+    row_count: usize,
     checksum: crc32fast::Hasher,
 }
 
@@ -48,7 +48,7 @@ impl<R: Read> CsvRecords<R> {
         Ok(CsvRecords {
             reader,
             raw_record: raw,
-            rows: 0,
+            row_count: 0,
             checksum,
         })
     }
@@ -74,7 +74,7 @@ impl<R: Read> Records for CsvRecords<R> {
         &self.raw_record
     }
 
-    fn bytes(&self) -> u64 {
+    fn consumed_bytes(&self) -> u64 {
         let (quotes, _) = self.reader.get_ref().get_ref();
         quotes
             .input()
@@ -91,12 +91,12 @@ impl<R: Read> Records for CsvRecords<R> {
             return Ok(None);
         }
         if let Some(line) = unclosed_quote_line(&self.reader) {
-            let row = Some(self.rows);
+            let row = Some(self.row_count);
             return Err(TableError::UnclosedQuote { row, line });
         }
         add(&mut self.checksum, &self.raw_record);
-        let row = self.rows;
-        self.rows += 1;
+        let row = self.row_count;
+        self.row_count += 1;
         // The reader also skips empty lines before the row, so the line number is computed from the row's
         // end.
         let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;

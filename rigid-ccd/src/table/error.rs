@@ -57,7 +57,7 @@ pub enum TableError {
     /// The header has a column that is not known. If it were ignored, a part of a motion could be lost silently.
     #[error(
         "header: unknown column `{column}`; {}",
-        .nearest.as_ref().map_or((*.known).to_owned(), |nearest| format!("did you mean `{nearest}`?"))
+        .most_similar_column.as_ref().map_or((*.known).to_owned(), |nearest| format!("did you mean `{nearest}`?"))
     )]
     UnknownColumn {
         /// The unknown name, as in the header.
@@ -65,14 +65,14 @@ pub enum TableError {
         /// The known columns, as text.
         known: &'static str,
         /// The known column with the most similar name.
-        nearest: Option<String>,
+        most_similar_column: Option<String>,
     },
     /// A column is named like an angle, but orientations are quaternions.
     #[error(
         "header: column `{column}` is named like an angle, and orientations are quaternions: columns {prefix}qw {prefix}qx \
          {prefix}qy {prefix}qz, w first; of scipy, Rotation.from_euler(…).as_quat(scalar_first=True) makes them of angles"
     )]
-    Angle {
+    AngleColumn {
         /// The name that looks like that of an angle.
         column: String,
         /// The prefix of the body's columns.

@@ -9,9 +9,9 @@ pub struct LineEndReader<R> {
     input: io::Chain<io::Cursor<Vec<u8>>, R>,
     is_after_carriage_return: bool,
     /// The number of bytes read from the input.
-    bytes: u64,
+    byte_count: u64,
     /// The number of these bytes that were dropped: those of byte order marks, and one for each `\r\n`.
-    dropped_bytes: u64,
+    dropped_byte_count: u64,
 }
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -36,14 +36,14 @@ impl<R: Read> LineEndReader<R> {
         Ok(LineEndReader {
             input: io::Cursor::new(start).chain(input),
             is_after_carriage_return: false,
-            bytes: marks,
-            dropped_bytes: marks,
+            byte_count: marks,
+            dropped_byte_count: marks,
         })
     }
 
     /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
     pub fn input_bytes_for(&self, taken: u64) -> u64 {
-        self.bytes.min(taken + self.dropped_bytes)
+        self.byte_count.min(taken + self.dropped_byte_count)
     }
 }
 
@@ -51,7 +51,7 @@ impl<R: Read> Read for LineEndReader<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         loop {
             let read = self.input.read(out)?;
-            self.bytes += read as u64;
+            self.byte_count += read as u64;
             // Most tables have no `\r`, and a search for it is many times as fast as the loop below.
             if !self.is_after_carriage_return && !out[..read].contains(&b'\r') {
                 return Ok(read);
@@ -69,7 +69,7 @@ impl<R: Read> Read for LineEndReader<R> {
                     kept += 1;
                 }
             }
-            self.dropped_bytes += (read - kept) as u64;
+            self.dropped_byte_count += (read - kept) as u64;
             // A read of 0 bytes would mean the end of the input.
             if kept > 0 || read == 0 {
                 return Ok(kept);

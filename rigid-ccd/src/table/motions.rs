@@ -9,7 +9,7 @@ pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
 pub use row::query;
 #[cfg(feature = "command")]
-pub(crate) use row::{BodyRow, body};
+pub(crate) use row::{BodyRow, body_row};
 pub use write::write;
 
 use crate::Remark;
@@ -104,8 +104,8 @@ impl<S: Records> MotionRows<S> {
     }
 
     /// Returns the number of bytes of the input up to the end of the last row.
-    pub fn bytes(&self) -> u64 {
-        self.records.bytes()
+    pub fn consumed_bytes(&self) -> u64 {
+        self.records.consumed_bytes()
     }
 
     /// Returns the remarks about the rows so far, one of each kind.

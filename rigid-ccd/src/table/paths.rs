@@ -51,16 +51,16 @@ pub enum Grouping {
 pub(super) struct PathReader {
     grouping: Grouping,
     /// The number of paths read.
-    paths: usize,
+    path_count: usize,
     /// The position of the current record, if it begins the next path.
     next: Option<RowPosition>,
     /// The checksum of the header and of all rows of the paths read.
     pub(super) checksum: u32,
     /// The number of bytes of the input up to the end of the paths read.
-    pub(super) bytes: u64,
+    pub(super) byte_count: u64,
     /// The hashes of the ids of the paths read, to find ids that appear again.
     known: HashSet<u64>,
-    hasher: RandomState,
+    id_hasher: RandomState,
 }
 
 /// The paths of both bodies of a query, with the place of their first row in the table, or the error of a bad row.
@@ -72,15 +72,15 @@ impl PathReader {
     /// # Errors
     /// The first row cannot be read.
     pub(super) fn new(records: &mut impl Records, grouping: Grouping) -> Result<Self, TableError> {
-        let (checksum, bytes) = (records.checksum(), records.bytes());
+        let (checksum, bytes) = (records.checksum(), records.consumed_bytes());
         Ok(PathReader {
             next: records.advance()?,
             grouping,
-            paths: 0,
+            path_count: 0,
             checksum,
-            bytes,
+            byte_count: bytes,
             known: HashSet::new(),
-            hasher: RandomState::new(),
+            id_hasher: RandomState::new(),
         })
     }
 
@@ -109,7 +109,7 @@ impl PathReader {
         };
         let id = row::id(columns, records.current());
         let seen = match (self.grouping, &id) {
-            (Grouping::ById, Some(id)) => !self.known.insert(self.hasher.hash_one(id)),
+            (Grouping::ById, Some(id)) => !self.known.insert(self.id_hasher.hash_one(id)),
             // Consecutive rows without an id form one path.
             (Grouping::ById, None) | (Grouping::EachRow, _) => false,
         };
@@ -117,7 +117,7 @@ impl PathReader {
         loop {
             row(at, columns, records.current());
             self.checksum = records.checksum();
-            self.bytes = records.bytes();
+            self.byte_count = records.consumed_bytes();
             self.next = records.advance()?;
             let same = |next| match self.grouping {
                 Grouping::ById => row::id(columns, next) == id,
@@ -128,8 +128,8 @@ impl PathReader {
                 _ => break,
             }
         }
-        let index = self.paths;
-        self.paths += 1;
+        let index = self.path_count;
+        self.path_count += 1;
         Ok(Some(FirstRow {
             position,
             id: id.unwrap_or_else(|| index.to_string()),

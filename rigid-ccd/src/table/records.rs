@@ -30,7 +30,7 @@ pub trait Records {
     }
 
     /// Returns the number of bytes of the input up to the end of the current record; 0 for tables that are in memory.
-    fn bytes(&self) -> u64 {
+    fn consumed_bytes(&self) -> u64 {
         0
     }
 }

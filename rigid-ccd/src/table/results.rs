@@ -21,7 +21,7 @@ use std::io;
 
 /// The clearance that distances are compared with, and the excess of the bodies that are measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ClearanceComparison {
+pub struct ClearanceAndExcess {
     /// The required distance of the bodies, if one is given.
     pub clearance: Option<f64>,
     /// The sum of both bodies' [excess](ccd_core::Body::with_excess) over their shapes; named in a reason, never added
@@ -29,7 +29,7 @@ pub struct ClearanceComparison {
     pub excess: f64,
 }
 
-impl ClearanceComparison {
+impl ClearanceAndExcess {
     /// Returns the reason for a clearance that is neither proven kept nor proven violated.
     fn reason_clearance_undecided(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
@@ -105,7 +105,7 @@ impl ResultRow {
             status: Status::from(&hit.kind),
             ..ResultRow::default()
         };
-        row.at(hit.time).with_hit(&hit.kind)
+        row.with_time(hit.time).with_hit(&hit.kind)
     }
 
     /// Creates the row of two features in contact; its status and its counts have their defaults.
@@ -115,7 +115,7 @@ impl ResultRow {
             id: id.to_owned(),
             ..ResultRow::default()
         };
-        row.at(time).with_contact(&Contact {
+        row.with_time(time).with_contact(&Contact {
             separation: pair.separation,
             feature_a: pair.feature_a,
             feature_b: pair.feature_b,
@@ -129,7 +129,7 @@ impl ResultRow {
         course: &Movements,
         (question, answer): (Question, &Answer),
         micros: f64,
-        compared: ClearanceComparison,
+        compared: ClearanceAndExcess,
     ) -> Self {
         let outcome = &answer.outcome;
         let status = Status::of(question, outcome, compared.clearance);
@@ -150,7 +150,7 @@ impl ResultRow {
         let row = if question.is_for_a_distance() {
             row.with_distance(outcome, course.duration())
         } else {
-            row.with_contacts(outcome, course.duration())
+            row.with_contact_outcome(outcome, course.duration())
         };
         ResultRow {
             time: row.time.map(|time| course.table_time_rounded_down(time)),
@@ -160,19 +160,19 @@ impl ResultRow {
     }
 
     /// Returns the row with the time and the contact of an outcome filled in.
-    fn with_contacts(self, outcome: &Outcome, duration: f64) -> Self {
+    fn with_contact_outcome(self, outcome: &Outcome, duration: f64) -> Self {
         match *outcome {
-            Outcome::Free { .. } => self.at(duration),
-            Outcome::Contact { time, contact } => self.at(time).with_contact(&contact),
-            Outcome::Touching { contact } => self.at(0.0).with_contact(&contact),
-            Outcome::Overlapping { overlap, .. } => self.at(0.0).with_overlap(&overlap),
+            Outcome::Free { .. } => self.with_time(duration),
+            Outcome::Contact { time, contact } => self.with_time(time).with_contact(&contact),
+            Outcome::Touching { contact } => self.with_time(0.0).with_contact(&contact),
+            Outcome::Overlapping { overlap, .. } => self.with_time(0.0).with_overlap(&overlap),
             Outcome::Interval { first, last } => ResultRow {
                 last_time: Some(last.time),
-                ..self.at(first.time).with_hit(&first.kind)
+                ..self.with_time(first.time).with_hit(&first.kind)
             },
             Outcome::Unresolved(known) => ResultRow {
                 last_time: Some(known.safe_from).filter(|time| time.is_finite()),
-                ..self.at(known.safe_until)
+                ..self.with_time(known.safe_until)
             },
             Outcome::LeastDistance { .. } => self,
         }
@@ -182,7 +182,7 @@ impl ResultRow {
     fn with_distance(self, outcome: &Outcome, duration: f64) -> Self {
         let row = match *outcome {
             Outcome::Overlapping { overlap, upper } => {
-                let row = self.at(0.0).with_overlap(&overlap);
+                let row = self.with_time(0.0).with_overlap(&overlap);
                 // If one body is inside the other, `upper` is the only upper bound.
                 let exceeds = Some(upper).filter(|upper| *upper > 0.0);
                 return ResultRow {
@@ -190,9 +190,9 @@ impl ResultRow {
                     ..row
                 };
             }
-            Outcome::Free { .. } => self.at(duration),
+            Outcome::Free { .. } => self.with_time(duration),
             _ => match outcome.nearest() {
-                Some((time, contact)) => self.at(time).with_contact(&contact),
+                Some((time, contact)) => self.with_time(time).with_contact(&contact),
                 None => self,
             },
         };
@@ -210,7 +210,7 @@ impl ResultRow {
         }
     }
 
-    fn at(self, time: f64) -> Self {
+    fn with_time(self, time: f64) -> Self {
         ResultRow {
             time: Some(time),
             ..self

@@ -36,7 +36,7 @@ impl Curve {
     /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for no points or a duration that is not
     /// positive.
     pub fn bezier(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
-        let points = control_points(points, 1, duration)?;
+        let points = checked_control_points(points, 1, duration)?;
         Ok(Curve {
             segments: Segments(vec![Segment {
                 from: 0.0,
@@ -53,7 +53,7 @@ impl Curve {
     /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for less than four points or a duration that
     /// is not positive.
     pub fn b_spline(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
-        let points = control_points(points, 4, duration)?;
+        let points = checked_control_points(points, 4, duration)?;
         let count = points.len() - 3;
         let at = |k: usize| duration * (k as f64 / count as f64);
         let segment = |k: usize| {
@@ -78,22 +78,22 @@ impl Curve {
 
     /// Returns the point of the curve at a time.
     pub fn position(&self, time: f64) -> DVec3 {
-        let segment = self.at(time);
+        let segment = self.segment_at(time);
         segment.derivative(0, segment.share(time))
     }
 
     /// Returns the velocity along the curve at a time.
     pub fn velocity(&self, time: f64) -> DVec3 {
         if (0.0..=self.duration()).contains(&time) {
-            let segment = self.at(time);
+            let segment = self.segment_at(time);
             segment.derivative(1, segment.share(time))
         } else {
             DVec3::ZERO
         }
     }
 
-    fn at(&self, time: f64) -> &Segment {
-        self.segments.at(time).unwrap_or(self.last())
+    fn segment_at(&self, time: f64) -> &Segment {
+        self.segments.segment_at(time).unwrap_or(self.last())
     }
 
     /// Returns the last segment; there is at least one.
@@ -105,7 +105,10 @@ impl Curve {
     /// half of the time, by which a curve strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         let velocity = |segment: &Segment, time| segment.derivative(1, segment.share(time));
-        self.derivative_bound(2, from, to) + self.segments.jump_acceleration(from, to, velocity)
+        self.derivative_bound(2, from, to)
+            + self
+                .segments
+                .acceleration_covering_jumps(from, to, velocity)
     }
 
     /// Returns the acceleration at a time, with a bound on its rate of change between two times; `None` if these span
@@ -180,7 +183,7 @@ impl Segment {
     }
 }
 
-fn control_points(
+fn checked_control_points(
     points: &[[f64; 3]],
     least: usize,
     duration: f64,

@@ -137,7 +137,7 @@ impl<'c> Link<'c> {
 
     /// Returns the pose, the velocities and the accelerations of the link at a time.
     fn state(&self, time: f64) -> Result<LinkState, InputError> {
-        let mut state = LinkState::at_rest(match self.seen_from {
+        let mut state = LinkState::state_at_rest(match self.seen_from {
             Some(_) => Pose::IDENTITY,
             None => self.chain.base(),
         });
@@ -177,7 +177,7 @@ impl SmoothTrajectory for Link<'_> {
     }
 
     fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds {
-        self.link_bounds(from, to).accelerations
+        self.link_bounds(from, to).acceleration_bounds
     }
 
     fn osculating_motion(
@@ -189,7 +189,7 @@ impl SmoothTrajectory for Link<'_> {
         let state = self.state(time)?;
         let acceleration = Acceleration {
             vector: state.acceleration,
-            jerk_bound: self.link_bounds(from, to).jerks.linear_acceleration,
+            jerk_bound: self.link_bounds(from, to).jerk_bounds.linear_acceleration,
         };
         Ok((state.to_motion()?, Some(acceleration)))
     }
@@ -198,9 +198,9 @@ impl SmoothTrajectory for Link<'_> {
     /// error of its angle.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let LinkBounds {
-            joints,
-            arms,
-            angles,
+            joint_count: joints,
+            arm_length_sum: arms,
+            max_angle_sum: angles,
             ..
         } = self.link_bounds(from, to);
         let base = length(self.chain.base().translation());
@@ -224,7 +224,7 @@ struct LinkState {
 
 impl LinkState {
     /// Creates the state of a link at rest.
-    fn at_rest(pose: Pose) -> Self {
+    fn state_at_rest(pose: Pose) -> Self {
         LinkState {
             pose,
             velocity: DVec3::ZERO,

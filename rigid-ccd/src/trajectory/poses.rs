@@ -132,7 +132,7 @@ impl Poses {
 
     /// Returns the motion of the segment at a time, and a bound on the segment's angular acceleration. At a given pose,
     /// this is the segment before the pose if `to` is not later than `time`, else the one after it.
-    fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
+    fn segment_motion_at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = if to > time {
             self.poses.partition_point(|&(at, _)| at <= time)
         } else {
@@ -142,15 +142,21 @@ impl Poses {
             (Some(k), Some(&(end, pose))) => {
                 let (begin, from) = self.poses[k];
                 let segment = Segment::new([from, pose], self.centre, end - begin, self.spin(k))?;
-                Ok((segment.at(time - begin)?, segment.angular_acceleration()))
+                Ok((
+                    segment.motion_at(time - begin)?,
+                    segment.angular_acceleration(),
+                ))
             }
             // The body rests before the first pose and after the last.
-            (None, Some(&(_, pose))) => Ok((self.still(pose)?, 0.0)),
-            (_, None) => Ok((self.still(self.poses[self.poses.len() - 1].1)?, 0.0)),
+            (None, Some(&(_, pose))) => Ok((self.resting_motion(pose)?, 0.0)),
+            (_, None) => Ok((
+                self.resting_motion(self.poses[self.poses.len() - 1].1)?,
+                0.0,
+            )),
         }
     }
 
-    fn still(&self, pose: Pose) -> Result<Motion, InputError> {
+    fn resting_motion(&self, pose: Pose) -> Result<Motion, InputError> {
         Motion::about(pose, DVec3::ZERO, DVec3::ZERO, self.centre)
     }
 
@@ -171,7 +177,7 @@ impl Poses {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
         let turns = ends.enumerate().map(|(k, [(begin, from), (end, to)])| {
             let segment = Segment::new([from, to], self.centre, end - begin, self.spin(k))?;
-            Ok(segment.at(0.0)?.spin() * (end - begin))
+            Ok(segment.motion_at(0.0)?.spin() * (end - begin))
         });
         turns.chain([Ok(DVec3::ZERO)])
     }
@@ -185,7 +191,10 @@ impl Poses {
 
     /// Returns one motion between the poses at two times, with a bound on the path's deviation from that motion.
     fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let [begin, end] = [self.at(from, to)?.0.start(), self.at(to, to)?.0.start()];
+        let [begin, end] = [
+            self.segment_motion_at(from, to)?.0.start(),
+            self.segment_motion_at(to, to)?.0.start(),
+        ];
         let motion = Motion::between(begin, end, self.centre, to - from)?;
         let mut stray = DeviationBound::NONE;
         // The rotation by which the chord deviates at a pose, and the time of that pose.
@@ -193,7 +202,7 @@ impl Poses {
         for &(time, pose) in self.poses_between(from, to).iter().chain(&[(to, end)]) {
             let deviation = Deviation::new(&motion, &pose, self.centre, time - from);
             // The motion of the segment that ends at this pose.
-            let (before, acceleration) = self.at(time, time)?;
+            let (before, acceleration) = self.segment_motion_at(time, time)?;
             let since = time - last.0;
             let change = before.spin().distance(motion.spin()) + acceleration * since;
             let between = 0.5 * (deviation.turn + last.1.turn + change * since);
@@ -229,7 +238,7 @@ impl Poses {
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let stretch = if self.poses_between(from, to).is_empty() {
-            let (motion, acceleration) = self.at(from, to)?;
+            let (motion, acceleration) = self.segment_motion_at(from, to)?;
             let mut stretch = Stretch::exact(motion);
             // The integral of the deviation of the angular velocity is quadratic in time.
             if acceleration > 0.0 {

@@ -28,7 +28,7 @@ pub(super) fn greater_bound(most: f64, bound: f64) -> f64 {
 
 impl<T> Segments<T> {
     /// Returns the first segment that does not end before a time; `None` after the last one.
-    pub(super) fn at(&self, time: f64) -> Option<&Segment<T>> {
+    pub(super) fn segment_at(&self, time: f64) -> Option<&Segment<T>> {
         let next = self.0.partition_point(|segment| segment.to < time);
         self.0.get(next)
     }
@@ -64,7 +64,7 @@ impl<T> Segments<T> {
 
     /// Returns an acceleration by which a motion deviates at least as far as by the jumps of the velocity at knots
     /// strictly inside an interval.
-    pub(super) fn jump_acceleration(
+    pub(super) fn acceleration_covering_jumps(
         &self,
         from: f64,
         to: f64,

@@ -11,16 +11,16 @@ use std::io::Write;
 
 type Rng = Pcg64;
 
-fn vector(rng: &mut Rng, size: f64) -> DVec3 {
+fn random_vector(rng: &mut Rng, size: f64) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| rng.random_range(-size..size)))
 }
 
-fn orientation(rng: &mut Rng) -> DQuat {
+fn random_orientation(rng: &mut Rng) -> DQuat {
     DQuat::from_array([(); 4].map(|()| rng.random_range(-1.0..1.0))).normalize()
 }
 
-fn pose(rng: &mut Rng, size: f64) -> Pose {
-    Pose::new(vector(rng, size), orientation(rng)).unwrap()
+fn random_pose(rng: &mut Rng, size: f64) -> Pose {
+    Pose::new(random_vector(rng, size), random_orientation(rng)).unwrap()
 }
 
 /// Returns the number of sampled deviations for each kind of trajectory: 5,000, multiplied by `CCD_TEST_CASES`.
@@ -57,24 +57,31 @@ fn check<T: Trajectory>(
     assert!(tightest >= at_least, "{name}: {tightest}");
 }
 
-fn motion(rng: &mut Rng) -> Result<Motion, InputError> {
-    let spin = vector(rng, 4.0);
-    Motion::about(pose(rng, 3.0), vector(rng, 3.0), spin, vector(rng, 1.0))
+fn random_motion(rng: &mut Rng) -> Result<Motion, InputError> {
+    let spin = random_vector(rng, 4.0);
+    Motion::about(
+        random_pose(rng, 3.0),
+        random_vector(rng, 3.0),
+        spin,
+        random_vector(rng, 1.0),
+    )
 }
 
 fn random_ballistic(rng: &mut Rng) -> Result<Ballistic, InputError> {
-    Ballistic::new(motion(rng)?, vector(rng, 10.0))
+    Ballistic::new(random_motion(rng)?, random_vector(rng, 10.0))
 }
 
 fn points(rng: &mut Rng, count: usize) -> Vec<[f64; 3]> {
-    (0..count).map(|_| vector(rng, 3.0).to_array()).collect()
+    (0..count)
+        .map(|_| random_vector(rng, 3.0).to_array())
+        .collect()
 }
 
 /// Returns random orientations with rotations of less than 1 radian from one to the next.
 fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
-    let mut at = orientation(rng);
+    let mut at = random_orientation(rng);
     let key = |k| {
-        at = DQuat::from_scaled_axis(vector(rng, 0.5)) * at;
+        at = DQuat::from_scaled_axis(random_vector(rng, 0.5)) * at;
         (2.0 * k as f64 / (count - 1) as f64, at.to_array())
     };
     (0..count).map(key).collect()
@@ -83,8 +90,8 @@ fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
 /// The choice of the directions of a random chain's joint axes.
 #[derive(Clone, Copy, PartialEq)]
 enum AxisChoice {
-    Any,
-    Parallel,
+    AnyDirection,
+    AllParallel,
     /// The axes are along x, y or z, so that some are parallel to each other.
     AlongCoordinates,
 }
@@ -92,19 +99,19 @@ enum AxisChoice {
 fn random_chain(rng: &mut Rng, count: usize, axes: AxisChoice) -> Chain {
     let joint = |k: usize| {
         let axis = match axes {
-            AxisChoice::Any => vector(rng, 1.0),
-            AxisChoice::Parallel => DVec3::Z,
+            AxisChoice::AnyDirection => random_vector(rng, 1.0),
+            AxisChoice::AllParallel => DVec3::Z,
             AxisChoice::AlongCoordinates => DVec3::AXES[rng.random_range(0..3)],
         };
         let origin = match axes {
-            AxisChoice::Any => pose(rng, 1.0),
-            AxisChoice::Parallel | AxisChoice::AlongCoordinates => {
-                Pose::at(vector(rng, 1.0)).unwrap()
+            AxisChoice::AnyDirection => random_pose(rng, 1.0),
+            AxisChoice::AllParallel | AxisChoice::AlongCoordinates => {
+                Pose::at(random_vector(rng, 1.0)).unwrap()
             }
         };
         let joint = match k % 4 {
-            3 => Joint::prismatic(origin, vector(rng, 1.0)),
-            2 if axes == AxisChoice::Any => Ok(Joint::fixed(origin)),
+            3 => Joint::prismatic(origin, random_vector(rng, 1.0)),
+            2 if axes == AxisChoice::AnyDirection => Ok(Joint::fixed(origin)),
             _ => Joint::revolute(origin, axis),
         }?;
         let is_reversed = rng.random_bool(0.5);
@@ -127,9 +134,9 @@ fn poses() {
         let mut time = -0.5;
         let stops = (0..count).map(|_| {
             time += rng.random_range(0.01..0.5);
-            (time, pose(rng, 3.0))
+            (time, random_pose(rng, 3.0))
         });
-        Poses::new(stops.collect())?.about(vector(rng, 1.0))
+        Poses::new(stops.collect())?.about(random_vector(rng, 1.0))
     });
 }
 
@@ -138,13 +145,13 @@ fn poses() {
 #[test]
 fn poses_of_many_turns() {
     check("poses, many turns", 0.3, |rng| {
-        let (mut time, mut turned) = (-0.5, orientation(rng));
+        let (mut time, mut turned) = (-0.5, random_orientation(rng));
         let (mut stops, mut spins) = (Vec::new(), Vec::new());
         for _ in 0..rng.random_range(2..6) {
-            stops.push((time, Pose::new(vector(rng, 3.0), turned)?));
-            let (duration, left) = (rng.random_range(0.1..1.5), vector(rng, 0.9));
+            stops.push((time, Pose::new(random_vector(rng, 3.0), turned)?));
+            let (duration, left) = (rng.random_range(0.1..1.5), random_vector(rng, 0.9));
             let size = [0.1, 3.0, 30.0][rng.random_range(0..3)];
-            let spin = vector(rng, size);
+            let spin = random_vector(rng, size);
             spins.push(spin.to_array());
             time += duration;
             let share = [0.0, 1e-6, 1.0][rng.random_range(0..3)];
@@ -152,10 +159,10 @@ fn poses_of_many_turns() {
                 * DQuat::from_scaled_axis(spin * duration)
                 * turned;
         }
-        stops.push((time, Pose::new(vector(rng, 3.0), turned)?));
+        stops.push((time, Pose::new(random_vector(rng, 3.0), turned)?));
         Poses::new(stops)?
             .with_angular_velocities(spins)?
-            .about(vector(rng, 1.0))
+            .about(random_vector(rng, 1.0))
     });
 }
 
@@ -206,15 +213,20 @@ fn angular_velocities_tell_the_number_of_turns() {
 #[test]
 fn poses_of_half_turns() {
     check("poses, half turns", 0.3, |rng| {
-        let start = orientation(rng);
+        let start = random_orientation(rng);
         let turned = |k: usize, rng: &mut Rng| {
-            let axis = vector(rng, 1.0).normalize();
+            let axis = random_vector(rng, 1.0).normalize();
             match k % 2 {
                 0 => start,
                 _ => DQuat::from_xyzw(axis.x, axis.y, axis.z, 0.0) * start,
             }
         };
-        let stops = (0..4).map(|k| Ok((k as f64, Pose::new(vector(rng, 3.0), turned(k, rng))?)));
+        let stops = (0..4).map(|k| {
+            Ok((
+                k as f64,
+                Pose::new(random_vector(rng, 3.0), turned(k, rng))?,
+            ))
+        });
         Poses::new(stops.collect::<Result<_, InputError>>()?)
     });
 }
@@ -223,7 +235,7 @@ fn poses_of_half_turns() {
 fn slerp_of_tiny_turns() {
     check("slerp, tiny turns", 0.0, |rng| {
         let count = 1_000;
-        let spin = vector(rng, 1e-8);
+        let spin = random_vector(rng, 1e-8);
         let key = |k: usize| {
             let turn = if k < count / 2 {
                 k as f64 * spin
@@ -256,7 +268,7 @@ fn bezier() {
 fn b_spline_and_slerp() {
     check("B-spline, slerp", 0.3, |rng| {
         let curve = Curve::b_spline(&points(rng, 8), 2.0)?;
-        Spline::new(curve, OrientationCurve::slerp(&keys(rng, 5))?).about(vector(rng, 1.0))
+        Spline::new(curve, OrientationCurve::slerp(&keys(rng, 5))?).about(random_vector(rng, 1.0))
     });
 }
 
@@ -264,7 +276,7 @@ fn b_spline_and_slerp() {
 #[test]
 fn links_behind_joints_that_are_held() {
     check("link, held joint", 0.1, |rng| {
-        let joint = |axis: DVec3| Joint::revolute(Pose::at(vector(rng, 0.3))?, axis);
+        let joint = |axis: DVec3| Joint::revolute(Pose::at(random_vector(rng, 0.3))?, axis);
         let joints = [DVec3::Z, DVec3::X, DVec3::Z].map(joint);
         let joints: Result<Vec<_>, InputError> = joints.into_iter().collect();
         let mut angle = || rng.random_range(-2.0..2.0);
@@ -283,7 +295,9 @@ fn links_behind_joints_that_are_held() {
 fn reversed_joints_undo_joints() {
     let mut rng = Rng::seed_from_u64(8);
     for _ in 0..200 {
-        let out = random_chain(&mut rng, 4, AxisChoice::Any).joints().to_vec();
+        let out = random_chain(&mut rng, 4, AxisChoice::AnyDirection)
+            .joints()
+            .to_vec();
         let back = out.iter().rev().cloned().map(Joint::reversed);
         let there_and_back = Chain::new(Pose::IDENTITY, out.iter().cloned().chain(back).collect());
         let [first, last] = [(); 2].map(|()| -> Vec<f64> {
@@ -308,7 +322,7 @@ fn reversed_joints_undo_joints() {
 fn a_joint_moves_through_its_poses() {
     let mut rng = Rng::seed_from_u64(9);
     for k in 0..400 {
-        let joint = random_chain(&mut rng, 4, AxisChoice::Any).joints()[k % 4].clone();
+        let joint = random_chain(&mut rng, 4, AxisChoice::AnyDirection).joints()[k % 4].clone();
         let [first, last] = [(); 2].map(|()| rng.random_range(-2.0..2.0));
         let motion = joint.motion(first, last, 2.0).unwrap();
         let share = rng.random_range(0.0..1.0);
@@ -316,7 +330,7 @@ fn a_joint_moves_through_its_poses() {
             motion.pose(2.0 * share),
             joint.pose(first + share * (last - first)).unwrap(),
         );
-        let point = vector(&mut rng, 1.0);
+        let point = random_vector(&mut rng, 1.0);
         let apart = moved
             .transform_point(point)
             .distance(there.transform_point(point));
@@ -370,14 +384,14 @@ impl Trajectory for ChainOwningLink {
 #[test]
 fn links() {
     check("link of a chain", 0.2, |rng| {
-        ChainOwningLink::draw(rng, AxisChoice::Any)
+        ChainOwningLink::draw(rng, AxisChoice::AnyDirection)
     });
 }
 
 #[test]
 fn links_with_parallel_axes() {
     check("link, parallel axes", 0.5, |rng| {
-        ChainOwningLink::draw(rng, AxisChoice::Parallel)
+        ChainOwningLink::draw(rng, AxisChoice::AllParallel)
     });
 }
 
@@ -423,14 +437,14 @@ fn stretches_between_knots_accelerate() {
 fn links_seen_from_links_are_where_they_are_in_the_world() {
     let mut rng = Rng::seed_from_u64(3);
     for _ in 0..200 {
-        let owned = ChainOwningLink::draw(&mut rng, AxisChoice::Any).unwrap();
+        let owned = ChainOwningLink::draw(&mut rng, AxisChoice::AnyDirection).unwrap();
         let other = owned.link / 2;
         let [first, last] = &owned.positions;
         let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();
         let time = rng.random_range(0.0..2.0);
         let [tip, base] = [owned.link, other].map(|link| of(link).pose(time).unwrap());
         let seen = of(owned.link).seen_from(other).unwrap().pose(time).unwrap();
-        let x = vector(&mut rng, 1.0);
+        let x = random_vector(&mut rng, 1.0);
         let twice = base.compose(&seen).transform_point(x);
         assert!(twice.distance(tip.transform_point(x)) < 1e-13);
     }
@@ -442,7 +456,7 @@ fn tangents_have_the_velocities_of_poses() {
     let step = 1e-6;
     for _ in 0..100 {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
-        let chain = random_chain(&mut rng, 5, AxisChoice::Any);
+        let chain = random_chain(&mut rng, 5, AxisChoice::AnyDirection);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
         let turns = OrientationCurve::slerp(&keys(&mut rng, 6)).unwrap();
         let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);
@@ -451,7 +465,7 @@ fn tangents_have_the_velocities_of_poses() {
         let time = rng.random_range(0.1..1.9);
         for (number, smooth) in all.into_iter().enumerate() {
             let tangent = smooth.tangent_motion(time).unwrap();
-            let x = vector(&mut rng, 1.0);
+            let x = random_vector(&mut rng, 1.0);
             let [before, after] = [-step, step].map(|step| {
                 let pose = smooth.tangent_motion(time + step).unwrap().start();
                 pose.transform_point(x)

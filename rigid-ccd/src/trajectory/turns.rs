@@ -62,8 +62,8 @@ impl OrientationCurve {
 
     /// Returns the orientation at a time, and the angular velocity in the world frame.
     pub fn at(&self, time: f64) -> (DQuat, DVec3) {
-        match self.segments.at(time) {
-            Some(segment) if time >= segment.from => segment.at(time),
+        match self.segments.segment_at(time) {
+            Some(segment) if time >= segment.from => segment.orientation_and_spin_at(time),
             Some(_) => (self.ends[0], DVec3::ZERO),
             None => (self.ends[1], DVec3::ZERO),
         }
@@ -73,7 +73,9 @@ impl OrientationCurve {
     /// acceleration that causes at least the same deviation.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         self.segments
-            .jump_acceleration(from, to, |segment, time| segment.at(time).1)
+            .acceleration_covering_jumps(from, to, |segment, time| {
+                segment.orientation_and_spin_at(time).1
+            })
     }
 
     /// Returns a knot strictly between two times, preferably near the middle; `None` if no knot is between them.
@@ -88,7 +90,7 @@ impl OrientationCurve {
 }
 
 impl Segment<Turn> {
-    fn at(&self, time: f64) -> (DQuat, DVec3) {
+    fn orientation_and_spin_at(&self, time: f64) -> (DQuat, DVec3) {
         let passed = greater(0.0, lesser(time, self.to) - self.from);
         let Turn { start, spin } = self.course;
         let turned = DQuat::from_scaled_axis(spin * passed) * start;

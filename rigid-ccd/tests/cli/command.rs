@@ -65,12 +65,12 @@ impl CommandCall {
     /// Runs the command, checks that it ends with the exit code `code`, and returns its messages.
     #[track_caller]
     #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
-    pub(crate) fn expect_messages(&self, code: i32) -> String {
+    pub(crate) fn run_for_messages(&self, code: i32) -> String {
         stderr(&self.expect_exit_code(code))
     }
 
     #[track_caller]
-    pub(crate) fn expect_rows(&self) -> Vec<Row> {
+    pub(crate) fn run_for_rows(&self) -> Vec<Row> {
         parse(&self.expect_exit_code(0).stdout)
     }
 }
@@ -137,10 +137,10 @@ impl Scene {
     }
 
     pub(crate) fn file(&self, name: &str, text: &str) -> PathBuf {
-        self.bytes(name, text.as_bytes())
+        self.write_bytes(name, text.as_bytes())
     }
 
-    pub(crate) fn bytes(&self, name: &str, bytes: &[u8]) -> PathBuf {
+    pub(crate) fn write_bytes(&self, name: &str, bytes: &[u8]) -> PathBuf {
         let path = self.directory.join(name);
         std::fs::write(&path, bytes).unwrap();
         path

@@ -177,7 +177,7 @@ fn times_without_certificate_are_reported_once() {
     let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&published)
         .stdin(CUBE_MOTIONS)
-        .expect_messages(0);
+        .run_for_messages(0);
     assert_eq!(
         message.matches("times are not certified").count(),
         1,

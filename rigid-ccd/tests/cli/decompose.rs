@@ -29,7 +29,7 @@ fn decompose(mesh: &Path, options: &[&str]) -> Output {
 }
 
 /// Returns the JSON object that `--format json` prints for a mesh.
-fn statistics(mesh: &Path, options: &[&str]) -> Value {
+fn run_for_statistics(mesh: &Path, options: &[&str]) -> Value {
     let output = decompose(mesh, &[options, &["--format", "json"]].concat());
     assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(stderr(&output), "");
@@ -43,7 +43,7 @@ fn statistics(mesh: &Path, options: &[&str]) -> Value {
 fn a_knot_is_exact_in_every_kind_of_piece(#[case] kind: &str, #[case] most: u64) {
     let scene = Scene::new(&format!("decompose-{kind}"));
     let mesh = knot(&scene);
-    let statistics = statistics(&mesh, &["--pieces", kind]);
+    let statistics = run_for_statistics(&mesh, &["--pieces", kind]);
     assert_eq!(statistics["mesh"], name(&mesh));
     assert_eq!(statistics["pieces_kind"], kind);
     assert_eq!(statistics["triangles"], 216);
@@ -88,7 +88,7 @@ fn a_convex_mesh_is_one_hull() {
     let scene = Scene::new("decompose-hull");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     for kind in ["auto", "hull"] {
-        let statistics = statistics(&mesh, &["--pieces", kind]);
+        let statistics = run_for_statistics(&mesh, &["--pieces", kind]);
         assert_eq!(
             (&statistics["pieces_kind"], &statistics["pieces"]),
             (&"hull".into(), &1.into())
@@ -104,7 +104,7 @@ fn a_convex_mesh_is_one_hull() {
 fn every_order_covers_the_mesh(#[case] order: &str) {
     let scene = Scene::new(&format!("decompose-{order}"));
     let mesh = knot(&scene);
-    let statistics = statistics(&mesh, &["--pieces", "patches", "--order", order]);
+    let statistics = run_for_statistics(&mesh, &["--pieces", "patches", "--order", order]);
     assert_eq!(statistics["pieces_kind"], "patches");
     assert!(statistics["pieces"].as_u64().unwrap() < 216 / 2);
 }
@@ -113,7 +113,7 @@ fn every_order_covers_the_mesh(#[case] order: &str) {
 fn an_outer_hull_reports_its_excess() {
     let scene = Scene::new("decompose-outer-hull");
     let mesh = knot(&scene);
-    let statistics = statistics(&mesh, &["--pieces", "outer-hull"]);
+    let statistics = run_for_statistics(&mesh, &["--pieces", "outer-hull"]);
     assert_eq!(statistics["pieces_kind"], "outer-hull");
     assert_eq!(statistics["pieces"], 1);
     assert_eq!(statistics["exact"], false);
@@ -128,7 +128,7 @@ fn pieces_are_written_as_groups() {
     let scene = Scene::new("decompose-obj");
     let mesh = knot(&scene);
     let out = scene.directory.join("pieces.obj");
-    let statistics = statistics(&mesh, &["--pieces", "patches", "--out", name(&out)]);
+    let statistics = run_for_statistics(&mesh, &["--pieces", "patches", "--out", name(&out)]);
     let text = std::fs::read_to_string(&out).unwrap();
     let groups = text.lines().filter(|line| line.starts_with("g piece_"));
     assert_eq!(
@@ -143,9 +143,9 @@ const MOTIONS_TABLE: &str = "id,a_px,a_py,a_pz,a_vx,a_vy,a_vz,a_wx,a_wz\n\
     straight,4,0.1,0.2,-4,0,0,0,0\nturning,4,-0.3,0.1,-4,0,0,3,2\n\
     past,4,9,0,-4,0,0,1,1\nacross,0.2,4,1,0,-4,-0.5,0,5\n";
 
-fn answers(body: &Path, options: &[&str]) -> Vec<Row> {
+fn query_with_itself(body: &Path, options: &[&str]) -> Vec<Row> {
     let run = CommandCall::query(&["--a", name(body), "--b", name(body)]).args(options);
-    run.stdin(MOTIONS_TABLE).expect_rows()
+    run.stdin(MOTIONS_TABLE).run_for_rows()
 }
 
 #[rstest]
@@ -156,19 +156,19 @@ fn a_stored_body_answers_as_its_mesh_does(#[case] kind: &str) {
     let scene = Scene::new(&format!("stored-{kind}"));
     let mesh = knot(&scene);
     let out = scene.directory.join("knot.ccd");
-    statistics(&mesh, &["--pieces", kind, "--out", name(&out)]);
+    run_for_statistics(&mesh, &["--pieces", kind, "--out", name(&out)]);
     let all =
         |rows: Vec<Row>| -> Vec<_> { rows.into_iter().map(Row::cells_without_micros).collect() };
-    let from_mesh = all(answers(&mesh, &["--pieces", kind]));
+    let from_mesh = all(query_with_itself(&mesh, &["--pieces", kind]));
     assert!(from_mesh.iter().any(|row| row[1] == "contact"));
-    assert_eq!(all(answers(&out, &[])), from_mesh);
+    assert_eq!(all(query_with_itself(&out, &[])), from_mesh);
 }
 
 #[test]
 fn patches_and_triangles_hit_at_the_same_time() {
     let scene = Scene::new("patches-triangles");
     let mesh = knot(&scene);
-    let with = |kind| answers(&mesh, &["--pieces", kind, "--tolerance", "1e-6"]);
+    let with = |kind| query_with_itself(&mesh, &["--pieces", kind, "--tolerance", "1e-6"]);
     let (triangles, patches) = (with("triangles"), with("patches"));
     assert_eq!(patches[0].text("status"), "contact");
     for (one, other) in triangles.iter().zip(&patches) {
@@ -186,10 +186,10 @@ fn hull_trees_are_stored_and_used() {
     let mesh = knot(&scene);
     let out = scene.directory.join("knot.ccd");
     let options = ["--pieces", "patches", "--hull-tree", "--out", name(&out)];
-    let statistics = statistics(&mesh, &options);
+    let statistics = run_for_statistics(&mesh, &options);
     assert_eq!(statistics["hulls"], statistics["tree_nodes"]);
-    let tree = answers(&out, &["--schedule", "fast"]);
-    let boxes = answers(&out, &["--schedule", "best-first"]);
+    let tree = query_with_itself(&out, &["--schedule", "fast"]);
+    let boxes = query_with_itself(&out, &["--schedule", "best-first"]);
     for (one, other) in tree.iter().zip(&boxes) {
         assert_eq!(one.text("status"), other.text("status"));
     }
@@ -227,7 +227,7 @@ fn meshes_without_pieces_are_reported() {
         let message = stderr(&output);
         assert_contains(&message, expected);
     }
-    let statistics = statistics(&open, &["--pieces", "auto"]);
+    let statistics = run_for_statistics(&open, &["--pieces", "auto"]);
     assert_eq!(statistics["pieces_kind"], "triangles");
     assert_eq!(statistics["volume"], "surface");
     assert!(statistics["remarks"].as_str().unwrap().contains("open"));
@@ -272,7 +272,7 @@ fn unreadable_stored_bodies_are_reported() {
     let scene = Scene::new("stored-bad");
     let mesh = scene.file("part.obj", TETRAHEDRON);
     let out = scene.directory.join("part.ccd");
-    statistics(&mesh, &["--out", name(&out)]);
+    run_for_statistics(&mesh, &["--out", name(&out)]);
     let bytes = std::fs::read(&out).unwrap();
     let mut damaged = bytes.clone();
     damaged[30] ^= 1;
@@ -284,7 +284,7 @@ fn unreadable_stored_bodies_are_reported() {
         std::fs::write(&out, bytes).unwrap();
         let message = CommandCall::query(&["--a", name(&out), "--b", "sphere:1"])
             .stdin("id\n")
-            .expect_messages(2);
+            .run_for_messages(2);
         assert!(
             message.contains("--a: ") && message.contains(expected),
             "{message}"
@@ -312,7 +312,7 @@ fn a_missing_folder_is_reported_before_the_work() {
         let message = run
             .args(&["--out", out.to_str().unwrap()])
             .stdin("")
-            .expect_messages(1);
+            .run_for_messages(1);
         assert_contains(&message, "gone is a folder that does not exist");
     }
 }

@@ -10,7 +10,7 @@ fn corners() -> impl Iterator<Item = [f32; 3]> {
 }
 
 #[rustfmt::skip]
-const FACES: [u16; 36] = [
+const CUBE_CORNERS: [u16; 36] = [
     0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
     2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
 ];
@@ -18,7 +18,7 @@ const FACES: [u16; 36] = [
 /// Returns a glTF file of two nodes with one cube each: `base`, a metre wide, and `lid`, flat and two metres above it.
 fn gltf() -> (Value, Vec<u8>) {
     let mut bytes: Vec<u8> = corners().flatten().flat_map(f32::to_le_bytes).collect();
-    bytes.extend(FACES.iter().flat_map(|corner| corner.to_le_bytes()));
+    bytes.extend(CUBE_CORNERS.iter().flat_map(|corner| corner.to_le_bytes()));
     let json = json!({
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0, 1]}],
@@ -57,7 +57,7 @@ fn glb() -> Vec<u8> {
 /// Returns an OBJ with a cube of length 20 about the origin.
 fn large_cube_obj() -> String {
     let vertices = corners().map(|[x, y, z]| format!("v {} {} {}\n", 10.0 * x, 10.0 * y, 10.0 * z));
-    let faces = FACES
+    let faces = CUBE_CORNERS
         .chunks(3)
         .map(|f| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1));
     vertices.chain(faces).collect()
@@ -79,11 +79,11 @@ const BALL_SPEC: &str = "sphere:0.1";
 #[test]
 fn a_part_is_chosen_by_name_or_number() {
     let scene = Scene::new("parts");
-    let file = scene.bytes("scene.glb", &glb());
+    let file = scene.write_bytes("scene.glb", &glb());
     let top = |body: &str| {
         let rows = CommandCall::query(&["--a", body, "--b", BALL_SPEC])
             .stdin(FALLING_BALL_MOTION)
-            .expect_rows();
+            .run_for_rows();
         assert_eq!(rows[0].text("status"), "contact", "{body}");
         3.9 - rows[0].number("time")
     };
@@ -102,13 +102,13 @@ fn a_part_is_chosen_by_name_or_number() {
 #[test]
 fn features_are_numbered_in_the_part_and_go_on_in_the_whole() {
     let scene = Scene::new("parts-features");
-    let file = scene.bytes("scene.glb", &glb());
+    let file = scene.write_bytes("scene.glb", &glb());
     // The ball falls onto a corner.
     let corner = "b_px,b_py,b_pz,b_vz,duration\n0.5,0.5,4,-1,4\n";
     let feature = |body: &str| {
         let rows = CommandCall::query(&["--a", body, "--b", BALL_SPEC])
             .stdin(corner)
-            .expect_rows();
+            .run_for_rows();
         rows[0].text("feature_a").to_owned()
     };
     assert_eq!(feature(&part(&file, "lid")), "v7");
@@ -118,7 +118,7 @@ fn features_are_numbered_in_the_part_and_go_on_in_the_whole() {
 #[test]
 fn an_unknown_part_lists_those_there_are() {
     let scene = Scene::new("parts-unknown");
-    let file = scene.bytes("scene.glb", &glb());
+    let file = scene.write_bytes("scene.glb", &glb());
     for missing in ["top", "", "2"] {
         let body = part(&file, missing);
         for run in [
@@ -144,7 +144,7 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
         let path = scene.file(file, crate::TETRAHEDRON_OBJ);
         let rows = CommandCall::query(&["--a", name(&path), "--b", BALL_SPEC])
             .stdin("b_pz\n9\n")
-            .expect_rows();
+            .run_for_rows();
         assert_eq!(rows[0].text("status"), "free", "{file}");
     }
 }
@@ -171,7 +171,7 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
         let rows = CommandCall::query(&["--a", &body, "--b", BALL_SPEC])
             .args(options)
             .stdin(FALLING_BALL_MOTION)
-            .expect_rows();
+            .run_for_rows();
         let early = 4.0 - (top + 0.1) - rows[0].number("time");
         assert!(
             (-1e-9..=1.001e-3).contains(&early),
@@ -205,7 +205,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     ] {
         let run = CommandCall::query(&["--a", body, "--b", "sphere:.01"]).args(option);
         assert_eq!(
-            run.stdin(inside).expect_rows()[0].text("status"),
+            run.stdin(inside).run_for_rows()[0].text("status"),
             status,
             "{body}"
         );
@@ -213,7 +213,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     let out = scene.directory.join("hollow.ccd");
     CommandCall::with_args(&["decompose", &hollow, "--out", name(&out)]).expect_exit_code(0);
     let rows = CommandCall::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
-    assert_eq!(rows.expect_rows()[0].text("status"), "free");
+    assert_eq!(rows.run_for_rows()[0].text("status"), "free");
     // A prepared body is not adjusted.
     let output = CommandCall::query(&["--a", name(&out), "--b", BALL_SPEC, "--scale", "2"])
         .stdin(FALLING_BALL_MOTION);
@@ -246,7 +246,7 @@ fn cylinders_and_cones_are_bodies() {
 #[test]
 fn units_are_converted() {
     let scene = Scene::new("units");
-    let cube = scene.bytes("cube.glb", &glb());
+    let cube = scene.write_bytes("cube.glb", &glb());
     let die = scene.file("die.obj", &large_cube_obj());
     let (cube, die) = (part(&cube, "base"), format!("{}@mm", name(&die)));
     // The die, of 20 mm, stands on the cube, of 1000 mm, with a gap of 30 mm.
@@ -276,7 +276,7 @@ fn units_are_converted() {
 #[test]
 fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
     let scene = Scene::new("units-kept");
-    let cube = part(&scene.bytes("cube.glb", &glb()), "base");
+    let cube = part(&scene.write_bytes("cube.glb", &glb()), "base");
     let die = scene.file("die.obj", &large_cube_obj());
     let query = |a: &str, b: &str| {
         CommandCall::query(&["--a", a, "--b", b])
@@ -305,7 +305,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
 #[test]
 fn a_part_is_prepared_and_stored() {
     let scene = Scene::new("parts-stored");
-    let file = scene.bytes("scene.glb", &glb());
+    let file = scene.write_bytes("scene.glb", &glb());
     let stored = scene.directory.join("lid.ccd");
     let output =
         CommandCall::with_args(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
@@ -318,7 +318,7 @@ fn a_part_is_prepared_and_stored() {
     // The lid is a slab from 1875 to 2125 mm.
     let rows = CommandCall::query(&["--a", name(&stored), "--b", "sphere:100", "--unit", "mm"])
         .stdin("b_pz,b_vz,duration\n4000,-1000,4\n")
-        .expect_rows();
+        .run_for_rows();
     let early = 1.775 - rows[0].number("time");
     assert!((0.0..=1.001e-6).contains(&early), "{early}");
     let text = CommandCall::with_args(&["decompose", &part(&file, "lid")]).output();
@@ -333,7 +333,7 @@ fn runs_know_their_unit_and_all_their_files() {
     let (mut json, binary) = gltf();
     json["buffers"][0]["uri"] = json!("scene.bin");
     let file = scene.file("scene.gltf", &json.to_string());
-    let data = scene.bytes("scene.bin", &binary);
+    let data = scene.write_bytes("scene.bin", &binary);
     let motions = scene.file("motions.csv", FALLING_BALL_MOTION);
     let results = scene.directory.join("results.csv");
     let run = |unit: &str| {

@@ -52,7 +52,7 @@ impl Row {
 #[test]
 fn a_box_falls_onto_a_box() {
     let run = CommandCall::query(&CUBE_AND_SLAB_OPTIONS).stdin(FALLING_CUBE_MOTION);
-    let rows = run.expect_rows();
+    let rows = run.run_for_rows();
     assert_eq!(rows.len(), 1);
     let row = &rows[0];
     assert_eq!((row.text("id"), row.text("status")), ("drop", "contact"));
@@ -82,7 +82,7 @@ fn every_schedule_and_oracle_gives_the_answer() {
             let rows = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
                 .args(&options)
                 .stdin(FALLING_CUBE_MOTION)
-                .expect_rows();
+                .run_for_rows();
             assert_eq!(rows[0].text("status"), "contact", "{schedule} {oracle}");
             let late = rows[0].number("time") - DROP_CONTACT_TIME;
             assert!(
@@ -99,7 +99,7 @@ fn every_status_occurs() {
                    free,4,-4,0.25\ncontact,4,-4,1\ntouching,1.5005,-4,1\noverlapping,1,0,1\n";
     let rows = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(motions)
-        .expect_rows();
+        .run_for_rows();
     for row in &rows {
         assert_eq!(row.text("id"), row.text("status"));
     }
@@ -118,7 +118,7 @@ fn an_unresolved_row_is_a_result() {
     let motions = "a_px,a_vx,a_wz\n5,-5,9\n";
     let rows = CommandCall::query(&["--a", mesh, "--b", mesh, "--budget", "1"])
         .stdin(motions)
-        .expect_rows();
+        .run_for_rows();
     assert_eq!(rows[0].text("status"), "unresolved");
     assert_eq!(rows[0].text("reason"), "budget");
     assert!((0.0..0.9).contains(&rows[0].number("time")));
@@ -129,7 +129,7 @@ fn a_deadline_leaves_a_row_unresolved() {
     let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--deadline", "0"])
         .stdin(FALLING_CUBE_MOTION)
-        .expect_messages(0);
+        .run_for_messages(0);
     assert!(
         message.contains("1 unresolved") && message.contains("--deadline"),
         "{message}"
@@ -138,7 +138,7 @@ fn a_deadline_leaves_a_row_unresolved() {
     let rows = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--deadline", "3600"])
         .stdin(FALLING_CUBE_MOTION)
-        .expect_rows();
+        .run_for_rows();
     assert_eq!(rows[0].text("status"), "contact");
 }
 
@@ -147,17 +147,17 @@ fn margins_are_kept_and_leave_ignores_contacts_at_the_start() {
     let with_margin = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--margin", "0.5"])
         .stdin(FALLING_CUBE_MOTION)
-        .expect_rows();
+        .run_for_rows();
     with_margin[0].assert_time_within_tolerance(2.0 / 4.0, 4.0);
     let parting = "a_pz,a_vz\n1.5,1\n";
     let reported = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(parting)
-        .expect_rows();
+        .run_for_rows();
     assert_eq!(reported[0].text("status"), "touching");
     let left = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--start", "leave"])
         .stdin(parting)
-        .expect_rows();
+        .run_for_rows();
     assert_eq!(left[0].text("status"), "free");
 }
 
@@ -216,7 +216,7 @@ fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() 
         let rows = CommandCall::query(&bodies)
             .args(options)
             .stdin(&motions)
-            .expect_rows();
+            .run_for_rows();
         rows.into_iter().map(Row::cells_without_micros).collect()
     };
     let one = answers(&[]);

@@ -26,7 +26,7 @@ fn every_shell_completes_commands_and_options(#[case] shell: &str) {
 
 #[test]
 fn an_unknown_shell_is_refused() {
-    let message = CommandCall::with_args(&["completions", "cmd"]).expect_messages(2);
+    let message = CommandCall::with_args(&["completions", "cmd"]).run_for_messages(2);
     assert_contains(&message, "powershell");
 }
 
@@ -49,7 +49,7 @@ fn the_command_and_every_subcommand_have_a_man_page() {
 #[test]
 fn man_pages_need_an_existing_folder() {
     let folder = Scene::new("man-missing").directory.join("gone");
-    let message = CommandCall::with_args(&["man", folder.to_str().unwrap()]).expect_messages(1);
+    let message = CommandCall::with_args(&["man", folder.to_str().unwrap()]).run_for_messages(1);
     assert!(
         message.contains("cannot write") && message.contains("gone"),
         "{message}"

@@ -36,7 +36,7 @@ fn every_cause_is_reported_once() {
     ] {
         let run =
             CommandCall::with_args(&["query", "--motions", motions, "--a", a, "--b", "sphere:1"]);
-        let message = run.stdin("id\n1\n").expect_messages(2);
+        let message = run.stdin("id\n1\n").run_for_messages(2);
         let lines: Vec<&str> = message
             .lines()
             .filter(|line| line.starts_with("ccd: "))
@@ -108,7 +108,7 @@ fn sizes_are_reported_and_compared() {
     assert!(!message.contains("times as large"), "{message}");
     let message = CommandCall::query(&["--a", "box:150,50,50", "--b", "sphere:1"])
         .stdin(motions)
-        .expect_messages(0);
+        .run_for_messages(0);
     assert_contains(&message, "--a is 150 times as large as --b");
 }
 
@@ -158,7 +158,7 @@ fn nothing_in_a_file_controls_the_terminal() {
             "--motions",
             motions.to_str().unwrap(),
         ])
-        .expect_messages(2);
+        .run_for_messages(2);
     for escaped in ["\\u{1b}[31mred.csv", "\\u{1b}[2Jx", "\\u{1b}[5m"] {
         assert_contains(&message, escaped);
     }
@@ -246,7 +246,7 @@ fn a_single_known_unit_is_reported_once() {
     let told = |options: &[&str]| {
         let message = CommandCall::query(options)
             .stdin(FALLING_CUBE_MOTION)
-            .expect_messages(0);
+            .run_for_messages(0);
         let lines = message.lines().filter(|line| line.starts_with("ccd: "));
         lines.map(str::to_owned).collect::<Vec<_>>()
     };

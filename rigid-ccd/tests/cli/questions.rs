@@ -21,26 +21,30 @@ const TOUCH_AND_LEAVE_PATH: &str = "id,t,a_px,a_pz\n\
 const TOUCH_START_TIME: f64 = 12.5;
 const TOUCH_END_TIME: f64 = 15.0;
 
-fn ask(question: &str, bodies: &[&str], table: &str) -> CommandCall {
+fn question_call(question: &str, bodies: &[&str], table: &str) -> CommandCall {
     CommandCall::query(bodies)
         .args(&["--ask", question])
         .stdin(table)
 }
 
 fn only_row(run: &CommandCall) -> Row {
-    let mut rows = run.expect_rows();
+    let mut rows = run.run_for_rows();
     assert_eq!(rows.len(), 1);
     rows.remove(0)
 }
 
 #[test]
 fn a_contact_is_found_at_any_time() {
-    let row = only_row(&ask("is-free", &CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION));
+    let row = only_row(&question_call(
+        "is-free",
+        &CUBE_AND_SLAB_OPTIONS,
+        FALLING_CUBE_MOTION,
+    ));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
     assert!((DROP_CONTACT_TIME - 1e-3..=1.0).contains(&time), "{time}");
     assert!(row.number("distance_upper") <= 1e-3);
-    let row = only_row(&ask("is-free", &BALLS_OPTIONS, PASSING_MOTION));
+    let row = only_row(&question_call("is-free", &BALLS_OPTIONS, PASSING_MOTION));
     assert_eq!((row.text("status"), row.text("time")), ("free", "1.0"));
     assert_eq!(row.text("distance_lower"), "");
 }
@@ -48,7 +52,11 @@ fn a_contact_is_found_at_any_time() {
 #[test]
 fn an_interval_holds_the_contact() {
     let through = "a_pz,a_vz,duration\n4,-4,3\n";
-    let row = only_row(&ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, through));
+    let row = only_row(&question_call(
+        "contact-interval",
+        &CUBE_AND_SLAB_OPTIONS,
+        through,
+    ));
     assert_eq!(row.text("status"), "contact");
     row.assert_time_within_tolerance(DROP_CONTACT_TIME, 4.0);
     let late = row.number("last_time") - 5.5 / 4.0;
@@ -59,8 +67,8 @@ fn an_interval_holds_the_contact() {
 fn an_interval_begins_as_the_first_contact_does() {
     let starts =
         "id,a_px,a_pz,a_vz\ninto,0,1.4,-1\ndeep,0,0,0\non,0,1.5005,1\nin,0,1.4,1\nbeside,19,0,0\n";
-    let first = ask("first-contact", &CUBE_AND_SLAB_OPTIONS, starts).expect_rows();
-    let interval = ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, starts).expect_rows();
+    let first = question_call("first-contact", &CUBE_AND_SLAB_OPTIONS, starts).run_for_rows();
+    let interval = question_call("contact-interval", &CUBE_AND_SLAB_OPTIONS, starts).run_for_rows();
     for (first, interval) in first.iter().zip(&interval) {
         for column in ["id", "status", "time", "distance_lower", "witness_a_x"] {
             assert_eq!(first.text(column), interval.text(column), "{column}");
@@ -81,24 +89,28 @@ fn an_interval_begins_as_the_first_contact_does() {
 
 #[test]
 fn the_least_distance_is_bracketed_and_compared() {
-    let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION));
+    let row = only_row(&question_call(
+        "closest-approach",
+        &BALLS_OPTIONS,
+        PASSING_MOTION,
+    ));
     assert_eq!(row.text("status"), "measured");
     let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
     assert!(lower <= 0.2 && 0.2 <= upper && upper - lower <= 1e-3);
     assert!((row.number("time") - 0.5).abs() < 0.05);
     for (clearance, status) in [("0", "kept"), ("0.19", "kept"), ("0.21", "violated")] {
-        let run = ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION)
+        let run = question_call("closest-approach", &BALLS_OPTIONS, PASSING_MOTION)
             .args(&["--clearance", clearance]);
         assert_eq!(only_row(&run).text("status"), status, "{clearance}");
     }
-    let run = ask(
+    let run = question_call(
         "closest-approach",
         &CUBE_AND_SLAB_OPTIONS,
         FALLING_CUBE_MOTION,
     )
     .args(&["--clearance", "0.002"]);
     assert_eq!(only_row(&run).text("status"), "violated");
-    let run = ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION).args(&[
+    let run = question_call("closest-approach", &BALLS_OPTIONS, PASSING_MOTION).args(&[
         "--clearance",
         "0.2",
         "--tolerance",
@@ -128,7 +140,7 @@ fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
         (".0999", "unverified"),
         (".13", "violated"),
     ] {
-        let run = ask("distance", &bodies, beside).args(&["--clearance", clearance]);
+        let run = question_call("distance", &bodies, beside).args(&["--clearance", clearance]);
         let row = only_row(&run);
         assert_eq!(row.text("status"), status, "{clearance}");
         let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
@@ -141,7 +153,8 @@ fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
 #[test]
 fn a_clearance_that_is_decided_ends_the_search() {
     let visits = |more: &[&str]| {
-        let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION).args(more));
+        let row =
+            only_row(&question_call("closest-approach", &BALLS_OPTIONS, PASSING_MOTION).args(more));
         (row.number("iterations"), row)
     };
     let (kept, row) = visits(&["--clearance", "0.1"]);
@@ -157,7 +170,7 @@ fn a_clearance_that_is_decided_ends_the_search() {
 
 #[test]
 fn the_distance_is_that_of_the_start() {
-    let row = only_row(&ask(
+    let row = only_row(&question_call(
         "distance",
         &CUBE_AND_SLAB_OPTIONS,
         FALLING_CUBE_MOTION,
@@ -167,13 +180,13 @@ fn the_distance_is_that_of_the_start() {
     assert!((row.number("distance_upper") - 2.5).abs() < 1e-12);
     assert!((row.number("witness_b_z") - 1.0).abs() < 1e-12);
     let inside = "a_px\n0.1\n";
-    let row = only_row(&ask("distance", &CUBE_AND_SLAB_OPTIONS, inside));
+    let row = only_row(&question_call("distance", &CUBE_AND_SLAB_OPTIONS, inside));
     assert_eq!(row.text("status"), "overlapping");
 }
 
 #[test]
 fn paths_answer_every_question() {
-    let row = only_row(&ask(
+    let row = only_row(&question_call(
         "first-contact",
         &CUBE_AND_SLAB_OPTIONS,
         TOUCH_AND_LEAVE_PATH,
@@ -181,7 +194,7 @@ fn paths_answer_every_question() {
     assert_eq!((row.text("id"), row.text("status")), ("visit", "contact"));
     row.assert_time_within_tolerance(TOUCH_START_TIME, 1.0);
 
-    let row = only_row(&ask(
+    let row = only_row(&question_call(
         "is-free",
         &CUBE_AND_SLAB_OPTIONS,
         TOUCH_AND_LEAVE_PATH,
@@ -193,7 +206,7 @@ fn paths_answer_every_question() {
         "{time}"
     );
 
-    let row = only_row(&ask(
+    let row = only_row(&question_call(
         "contact-interval",
         &CUBE_AND_SLAB_OPTIONS,
         TOUCH_AND_LEAVE_PATH,
@@ -203,7 +216,11 @@ fn paths_answer_every_question() {
     assert!((-1e-9..=2e-3).contains(&late), "{late} late");
 
     let over = TOUCH_AND_LEAVE_PATH.replace(",1\n", ",2\n");
-    let row = only_row(&ask("closest-approach", &CUBE_AND_SLAB_OPTIONS, &over));
+    let row = only_row(&question_call(
+        "closest-approach",
+        &CUBE_AND_SLAB_OPTIONS,
+        &over,
+    ));
     let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
     assert!(
         lower <= 0.5 && 0.5 <= upper && upper - lower <= 1e-3,
@@ -211,13 +228,18 @@ fn paths_answer_every_question() {
     );
     let time = row.number("time");
     assert!((12.9..=14.1).contains(&time), "{time}");
-    let row = only_row(&ask("first-contact", &CUBE_AND_SLAB_OPTIONS, &over));
+    let row = only_row(&question_call(
+        "first-contact",
+        &CUBE_AND_SLAB_OPTIONS,
+        &over,
+    ));
     assert_eq!((row.text("status"), row.text("time")), ("free", "18.0"));
 }
 
 #[test]
 fn distances_are_those_of_every_row_of_a_path() {
-    let rows = ask("distance", &CUBE_AND_SLAB_OPTIONS, TOUCH_AND_LEAVE_PATH).expect_rows();
+    let rows =
+        question_call("distance", &CUBE_AND_SLAB_OPTIONS, TOUCH_AND_LEAVE_PATH).run_for_rows();
     let times: Vec<f64> = rows.iter().map(|row| row.number("time")).collect();
     assert_eq!(times, [10.0, 13.0, 14.0, 18.0]);
     let statuses: Vec<&str> = rows.iter().map(|row| row.text("status")).collect();
@@ -235,7 +257,7 @@ fn contacts_of_a_path_are_listed() {
     let scene = Scene::new("contacts-of-a-path");
     let contacts = scene.directory.join("contacts.csv");
     let contacts_name = contacts.to_str().unwrap();
-    let run = ask(
+    let run = question_call(
         "first-contact",
         &CUBE_AND_SLAB_OPTIONS,
         TOUCH_AND_LEAVE_PATH,
@@ -259,7 +281,7 @@ fn paths_are_resumed_and_cut_into_rows() {
         .collect();
     let table = format!("id,t,a_px,a_pz\n{table}");
     let run = |more: &[&str]| {
-        ask("is-free", &CUBE_AND_SLAB_OPTIONS, &table)
+        question_call("is-free", &CUBE_AND_SLAB_OPTIONS, &table)
             .args(&["--no-micros"])
             .args(more)
     };
@@ -286,7 +308,7 @@ fn paths_are_resumed_and_cut_into_rows() {
     };
     assert_eq!(lines(&part)[1..], lines(&whole)[11..31]);
     let out_name = out.to_str().unwrap();
-    run(&["--out", out_name]).expect_rows();
+    run(&["--out", out_name]).run_for_rows();
     let again = run(&["--out", out_name, "--resume"]).output();
     assert_contains(&stderr(&again), "already has all rows");
     assert_eq!(fs::read(&out).unwrap(), whole);
@@ -331,7 +353,7 @@ fn options_without_a_use_are_refused() {
         let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .args(options)
             .stdin(TOUCH_AND_LEAVE_PATH)
-            .expect_messages(2);
+            .run_for_messages(2);
         assert_contains(&message, refusal);
     }
 }
@@ -341,13 +363,13 @@ fn options_without_a_use_are_refused() {
 #[test]
 fn bodies_that_overlap_at_the_start_are_overlapping() {
     let deeper = "a_px,a_vx\n0.9,-1.9\n";
-    let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, deeper));
+    let row = only_row(&question_call("closest-approach", &BALLS_OPTIONS, deeper));
     assert_eq!(
         (row.text("status"), row.text("time")),
         ("overlapping", "0.0")
     );
     let path = "t,a_px\n0,0.9\n1,-1\n2,3\n";
-    let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, path));
+    let row = only_row(&question_call("closest-approach", &BALLS_OPTIONS, path));
     assert_eq!(
         (row.text("status"), row.text("time")),
         ("overlapping", "0.0")
@@ -370,7 +392,7 @@ fn a_check_fails_unless_every_row_is_proven() {
         ("closest-approach", near, "violated", 3),
         ("closest-approach", open, "unverified", 3),
     ] {
-        let run = ask(asked, &BALLS_OPTIONS, PASSING_MOTION).args(options);
+        let run = question_call(asked, &BALLS_OPTIONS, PASSING_MOTION).args(options);
         assert_eq!(only_row(&run).text("status"), status, "{options:?}");
         let output = run.args(&["--check", "-q"]).output();
         assert_eq!(output.status.code(), Some(code), "{asked} {options:?}");
@@ -393,7 +415,7 @@ fn a_check_fails_unless_every_row_is_proven() {
         let run = CommandCall::query(&BALLS_OPTIONS)
             .args(&["--check"])
             .args(options);
-        let message = run.stdin(PASSING_MOTION).expect_messages(2);
+        let message = run.stdin(PASSING_MOTION).run_for_messages(2);
         assert_contains(&message, refusal);
     }
 }
@@ -413,7 +435,7 @@ fn a_finished_check_fails_again() {
 }
 
 /// Returns a tube about z as the text of an OBJ file.
-fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
+fn tube_obj(radii: [f64; 2], heights: [f64; 2]) -> String {
     const CORNERS: usize = 48;
     let mut text = String::new();
     for z in heights {
@@ -439,8 +461,8 @@ fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
 #[test]
 fn a_long_path_is_measured_with_what_its_parts_need() {
     let scene = Scene::new("long-path");
-    let wheel = scene.file("wheel.obj", &tube([5.2, 8.0], [0.0, 8.0]));
-    let axle = scene.file("axle.obj", &tube([4.0, 5.0], [-10.0, 18.0]));
+    let wheel = scene.file("wheel.obj", &tube_obj([5.2, 8.0], [0.0, 8.0]));
+    let axle = scene.file("axle.obj", &tube_obj([4.0, 5.0], [-10.0, 18.0]));
     let bodies = [
         "--a",
         wheel.to_str().unwrap(),
@@ -456,7 +478,7 @@ fn a_long_path_is_measured_with_what_its_parts_need() {
         path
     };
     let measured = |quarters, budget: &str| {
-        let run = ask("closest-approach", &bodies, &turns(quarters));
+        let run = question_call("closest-approach", &bodies, &turns(quarters));
         let row = only_row(&run.args(&["--budget", budget]));
         assert_eq!(row.text("status"), "measured", "{budget}");
         row.number("iterations")

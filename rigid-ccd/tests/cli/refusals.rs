@@ -101,13 +101,13 @@ fn messages_name_the_bad_body_or_file() {
     ] {
         let message = CommandCall::query(&bodies)
             .stdin(FALLING_CUBE_MOTION)
-            .expect_messages(2);
+            .run_for_messages(2);
         assert_contains(&message, expected);
     }
     let message = CommandCall::with_args(&["query", "--a", "sphere:1", "--b", "sphere:1"])
         .args(&["--motions", "nowhere.csv"])
         .stdin("")
-        .expect_messages(2);
+        .run_for_messages(2);
     assert_contains(&message, "nowhere.csv");
 }
 
@@ -133,7 +133,7 @@ fn bad_options_are_refused() {
         let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .args(&options)
             .stdin(FALLING_CUBE_MOTION)
-            .expect_messages(2);
+            .run_for_messages(2);
         assert_contains(&message, options[1]);
     }
 }
@@ -144,7 +144,7 @@ fn unwritable_results_have_exit_code_1() {
     let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&options)
         .stdin(FALLING_CUBE_MOTION)
-        .expect_messages(1);
+        .run_for_messages(1);
     let folder = "/no/such/directory";
     assert_eq!(
         message.matches("is a folder that does not exist").count(),
@@ -176,7 +176,7 @@ fn an_unclosed_quote_is_an_error() {
         }
     }
     let closed = CommandCall::query(&CUBE_AND_SLAB_OPTIONS).stdin("id,a_pz\n\"a\nb\",4\n");
-    assert_eq!(closed.expect_rows()[0].text("id"), "a\nb");
+    assert_eq!(closed.run_for_rows()[0].text("id"), "a\nb");
 }
 
 /// Tests that a Git LFS pointer in place of a file is reported, with the advice to fetch the file.
@@ -189,7 +189,7 @@ fn git_lfs_pointers_are_recognised() {
         let mesh = scene.file(name, pointer);
         let message = CommandCall::query(&["--a", mesh.to_str().unwrap(), "--b", "sphere:1"])
             .stdin(FALLING_CUBE_MOTION)
-            .expect_messages(2);
+            .run_for_messages(2);
         assert!(
             message.contains(advice) && message.contains("git lfs pull"),
             "{message}"
@@ -197,6 +197,6 @@ fn git_lfs_pointers_are_recognised() {
     }
     let message = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(pointer)
-        .expect_messages(2);
+        .run_for_messages(2);
     assert_contains(&message, advice);
 }

@@ -100,7 +100,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
     let message = CommandCall::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
-        .expect_messages(2);
+        .run_for_messages(2);
     assert_contains(&message, "no row has the id \"gone\"");
     assert_eq!(
         names(&embedded_views(&scene.directory.join("view.html"))),
@@ -114,7 +114,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
     let message = CommandCall::with_args(&["view"])
         .args(&nothing)
         .folder(&scene.directory)
-        .expect_messages(2);
+        .run_for_messages(2);
     assert_contains(&message, "no row to show");
 }
 
@@ -177,7 +177,7 @@ fn results_are_shown_as_they_are() {
     let message = CommandCall::with_args(&["view"])
         .args(&wrong)
         .folder(&scene.directory)
-        .expect_messages(2);
+        .run_for_messages(2);
     assert_contains(&message, "not those of results");
 }
 
@@ -311,7 +311,7 @@ fn an_unwritable_page_is_an_error_before_the_work() {
     ] {
         let message = CommandCall::with_args(&args)
             .folder(&scene.directory)
-            .expect_messages(1);
+            .run_for_messages(1);
         assert_contains(&message, "create it first");
         assert!(!scene.directory.join("x.csv").exists());
     }
@@ -329,7 +329,7 @@ fn rows_that_are_no_queries_are_left_out_and_counted() {
     let message = CommandCall::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
-        .expect_messages(2);
+        .run_for_messages(2);
     assert_contains(&message, "2 rows are no valid queries");
     assert_eq!(
         names(&embedded_views(&scene.directory.join("view.html"))),
@@ -405,7 +405,7 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
         let bodies = file(&scene, "wrong.csv", table);
         let message = CommandCall::with_args(&["view", "--scene", &bodies])
             .folder(&scene.directory)
-            .expect_messages(2);
+            .run_for_messages(2);
         assert_contains(&message, says);
     }
 }

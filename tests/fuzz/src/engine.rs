@@ -11,7 +11,7 @@ use std::fmt;
 
 /// The kind of pieces of both bodies. A body whose form does not allow it has triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum PieceKind {
     Triangles,
     Patches,
     Hull,
@@ -29,7 +29,7 @@ pub enum Method {
 /// The engine's bodies of a case, made of one kind of pieces.
 pub struct Bodies {
     pub bodies: [Body; 2],
-    pub kind: Kind,
+    pub kind: PieceKind,
 }
 
 impl Bodies {
@@ -37,7 +37,7 @@ impl Bodies {
     ///
     /// # Errors
     /// The reason why the engine refuses the meshes.
-    pub fn new(case: &Case, kind: Kind, trees: Trees) -> Result<Self, String> {
+    pub fn new(case: &Case, kind: PieceKind, trees: HullTrees) -> Result<Self, String> {
         let body = |shape: &Shape| body(shape, kind, trees);
         let [a, b] = &case.shapes;
         Ok(Bodies {
@@ -68,12 +68,12 @@ impl Bodies {
 
 /// Whether bodies have hull trees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trees {
+pub enum HullTrees {
     NotBuilt,
     Built,
 }
 
-fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
+fn body(shape: &Shape, kind: PieceKind, trees: HullTrees) -> Result<Body, String> {
     let vertices = || shape.vertices.iter().map(|&v| DVec3::from(v)).collect();
     if shape.mesh_class == MeshClass::Points {
         let polytope = Polytope {
@@ -83,8 +83,8 @@ fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
         return Body::polytope(polytope).map_err(|e| e.to_string());
     }
     let detail = match (kind, shape.mesh_class) {
-        (Kind::Hull, MeshClass::Convex) => Detail::Hull,
-        (Kind::Patches, MeshClass::Convex | MeshClass::Solid) => {
+        (PieceKind::Hull, MeshClass::Convex) => Detail::Hull,
+        (PieceKind::Patches, MeshClass::Convex | MeshClass::Solid) => {
             Detail::Patches(Default::default())
         }
         _ => Detail::Triangles,
@@ -95,8 +95,8 @@ fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
         .or_else(|_| prepare(&mesh, Detail::Triangles))
         .map_err(|e| e.to_string())?;
     let model = match trees {
-        Trees::Built => model.with_hull_tree().map_err(|e| e.to_string())?,
-        Trees::NotBuilt => model,
+        HullTrees::Built => model.with_hull_tree().map_err(|e| e.to_string())?,
+        HullTrees::NotBuilt => model,
     };
     model.body().map_err(|e| e.to_string())
 }
@@ -120,10 +120,10 @@ impl Method {
         }
     }
 
-    pub fn trees(self) -> Trees {
+    pub fn trees(self) -> HullTrees {
         match self {
-            Method::Fast => Trees::Built,
-            _ => Trees::NotBuilt,
+            Method::Fast => HullTrees::Built,
+            _ => HullTrees::NotBuilt,
         }
     }
 }
@@ -140,12 +140,12 @@ impl fmt::Display for Method {
     }
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for PieceKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Kind::Triangles => "--pieces triangles",
-            Kind::Patches => "--pieces patches",
-            Kind::Hull => "--pieces hull",
+            PieceKind::Triangles => "--pieces triangles",
+            PieceKind::Patches => "--pieces patches",
+            PieceKind::Hull => "--pieces hull",
         })
     }
 }

@@ -31,13 +31,13 @@ pub enum Fault {
     /// The bodies overlap at the start, which is not reported.
     MissedOverlap,
     /// A reported lower bound is above the distance.
-    LowerBound,
+    WrongLowerBound,
     /// A reported upper bound is below the distance.
     WrongUpperBound,
     /// A witness point is not on its body.
-    Witness,
+    WrongWitness,
     /// A proven gap is larger than the distance.
-    Clearance,
+    WrongProvenGap,
     /// The bodies of an unresolved query were in contact before the certified time.
     FalseSafeTime,
     /// The answers of two methods contradict each other.
@@ -62,7 +62,7 @@ pub struct Judge<'a> {
     start: StartState,
     /// The closed surfaces of both bodies at the start.
     placed: [Solid; 2],
-    volumes: [Volume; 2],
+    volume_kinds: [Volume; 2],
 }
 
 pub type Faults = Vec<(Fault, String)>;
@@ -78,7 +78,7 @@ impl<'a> Judge<'a> {
             rounding,
             start,
             placed,
-            volumes,
+            volume_kinds: volumes,
         }
     }
 
@@ -160,7 +160,7 @@ impl<'a> Judge<'a> {
                 answer.outcome
             )
         };
-        let overlaps = self.start.overlaps;
+        let overlaps = self.start.certainly_overlaps;
         match answer.outcome {
             Outcome::Contact { .. } | Outcome::Free { .. } | Outcome::Touching { .. }
                 if overlaps =>
@@ -173,8 +173,8 @@ impl<'a> Judge<'a> {
             }
             Outcome::Free { proven_gap } => match (early, before) {
                 (Some(e), _) => say(Fault::Missed, known(e)),
-                (None, Some(e)) if e.distance < proven_gap - self.scene.error() => {
-                    say(Fault::Clearance, known(e));
+                (None, Some(e)) if e.distance < proven_gap - self.scene.distance_error_bound() => {
+                    say(Fault::WrongProvenGap, known(e));
                 }
                 _ => {}
             },
@@ -232,7 +232,7 @@ impl<'a> Judge<'a> {
     /// Checks the distance, the bounds and the witnesses of a contact at a time.
     fn check_contact(&self, given: &MethodAnswer<'_>, contact: &Contact, time: f64) -> Faults {
         let mut faults = Vec::new();
-        let (scene, error) = (&self.scene, self.scene.error());
+        let (scene, error) = (&self.scene, self.scene.distance_error_bound());
         let found = contact.separation;
         let reported = self.case.config.margin + given.answer.tolerance;
         let text = |d: f64| format!("distance {d:e}, {:?}", given.answer.outcome);
@@ -260,10 +260,10 @@ impl<'a> Judge<'a> {
             Some(d)
         };
         if let Some(d) = lower.filter(|d| found.lower > d + error) {
-            faults.push((Fault::LowerBound, format!("pieces {}", text(d))));
+            faults.push((Fault::WrongLowerBound, format!("pieces {}", text(d))));
         }
-        if let Some(off) = self.witness_error(contact, time) {
-            faults.push((Fault::Witness, format!("off by {off:e}, {}", text(d))));
+        if let Some(off) = self.witness_or_normal_error(contact, time) {
+            faults.push((Fault::WrongWitness, format!("off by {off:e}, {}", text(d))));
         }
         faults
     }
@@ -277,25 +277,28 @@ impl<'a> Judge<'a> {
             .any(|(outer, witness)| {
                 let solid = Solid::new(self.scene.triangles_at(outer, time));
                 let point = Vector::from_array(witness.to_array()) - origin;
-                self.volumes[outer] == Volume::Solid && solid.locate(point) == PointLocation::Inside
+                self.volume_kinds[outer] == Volume::Solid
+                    && solid.locate(point) == PointLocation::Inside
             })
     }
 
     /// Returns the largest error of a contact's witnesses and normal; `None` if it is within rounding. The error of a
     /// witness is its distance from its body, or the excess of the witnesses' distance over the contact's upper bound.
-    fn witness_error(&self, contact: &Contact, time: f64) -> Option<f64> {
+    fn witness_or_normal_error(&self, contact: &Contact, time: f64) -> Option<f64> {
         let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
         let witnesses = [found.witness_a, found.witness_b].map(|w| Vector(w.to_array()));
-        let far = witnesses.iter().fold(0.0, |m, w| larger(m, w.largest()));
-        let far = larger(far, origin.largest());
+        let far = witnesses
+            .iter()
+            .fold(0.0, |m, w| larger(m, w.max_absolute_component()));
+        let far = larger(far, origin.max_absolute_component());
         let allowed = 1e-12 * (self.scene.scale + far) + 16.0 * self.rounding;
         let mut off = [0, 1].map(|k| {
             let placed = self.scene.triangles_at(k, time);
             let point = Vector::from_array(witnesses[k].0) - origin;
             let off = distance_to_surface(point, &placed);
             // A piece may extend through the interior of its solid.
-            let may = self.volumes[k] == Volume::Solid && off > allowed;
+            let may = self.volume_kinds[k] == Volume::Solid && off > allowed;
             if may && Solid::new(placed).locate(point) != PointLocation::Outside {
                 0.0
             } else {
@@ -353,7 +356,7 @@ impl<'a> Judge<'a> {
         let wrong = match *overlap {
             Overlap::Pieces(contact) => {
                 self.start.distance > self.rounding && !self.start.may_contain
-                    || self.interiors_are_disjoint(given.bodies, &contact)
+                    || self.are_disjoint_triangles(given.bodies, &contact)
             }
             Overlap::AInsideB(p) => !self.is_inside(p.to_array(), 1),
             Overlap::BInsideA(p) => !self.is_inside(p.to_array(), 0),
@@ -365,7 +368,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns true if the pieces of a reported overlap are two triangles with disjoint interiors.
-    fn interiors_are_disjoint(&self, bodies: &Bodies, contact: &Contact) -> bool {
+    fn are_disjoint_triangles(&self, bodies: &Bodies, contact: &Contact) -> bool {
         match self
             .piece_triangles(bodies, contact, 0.0)
             .as_ref()
@@ -380,7 +383,7 @@ impl<'a> Judge<'a> {
         let point = Vector::from_array(p) - self.scene.snapshots(0.0)[0].centre;
         let solid = &self.placed[outer];
         // Points are given in world coordinates, rounded.
-        let near = 1e-12 * larger(self.scene.scale, Vector(p).largest());
+        let near = 1e-12 * larger(self.scene.scale, Vector(p).max_absolute_component());
         solid.locate(point) != PointLocation::Outside
             || distance_to_surface(point, &solid.triangles) < near
     }
@@ -399,7 +402,8 @@ impl<'a> Judge<'a> {
             let d = self.scene.distance(time);
             for (k, other) in given.iter().enumerate() {
                 let tolerance = smaller(one.answer.tolerance, other.answer.tolerance);
-                let near = d < self.case.config.margin + 0.5 * tolerance - self.scene.error();
+                let near = d < self.case.config.margin + 0.5 * tolerance
+                    - self.scene.distance_error_bound();
                 if near && self.proven_free_until(&other.answer.outcome) > time {
                     let text = format!("{d:e} apart at {time:e}, {:?}", other.answer.outcome);
                     faults.push((k, Fault::Disagreement, text));

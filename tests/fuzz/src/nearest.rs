@@ -56,7 +56,7 @@ impl<N: Number> Edge<N> {
     fn all(t: &Triangle<N>) -> [Self; 3] {
         let edge = |from: Vector<N>, to: Vector<N>| {
             let way = to - from;
-            let along = way.scaled();
+            let along = way.scaled_to_about_one();
             let (scale, square) = (ratio(along, way), along.dot(along));
             Edge {
                 from,
@@ -136,9 +136,9 @@ fn offset_to_plane<N: Number>(
 
 fn is_over_triangle<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
     let ways = [
-        (t[1] - t[0]).scaled(),
-        (t[2] - t[1]).scaled(),
-        (t[0] - t[2]).scaled(),
+        (t[1] - t[0]).scaled_to_about_one(),
+        (t[2] - t[1]).scaled_to_about_one(),
+        (t[0] - t[2]).scaled_to_about_one(),
     ];
     (0..3).all(|k| n.dot(ways[k].cross(x - t[k])) >= N::from_f64(0.0))
         // Beyond the ends of a needle, rounding alone decides the side of a point.
@@ -150,10 +150,13 @@ fn is_over_triangle<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> b
 
 /// Returns the unit normal of a triangle, or `None` if its area is within rounding.
 pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
-    let (u, v) = ((t[1] - t[0]).scaled(), (t[2] - t[0]).scaled());
+    let (u, v) = (
+        (t[1] - t[0]).scaled_to_about_one(),
+        (t[2] - t[0]).scaled_to_about_one(),
+    );
     let n = u.cross(v);
     // For an f64, thinner needles consist of their edges alone.
-    (n.largest() > 1e-30).then_some(n)?.unit()
+    (n.max_absolute_component() > 1e-30).then_some(n)?.unit()
 }
 
 /// Returns true if one of three edges passes through the interior of a triangle.
@@ -177,7 +180,8 @@ fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector
 /// Returns the penetration depth of two triangles: the least displacement that makes their interiors disjoint, over all
 /// separating axes. It is negative if a gap separates them, and 0 if one is flat along every axis.
 pub fn penetration_depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
-    let edges = |t: &Triangle<N>| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(Vector::scaled);
+    let edges =
+        |t: &Triangle<N>| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(Vector::scaled_to_about_one);
     let (es, et, ns, nt) = (edges(s), edges(t), normal(s), normal(t));
     let mut axes: Vec<Vector<N>> = ns.into_iter().chain(nt).collect();
     for e in es {

@@ -58,7 +58,7 @@ impl RawPose {
 }
 
 impl RawMotion {
-    pub fn velocities(start: RawPose, linear: [f64; 3], spin: [f64; 3]) -> Self {
+    pub fn from_velocities(start: RawPose, linear: [f64; 3], spin: [f64; 3]) -> Self {
         RawMotion {
             start,
             spec: MotionSpec::Velocities { linear, spin },
@@ -85,7 +85,7 @@ impl RawMotion {
 
     /// Returns the motion over a duration, exact except for the rounding of [`DoubleDouble`]. Between end poses, the centre
     /// moves straight, and the body rotates by the shortest rotation between the unit quaternions.
-    pub fn track(&self, duration: f64) -> Track {
+    pub fn exact_motion(&self, duration: f64) -> ExactMotion {
         let centre = Vector::from_array(self.centre);
         let start = self.start.point(centre);
         let per_time = DoubleDouble::new(1.0) / DoubleDouble::new(duration);
@@ -111,7 +111,7 @@ impl RawMotion {
             };
             rotation.point(Vector::from_array(unit))
         });
-        Track {
+        ExactMotion {
             start,
             velocity,
             axis,
@@ -144,7 +144,7 @@ fn shortest_rotation(
 
 /// A motion that is exact except for the rounding of [`DoubleDouble`].
 #[derive(Clone, Debug)]
-pub struct Track {
+pub struct ExactMotion {
     pub start: Vector<DoubleDouble>,
     pub velocity: Vector<DoubleDouble>,
     pub axis: Vector<DoubleDouble>,
@@ -161,8 +161,8 @@ pub struct Snapshot {
     pub centre: Vector<DoubleDouble>,
 }
 
-impl Track {
-    pub fn at(&self, t: f64) -> Snapshot {
+impl ExactMotion {
+    pub fn snapshot_at(&self, t: f64) -> Snapshot {
         let centre = self.start + self.velocity * DoubleDouble::new(t);
         let columns = if self.rate.rounded() > 0.0 {
             let (sin, cos) = (self.rate * DoubleDouble::new(t)).sin_cos();

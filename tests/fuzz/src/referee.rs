@@ -9,7 +9,7 @@ mod search;
 use crate::case::Case;
 use crate::double::DoubleDouble;
 use crate::nearest::{Triangle, distance, penetration_depth};
-use crate::raw_motion::{Snapshot, Track};
+use crate::raw_motion::{ExactMotion, Snapshot};
 use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 
@@ -20,7 +20,7 @@ const RELATIVE_RECHECK_DISTANCE: f64 = 1e-13;
 
 /// A body's triangles and its motion.
 pub struct MovingBody {
-    pub track: Track,
+    pub track: ExactMotion,
     /// The triangles relative to the centre of rotation, in the body's frame.
     pub triangles: Vec<Triangle<DoubleDouble>>,
     balls: Vec<Ball>,
@@ -53,15 +53,18 @@ pub struct Violation {
 }
 
 impl MovingBody {
-    fn new(triangles: &[Triangle<f64>], track: Track) -> Self {
+    fn new(triangles: &[Triangle<f64>], track: ExactMotion) -> Self {
         let arm = |p: Vector<f64>| Vector::from_array(p.0) - track.centre;
         let triangles: Vec<Triangle<DoubleDouble>> = triangles.iter().map(|t| t.map(arm)).collect();
-        let balls: Vec<Ball> = triangles.iter().map(|t| Ball::around(t, &track)).collect();
+        let balls: Vec<Ball> = triangles
+            .iter()
+            .map(|t| Ball::ball_around(t, &track))
+            .collect();
         let corners: Vec<Vector<DoubleDouble>> = triangles.iter().flatten().copied().collect();
         let reaches = corners.iter().map(|p| p.length().rounded());
         let reach = reaches.fold(0.0, larger);
         MovingBody {
-            whole: Ball::around(&corners, &track),
+            whole: Ball::ball_around(&corners, &track),
             reach,
             triangles,
             balls,
@@ -85,7 +88,7 @@ impl MovingBody {
 }
 
 impl Ball {
-    fn around(points: &[Vector<DoubleDouble>], track: &Track) -> Self {
+    fn ball_around(points: &[Vector<DoubleDouble>], track: &ExactMotion) -> Self {
         let sum = points.iter().skip(1).fold(points[0], |sum, &p| sum + p);
         let middle = sum * DoubleDouble::new(1.0 / points.len() as f64);
         let far = |r, &p: &Vector<DoubleDouble>| larger(r, (p - middle).length().rounded());
@@ -110,7 +113,7 @@ impl Scene {
         let side = |k: usize| {
             MovingBody::new(
                 &case.shapes[k].triangles(),
-                case.motions[k].track(case.duration),
+                case.motions[k].exact_motion(case.duration),
             )
         };
         let sides = [side(0), side(1)];
@@ -129,13 +132,19 @@ impl Scene {
 
     /// Returns a bound on the error of the referee's distances. Positions in the world have a relative error of
     /// 1e-31.
-    pub fn error(&self) -> f64 {
-        let far = self.sides.iter().map(|s| s.track.start.largest());
+    pub fn distance_error_bound(&self) -> f64 {
+        let far = self
+            .sides
+            .iter()
+            .map(|s| s.track.start.max_absolute_component());
         MAX_RELATIVE_DISTANCE_ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
     }
 
     pub fn snapshots(&self, t: f64) -> [Snapshot; 2] {
-        [self.sides[0].track.at(t), self.sides[1].track.at(t)]
+        [
+            self.sides[0].track.snapshot_at(t),
+            self.sides[1].track.snapshot_at(t),
+        ]
     }
 
     /// Returns all triangles of a body at a time, relative to the centre of body A.

@@ -41,7 +41,7 @@ impl Solid {
     }
 
     /// Returns one corner of every connected part.
-    pub fn corners(&self) -> impl Iterator<Item = Vector<DoubleDouble>> {
+    pub fn part_corners(&self) -> impl Iterator<Item = Vector<DoubleDouble>> {
         let firsts = self
             .parts
             .iter()
@@ -53,7 +53,7 @@ impl Solid {
     /// Returns the location of a point relative to the solid. The point is on no triangle. Nested parts are solid and
     /// cavity in turn.
     pub fn locate(&self, p: Vector<DoubleDouble>) -> PointLocation {
-        let seen = DIRECTIONS
+        let seen = RAY_DIRECTIONS
             .iter()
             .find_map(|&ray| self.crossings(p, Vector::from_array(ray)));
         let Some(seen) = seen else {
@@ -93,7 +93,7 @@ impl Solid {
     }
 }
 
-const DIRECTIONS: [[f64; 3]; 8] = [
+const RAY_DIRECTIONS: [[f64; 3]; 8] = [
     [0.31, 0.87, 0.19],
     [-0.73, 0.22, 0.41],
     [0.11, -0.35, 0.93],
@@ -111,7 +111,9 @@ fn crossing(
     ray: Vector<DoubleDouble>,
     t: &Triangle<DoubleDouble>,
 ) -> Option<i32> {
-    let size = t.iter().fold(0.0, |m, &v| larger(m, (v - p).largest()));
+    let size = t
+        .iter()
+        .fold(0.0, |m, &v| larger(m, (v - p).max_absolute_component()));
     let grazing = 1e-18 * size * size;
     let sides = [0, 1, 2].map(|k| {
         let side = (t[k] - p).cross(t[(k + 1) % 3] - p).dot(ray).rounded();
@@ -169,7 +171,7 @@ pub fn points_beside_triangles(triangles: &[Triangle<DoubleDouble>]) -> Vec<Vect
         let Some(n) = normal(t) else { continue };
         let weights = [0.5, 0.3, 0.2].map(DoubleDouble::new);
         let middle = t[0] * weights[0] + t[1] * weights[1] + t[2] * weights[2];
-        let off = n * DoubleDouble::new(1e-3 * (t[1] - t[0]).largest());
+        let off = n * DoubleDouble::new(1e-3 * (t[1] - t[0]).max_absolute_component());
         points.extend([middle + off, middle - off]);
     }
     points

@@ -1,7 +1,7 @@
 //! Answers one query by many methods, and judges the answers.
 
 use crate::case::{Case, MeshClass, Shape};
-use crate::engine::{Bodies, Kind, Method, Trees};
+use crate::engine::{Bodies, HullTrees, Method, PieceKind};
 use crate::judge::{Fault, Judge, MethodAnswer};
 use ccd_core::{Outcome, Settings};
 use std::collections::HashMap;
@@ -11,7 +11,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// A case with the outcomes of all methods, and the failures among them.
 pub struct Trial {
     pub case: Case,
-    pub methods: Vec<(Kind, Method)>,
+    pub methods: Vec<(PieceKind, Method)>,
     pub outcomes: Vec<Outcome>,
     /// The reason why the engine or the decomposition rejected the case, if it did.
     pub refusal_reason: Option<String>,
@@ -24,7 +24,7 @@ pub struct Trial {
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub fault: Fault,
-    pub kind_and_method: (Kind, Method),
+    pub kind_and_method: (PieceKind, Method),
     pub text: String,
     pub outcomes: String,
 }
@@ -59,7 +59,7 @@ impl Failure {
 }
 
 /// Builds the bodies of a case, runs the methods, and judges their answers.
-pub fn run_methods(case: Case, methods: Vec<(Kind, Method)>) -> Trial {
+pub fn run_methods(case: Case, methods: Vec<(PieceKind, Method)>) -> Trial {
     let mut trial = Trial {
         case,
         methods: Vec::new(),
@@ -68,8 +68,8 @@ pub fn run_methods(case: Case, methods: Vec<(Kind, Method)>) -> Trial {
         failures: Vec::new(),
         is_search_complete: true,
     };
-    let built = build(&mut trial, &methods);
-    let given = answers(&mut trial, &built, methods);
+    let built = build_bodies(&mut trial, &methods);
+    let given = solve_by_methods(&mut trial, &built, methods);
     trial.methods = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
     trial.outcomes = given.iter().map(|g| g.answer.outcome).collect();
     judge(&mut trial, &given);
@@ -77,8 +77,11 @@ pub fn run_methods(case: Case, methods: Vec<(Kind, Method)>) -> Trial {
 }
 
 /// Builds the bodies of every kind that the methods need.
-fn build(trial: &mut Trial, methods: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
-    let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
+fn build_bodies(
+    trial: &mut Trial,
+    methods: &[(PieceKind, Method)],
+) -> Vec<((PieceKind, HullTrees), Bodies)> {
+    let mut built: Vec<((PieceKind, HullTrees), Bodies)> = Vec::new();
     for (kind, method) in methods {
         let key = (*kind, method.trees());
         if built.iter().any(|(k, _)| *k == key) {
@@ -96,10 +99,10 @@ fn build(trial: &mut Trial, methods: &[(Kind, Method)]) -> Vec<((Kind, Trees), B
 }
 
 /// Returns the answers of all methods that accept the case.
-fn answers<'b>(
+fn solve_by_methods<'b>(
     trial: &mut Trial,
-    built: &'b [((Kind, Trees), Bodies)],
-    methods: Vec<(Kind, Method)>,
+    built: &'b [((PieceKind, HullTrees), Bodies)],
+    methods: Vec<(PieceKind, Method)>,
 ) -> Vec<MethodAnswer<'b>> {
     let mut given = Vec::new();
     for (kind, method) in methods {
@@ -168,7 +171,7 @@ fn rounding(case: &Case, bodies: &Bodies) -> f64 {
     bodies.problem(case, &least).map_or(0.0, |p| p.tolerance())
 }
 
-fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
+fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (PieceKind, Method)) -> Failure {
     let text = panic.downcast_ref::<String>().cloned();
     let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
     Failure {
@@ -182,7 +185,7 @@ fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> F
 /// Returns a smaller case that fails in the same way: without triangles that the failure does not need.
 pub fn shrink(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
-        let mut methods = vec![(Kind::Triangles, Method::Direct)];
+        let mut methods = vec![(PieceKind::Triangles, Method::Direct)];
         methods.push(failure.kind_and_method);
         let again = run_methods(case.clone(), methods);
         again.failures.iter().any(|f| f.fault == failure.fault)

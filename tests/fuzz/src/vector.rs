@@ -70,7 +70,7 @@ impl<N: Number> Vector<N> {
 
     #[inline]
     pub fn length(self) -> N {
-        let size = self.largest();
+        let size = self.max_absolute_component();
         if !(size > 1e-290) {
             return N::from_f64(size);
         }
@@ -82,14 +82,14 @@ impl<N: Number> Vector<N> {
 
     /// Scales the vector by a power of two, so that its largest component is about 1; zero stays zero.
     #[inline]
-    pub fn scaled(self) -> Self {
-        let size = self.largest();
+    pub fn scaled_to_about_one(self) -> Self {
+        let size = self.max_absolute_component();
         if !(size > 0.0 && size.is_finite()) {
             self
         } else if size < 1e-290 {
             // Scale in two steps, because the reciprocal of a denormal overflows.
             let v = self * N::from_f64(2f64.powi(600));
-            v * N::from_f64(1.0 / floor_to_power_of_two(v.largest()))
+            v * N::from_f64(1.0 / floor_to_power_of_two(v.max_absolute_component()))
         } else {
             self * N::from_f64(1.0 / floor_to_power_of_two(size))
         }
@@ -98,14 +98,14 @@ impl<N: Number> Vector<N> {
     /// Returns the vector scaled to length 1; `None` for a vector without a direction.
     #[inline]
     pub fn unit(self) -> Option<Self> {
-        let v = self.scaled();
+        let v = self.scaled_to_about_one();
         let length = v.dot(v).sqrt();
         (length.rounded() > 0.1).then(|| v * (N::from_f64(1.0) / length))
     }
 
     /// Returns the largest absolute value of a component, rounded.
     #[inline]
-    pub fn largest(self) -> f64 {
+    pub fn max_absolute_component(self) -> f64 {
         let Vector([x, y, z]) = self.map_components(|x| x.rounded().abs());
         larger(larger(x, y), z)
     }

@@ -10,14 +10,14 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 /// The distance from the origin within which the bodies move.
-const REACH: f64 = 2.0;
+const SCENE_RADIUS: f64 = 2.0;
 
 /// A bound on the rounding errors of distances and poses in this test, for coordinates below 32.
 pub(super) const ROUNDING: f64 = 2e-14;
 
 /// Two solids on trajectories over the times 0 to 1.
 pub(super) struct Scene {
-    pub(super) trajectory_kinds: [usize; 2],
+    pub(super) trajectory_kind_indices: [usize; 2],
     pub(super) solids: [Solid; 2],
     pub(super) bodies: [Body; 2],
     pub(super) trajectories: [Box<dyn Trajectory>; 2],
@@ -29,13 +29,13 @@ impl Scene {
         let kinds = [(); 2].map(|()| rng.random_range(0..KINDS.len()));
         Scene {
             bodies: [0, 1].map(|k| solids[k].body()),
-            trajectories: kinds.map(|kind| courses::draw(rng, kind, REACH)),
-            trajectory_kinds: kinds,
+            trajectories: kinds.map(|kind| courses::draw(rng, kind, SCENE_RADIUS)),
+            trajectory_kind_indices: kinds,
             solids,
         }
     }
 
-    pub(super) fn moving(&self) -> [MovingBody<'_>; 2] {
+    pub(super) fn moving_bodies(&self) -> [MovingBody<'_>; 2] {
         [0, 1].map(|k| (&self.bodies[k], self.trajectories[k].as_ref()).into())
     }
 
@@ -55,7 +55,7 @@ impl Scene {
             .collect();
         let mut corners = Vec::new();
         for way in &self.trajectories {
-            corners_of(way.as_ref(), [0.0, 1.0], &mut corners);
+            collect_corner_times(way.as_ref(), [0.0, 1.0], &mut corners);
         }
         for corner in corners {
             let beside = [corner - 1e-7, corner, corner + 1e-7];
@@ -83,14 +83,14 @@ impl Scene {
     }
 }
 
-fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>) {
+fn collect_corner_times(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>) {
     if let Some(corner) = way.corner(from, to)
         && from < corner
         && corner < to
     {
         corners.push(corner);
-        corners_of(way, [from, corner], corners);
-        corners_of(way, [corner, to], corners);
+        collect_corner_times(way, [from, corner], corners);
+        collect_corner_times(way, [corner, to], corners);
     }
 }
 

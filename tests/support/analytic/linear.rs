@@ -33,7 +33,7 @@ fn slab() -> MovingShape {
 /// Returns T1: a cube that falls flat onto a slab, with coplanar triangles on both faces.
 fn falling_cube() -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
-    let cube = MovingShape::straight(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let cube = MovingShape::translating_shape(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     Scene::new(
         "T1 falling cube",
         [cube, slab()],
@@ -46,7 +46,7 @@ fn tilted_cubes() -> [Scene; 2] {
     let cube = || cuboid(DVec3::splat(0.5));
     let upper = cube().placed(DQuat::from_rotation_x(FRAC_PI_4), DVec3::ZERO);
     let lower = cube().placed(DQuat::from_rotation_y(FRAC_PI_4), DVec3::ZERO);
-    let falls = |shape| MovingShape::straight(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let falls = |shape| MovingShape::translating_shape(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     // Rotates the diagonal to −z.
     let down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let corner_down = cube().placed(down, DVec3::ZERO);
@@ -67,7 +67,7 @@ fn tilted_cubes() -> [Scene; 2] {
 /// Returns T10: a cube that moves from a small gap above a slab, in most cases parallel to the slab.
 pub fn sliding_cube(gap: f64, velocity: DVec3) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
-    let cube = MovingShape::straight(cube, (0.5 + gap) * DVec3::Z, velocity);
+    let cube = MovingShape::translating_shape(cube, (0.5 + gap) * DVec3::Z, velocity);
     // Accounts for the rounding of the cube's position: 0.5 + gap is a multiple of 2⁻⁵³.
     let gap = (0.5 + gap) - 0.5;
     Scene::new(
@@ -80,7 +80,7 @@ pub fn sliding_cube(gap: f64, velocity: DVec3) -> Scene {
 /// Returns T13: a small fast cube that hits a thin sheet.
 fn bullet_and_sheet() -> Scene {
     let bullet = cuboid(DVec3::splat(0.005));
-    let bullet = MovingShape::straight(bullet, DVec3::ZERO, 1000.0 * DVec3::X);
+    let bullet = MovingShape::translating_shape(bullet, DVec3::ZERO, 1000.0 * DVec3::X);
     let paper = MovingShape::still(cuboid(DVec3::new(5e-7, 1.0, 1.0)), 400.0 * DVec3::X);
     Scene::new(
         "T13 bullet",
@@ -115,7 +115,7 @@ fn hooks(velocity: DVec3) -> [MovingShape; 2] {
     let upper = u_hook(bar, gap, length);
     let lower = u_hook(bar, gap, length).placed(crossed, DVec3::ZERO);
     [
-        MovingShape::straight(upper, 0.5 * DVec3::Z, velocity),
+        MovingShape::translating_shape(upper, 0.5 * DVec3::Z, velocity),
         MovingShape::still(lower, DVec3::ZERO),
     ]
 }
@@ -127,7 +127,7 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
     let corner = |x: f64, z: f64| tilted * DVec3::new(x, 0.0, z);
     let (top, bottom) = (corner(1.0, 0.1), corner(1.0, -0.1));
     let speed = 5.0;
-    let plate = MovingShape::straight(plate, -2.0 * DVec3::X, speed * DVec3::X);
+    let plate = MovingShape::translating_shape(plate, -2.0 * DVec3::X, speed * DVec3::X);
     let expect = if top.z < half_height {
         ExpectedOutcome::Free {
             gap: half_height - top.z,
@@ -149,7 +149,7 @@ fn linked_tori() -> Scene {
     // In the xz-plane, its first section on −x.
     let upright = DQuat::from_rotation_x(FRAC_PI_2) * DQuat::from_rotation_z(PI);
     let upright = torus(major, minor, rings, sides).placed(upright, DVec3::ZERO);
-    let upright = MovingShape::straight(upright, major * DVec3::X, DVec3::X);
+    let upright = MovingShape::translating_shape(upright, major * DVec3::X, DVec3::X);
     // Around each vertex the other ring is a concave edge: it is nearer by the cosine of the angle between
     // sections, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
@@ -171,7 +171,7 @@ pub fn combs_closing(teeth: usize) -> Scene {
         DQuat::from_rotation_x(PI),
         DVec3::new(0.5, 0.0, 1.0 + apart),
     );
-    let upper = MovingShape::straight(flipped, DVec3::ZERO, -speed * DVec3::Z);
+    let upper = MovingShape::translating_shape(flipped, DVec3::ZERO, -speed * DVec3::Z);
     let lower = MovingShape::still(comb(teeth), DVec3::ZERO);
     Scene::new(
         format!("T19 combs of {teeth}"),
@@ -182,7 +182,7 @@ pub fn combs_closing(teeth: usize) -> Scene {
 
 /// Returns T21: thin triangles that fall onto a slab, tip first.
 fn needles_on_slab(width: f64) -> Scene {
-    let fall = MovingShape::straight(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z);
+    let fall = MovingShape::translating_shape(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z);
     Scene::new(
         format!("T21 needles of {width:.0e}"),
         [fall, slab()],
@@ -192,7 +192,7 @@ fn needles_on_slab(width: f64) -> Scene {
 
 /// Returns two equal plates that meet face on face, so that all pairs of opposite triangles touch at the same time.
 fn parallel_plates() -> Scene {
-    let falling = MovingShape::straight(square_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
+    let falling = MovingShape::translating_shape(square_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
     let lying = MovingShape::still(square_plate(16), DVec3::ZERO);
     Scene::new(
         "plates",

@@ -68,7 +68,8 @@ fn balls_passing() -> Scene {
 
 /// Returns two balls that move in opposite directions on parallel lines, and meet.
 fn balls_head_on() -> Scene {
-    let left = MovingShape::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
+    let left =
+        MovingShape::translating_shape(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = MovingShape::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
     let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
     Scene::new(
@@ -91,7 +92,7 @@ fn ball_on_wall() -> Scene {
 /// Returns a rotating capsule whose end hits a wall.
 fn capsule_on_wall() -> Scene {
     let capsule = rounded_hull(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
-    let turning = MovingShape::turning(capsule, DVec3::ZERO, PI * DVec3::Y);
+    let turning = MovingShape::rotating_shape(capsule, DVec3::ZERO, PI * DVec3::Y);
     Scene::new(
         "capsule on wall",
         [turning, wall()],
@@ -103,7 +104,7 @@ fn capsule_on_wall() -> Scene {
 fn rounded_box_on_wall() -> Scene {
     let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;
-    let flying = MovingShape::straight(shape, -DVec3::X, 4.0 * DVec3::X);
+    let flying = MovingShape::translating_shape(shape, -DVec3::X, 4.0 * DVec3::X);
     let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;
     Scene::new(
         "rounded box",

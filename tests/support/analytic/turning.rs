@@ -23,10 +23,14 @@ pub(super) fn scenes() -> Vec<Scene> {
         peg_in_hole(),
         mirrored_rods(),
     ];
-    out.extend([1.0, 1.9, 2.0, 7.5].map(|turns| upright_rod("T4", turns, 1.25)));
+    out.extend([1.0, 1.9, 2.0, 7.5].map(|turns| upright_rod_scene("T4", turns, 1.25)));
     out.push(pre_rotated_rod());
     for depth in [1e-3, 1e-6] {
-        out.push(upright_rod("T5", 1.0, rod_corner_radius() * (1.0 - depth)));
+        out.push(upright_rod_scene(
+            "T5",
+            1.0,
+            rod_corner_radius() * (1.0 - depth),
+        ));
         out.push(grazing_miss(depth));
     }
     out.extend([10, 17, 23].map(|power| far_rod(f64::from(1u32 << power))));
@@ -44,7 +48,7 @@ fn corner_arrival_time(height: f64, speed: f64) -> f64 {
 /// Returns T2: a rod that rotates until its end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
-    let spinning = MovingShape::turning(
+    let spinning = MovingShape::rotating_shape(
         rod(ROD_HALF_LENGTH, ROD_HALF_WIDTH),
         height * DVec3::Z,
         PI * DVec3::Y,
@@ -58,7 +62,7 @@ fn rod_on_slab() -> Scene {
 }
 
 /// Returns T4: an upright rod that rotates by some half turns towards a wall.
-fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
+fn upright_rod_scene(name: &str, half_turns: f64, wall: f64) -> Scene {
     let speed = half_turns * PI;
     Scene::new(
         format!("{name} rod by {half_turns} half turns, wall at {wall:.7}"),
@@ -113,7 +117,7 @@ fn grazing_miss(depth: f64) -> Scene {
 fn rod_on_post() -> Scene {
     let (radius, angle, speed, width) = (1.3, 1.0, 1.5, 0.1);
     let shape = cuboid(DVec3::new(ROD_HALF_LENGTH, width, 0.1));
-    let spinning = MovingShape::turning(shape, DVec3::ZERO, speed * DVec3::Z);
+    let spinning = MovingShape::rotating_shape(shape, DVec3::ZERO, speed * DVec3::Z);
     let post = MovingShape::still(post(radius, angle), DVec3::ZERO);
     let time = move |g: f64| (angle - ((width + g) / radius).asin()) / speed;
     Scene::new(
@@ -128,7 +132,7 @@ fn rod_on_post() -> Scene {
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
-    let swinging = MovingShape::turning(mace(length, width), DVec3::ZERO, speed * DVec3::Z);
+    let swinging = MovingShape::rotating_shape(mace(length, width), DVec3::ZERO, speed * DVec3::Z);
     let wall = MovingShape::still(
         wall_at(1.0).placed(DQuat::from_rotation_z(FRAC_PI_2), DVec3::ZERO),
         DVec3::ZERO,
@@ -144,7 +148,8 @@ fn swinging_mace() -> Scene {
 /// Returns T12: a square peg that rotates in a square hole, with four contacts at once.
 fn peg_in_hole() -> Scene {
     let (peg, hole) = (1.0, 1.2);
-    let turning = MovingShape::turning(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
+    let turning =
+        MovingShape::rotating_shape(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
     let plate = MovingShape::still(frame_plate(hole), DVec3::ZERO);
     let time = move |g: f64| ((hole - g) / (peg * 2.0_f64.sqrt())).asin() - FRAC_PI_4;
     Scene::new(
@@ -158,8 +163,8 @@ fn peg_in_hole() -> Scene {
 fn mirrored_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
     let upright = || cuboid(DVec3::new(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH));
-    let left = MovingShape::turning(upright(), DVec3::ZERO, speed * DVec3::Y);
-    let right = MovingShape::turning(upright(), apart * DVec3::X, -speed * DVec3::Y);
+    let left = MovingShape::rotating_shape(upright(), DVec3::ZERO, speed * DVec3::Y);
+    let right = MovingShape::rotating_shape(upright(), apart * DVec3::X, -speed * DVec3::Y);
     let time = move |g: f64| corner_arrival_time(0.5 * (apart - g), speed);
     Scene::new(
         "T14 two rods",

@@ -15,10 +15,14 @@ pub(super) fn scenes() -> Vec<Scene> {
         edge_sharing_cubes(),
         far_cuboids(),
         deep_overlap(),
-        nested("T24 nested solids", Shape::closed, ExpectedOutcome::Overlap),
-        nested(
+        nested_cubes(
+            "T24 nested solids",
+            Shape::from_closed_mesh,
+            ExpectedOutcome::Overlap,
+        ),
+        nested_cubes(
             "T24 nested surfaces",
-            Shape::open,
+            Shape::from_open_mesh,
             ExpectedOutcome::Free { gap: 1.5 },
         ),
         cubes_at_rest(),
@@ -51,7 +55,11 @@ fn degenerate_cube() -> Scene {
     mesh.faces.extend(clean.iter().map(|f| [f[0], f[0], f[1]]));
     mesh.faces.extend(clean.iter().map(|f| [f[2]; 3]));
     mesh.faces.extend(clean);
-    let cube = MovingShape::straight(Shape::open(mesh), 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let cube = MovingShape::translating_shape(
+        Shape::from_open_mesh(mesh),
+        3.0 * DVec3::Z,
+        -4.0 * DVec3::Z,
+    );
     let slab = MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T21 dirty cube",
@@ -71,7 +79,7 @@ fn edge_sharing_cubes() -> Scene {
     let mesh = both.mesh.clone();
     both.mesh.faces.retain(|f| !level(f, &mesh));
     both.parts.clear();
-    let falling = MovingShape::straight(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = MovingShape::translating_shape(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let slab = MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T21 two shells",
@@ -130,8 +138,8 @@ fn deep_overlap() -> Scene {
 }
 
 /// Returns T24: a small cube inside a big one, with separate surfaces.
-fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: ExpectedOutcome) -> Scene {
-    let small = MovingShape::turning(
+fn nested_cubes(name: &str, shape: fn(Mesh) -> Shape, expect: ExpectedOutcome) -> Scene {
+    let small = MovingShape::rotating_shape(
         shape(cuboid(DVec3::splat(0.5)).mesh),
         DVec3::ZERO,
         1e-3 * DVec3::Z,

@@ -181,7 +181,7 @@ impl Judge<'_> {
     /// apart.
     fn may_overlap(&self, time: f64, contact: &Contact) -> bool {
         let touched = match self.finding {
-            Finding::Hit { lo, .. } | Finding::Near { lo } => time >= lo,
+            Finding::Hit { lo, .. } | Finding::TooNear { lo } => time >= lo,
             Finding::ContactAtStart => true,
             Finding::Free { .. } | Finding::Undecided { .. } => false,
         };
@@ -195,7 +195,7 @@ impl Judge<'_> {
         match self.finding {
             Finding::Hit { .. } => 0.0,
             Finding::Free { gap } => lesser(gap, least),
-            Finding::ContactAtStart | Finding::Near { .. } | Finding::Undecided { .. } => least,
+            Finding::ContactAtStart | Finding::TooNear { .. } | Finding::Undecided { .. } => least,
         }
     }
 }

@@ -25,20 +25,21 @@ impl ConvexCombination {
         ConvexCombination::new(points.into_iter().map(|p| (1, p)))
     }
 
-    fn weight(&self) -> u32 {
+    fn total_weight(&self) -> u32 {
         self.0.iter().map(|part| part.0).sum()
     }
 
     /// Returns the point in f64, with a rounding error for each combined point.
     pub fn rounded(&self) -> DVec3 {
         let weighted = self.0.iter().map(|&(weight, p)| f64::from(weight) * p);
-        weighted.sum::<DVec3>() / f64::from(self.weight())
+        weighted.sum::<DVec3>() / f64::from(self.total_weight())
     }
 
-    fn exact(&self) -> [Relaxed; 3] {
-        let whole = Relaxed::from(self.weight());
+    fn exact_coordinates(&self) -> [Relaxed; 3] {
+        let whole = Relaxed::from(self.total_weight());
         [0, 1, 2].map(|axis| {
-            let weighted = |&(weight, p): &(u32, DVec3)| Relaxed::from(weight) * exact(p[axis]);
+            let weighted =
+                |&(weight, p): &(u32, DVec3)| Relaxed::from(weight) * exact_fraction(p[axis]);
             let sum = self.0.iter().map(weighted);
             sum.fold(Relaxed::ZERO, |all, one| all + one) / &whole
         })
@@ -46,7 +47,7 @@ impl ConvexCombination {
 }
 
 /// Converts a finite f64 to an exact fraction.
-pub(super) fn exact(x: f64) -> Relaxed {
+pub(super) fn exact_fraction(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite coordinate")
 }
 
@@ -55,7 +56,7 @@ pub(super) struct LazyPoint<'a> {
     combination: &'a ConvexCombination,
     pub(super) rounded_point: DVec3,
     /// The largest absolute coordinate of the combined points.
-    pub(super) size: f64,
+    pub(super) max_coordinate: f64,
     exact: OnceCell<[Relaxed; 3]>,
 }
 
@@ -68,17 +69,18 @@ impl<'a> LazyPoint<'a> {
         LazyPoint {
             combination: blend,
             rounded_point: blend.rounded(),
-            size: sizes.fold(0.0, greater),
+            max_coordinate: sizes.fold(0.0, greater),
             exact: OnceCell::new(),
         }
     }
 
     /// Returns a bound on the rounding error of the coordinates in `rounded_point`.
     pub(super) fn rounding(&self) -> f64 {
-        ROUNDING * self.size
+        ROUNDING * self.max_coordinate
     }
 
-    pub(super) fn exact(&self) -> &[Relaxed; 3] {
-        self.exact.get_or_init(|| self.combination.exact())
+    pub(super) fn exact_coordinates(&self) -> &[Relaxed; 3] {
+        self.exact
+            .get_or_init(|| self.combination.exact_coordinates())
     }
 }

@@ -1,6 +1,6 @@
 //! Exact predicates: on which side of a projected edge or of a triangle a point is.
 
-use super::blend::{LazyPoint, exact};
+use super::blend::{LazyPoint, exact_fraction};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
@@ -53,15 +53,15 @@ fn certain_sign(x: f64, rounding: f64) -> Option<Ordering> {
 /// Returns the largest absolute coordinate of `points` and of the points that `p` combines.
 fn max_absolute_coordinate(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
     let sizes = points.iter().map(|q| q.abs().max_element());
-    sizes.fold(p.size, greater)
+    sizes.fold(p.max_coordinate, greater)
 }
 
 fn exact_edge_vector(a: DVec3, b: DVec3) -> [Relaxed; 3] {
-    [0, 1, 2].map(|k| exact(b[k]) - exact(a[k]))
+    [0, 1, 2].map(|k| exact_fraction(b[k]) - exact_fraction(a[k]))
 }
 
 fn offset_from(a: DVec3, p: &LazyPoint<'_>) -> [Relaxed; 3] {
-    [0, 1, 2].map(|k| &p.exact()[k] - exact(a[k]))
+    [0, 1, 2].map(|k| &p.exact_coordinates()[k] - exact_fraction(a[k]))
 }
 
 /// Returns true, by exact arithmetic, if a triangle with its boundary contains a point; the triangle may have no area.
@@ -87,5 +87,5 @@ pub(super) fn triangle_contains(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool
 fn compare_coordinate(x: f64, axis: usize, p: &LazyPoint<'_>) -> Ordering {
     let rounding = p.rounding() + f64::EPSILON * x.abs();
     certain_sign(x - p.rounded_point[axis], rounding)
-        .unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))
+        .unwrap_or_else(|| exact_fraction(x).cmp(&p.exact_coordinates()[axis]))
 }

@@ -8,28 +8,28 @@ use rand_pcg::Pcg64;
 
 /// The numbers of random sample points to draw from a polytope.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort {
+pub struct SampleCounts {
     /// The number of random points on each facet, in addition to its mean and the middles of its edges.
     pub points_per_facet: usize,
     /// The number of random points on segments between two corners of a polytope.
-    pub points_on_chords: usize,
+    pub chord_point_count: usize,
     /// The number of random points that are combinations of four corners of a polytope.
-    pub inner_points: usize,
+    pub inner_point_count: usize,
 }
 
-impl Effort {
+impl SampleCounts {
     /// The numbers of points for models of a few hundred faces.
-    pub const THOROUGH: Effort = Effort {
+    pub const THOROUGH: SampleCounts = SampleCounts {
         points_per_facet: 6,
-        points_on_chords: 24,
-        inner_points: 16,
+        chord_point_count: 24,
+        inner_point_count: 16,
     };
 
     /// The numbers of points for models of thousands of faces.
-    pub const QUICK: Effort = Effort {
+    pub const QUICK: SampleCounts = SampleCounts {
         points_per_facet: 1,
-        points_on_chords: 4,
-        inner_points: 4,
+        chord_point_count: 4,
+        inner_point_count: 4,
     };
 }
 
@@ -39,7 +39,7 @@ const WEIGHT_SUM: u32 = 64;
 
 /// Returns points of a polytope's hull: means of corners, middles of edges, and random points on facets, chords and
 /// inside. The result depends only on the polytope and the seed.
-pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<ConvexCombination> {
+pub fn samples(polytope: &Polytope, effort: SampleCounts, seed: u64) -> Vec<ConvexCombination> {
     let mut rng = Pcg64::seed_from_u64(seed);
     let points = &polytope.points;
     let mut out = vec![ConvexCombination::mean(points.iter().copied())];
@@ -52,8 +52,8 @@ pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<ConvexComb
         }
         out.extend((0..effort.points_per_facet).map(|_| random_combination(&mut rng, &corners, 3)));
     }
-    out.extend((0..effort.points_on_chords).map(|_| random_combination(&mut rng, points, 2)));
-    out.extend((0..effort.inner_points).map(|_| random_combination(&mut rng, points, 4)));
+    out.extend((0..effort.chord_point_count).map(|_| random_combination(&mut rng, points, 2)));
+    out.extend((0..effort.inner_point_count).map(|_| random_combination(&mut rng, points, 4)));
     out
 }
 

@@ -1,6 +1,6 @@
 //! Generates boxes, and shapes made of boxes.
 
-use super::{GridDirection, Mesh, Shape, grid_faces, icosphere};
+use super::{GridExtent, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
 use ccd_core::{Face, Facet, FacetOrigin, Polytope, Volume};
 
@@ -46,7 +46,7 @@ pub fn cuboid(half: DVec3) -> Shape {
 }
 
 /// Returns a box, given the coordinates of two opposite corners.
-fn between(lo: [f64; 3], hi: [f64; 3]) -> Shape {
+fn box_between(lo: [f64; 3], hi: [f64; 3]) -> Shape {
     let (lo, hi) = (DVec3::from(lo), DVec3::from(hi));
     cuboid(0.5 * (hi - lo)).moved(0.5 * (lo + hi))
 }
@@ -58,7 +58,7 @@ pub fn rod(length: f64, width: f64) -> Shape {
 
 /// Returns a wall, one unit thick, whose face towards −x is at `x`.
 pub fn wall_at(x: f64) -> Shape {
-    between([x, -4.0, -4.0], [x + 1.0, 4.0, 4.0])
+    box_between([x, -4.0, -4.0], [x + 1.0, 4.0, 4.0])
 }
 
 /// Returns a triangular post along z. One edge is at the polar coordinates `(radius, angle)` and faces a rod that turns
@@ -76,7 +76,7 @@ pub fn post(radius: f64, angle: f64) -> Shape {
     let vertices = [-2.0, 2.0]
         .iter()
         .flat_map(|z| corners.map(|c| c + z * DVec3::Z));
-    Shape::convex(Mesh {
+    Shape::from_convex_mesh(Mesh {
         vertices: vertices.collect(),
         faces: vec![
             [0, 2, 1],
@@ -94,7 +94,7 @@ pub fn post(radius: f64, angle: f64) -> Shape {
 /// Returns a mace: a ball of radius 0.1 at the origin, and an arm of half width `width` from the origin to `(0,
 /// −length, 0)`.
 pub fn mace(length: f64, width: f64) -> Shape {
-    let arm = between([-width, -length, -width], [width, 0.0, width]);
+    let arm = box_between([-width, -length, -width], [width, 0.0, width]);
     Shape::union([icosphere(0.1, 1), arm])
 }
 
@@ -119,25 +119,25 @@ pub fn l_prism() -> Shape {
         let next = (k + 1) % 6;
         faces.extend([[k, next, next + 6], [k, next + 6, k + 6]]);
     }
-    Shape::closed(Mesh { vertices, faces })
+    Shape::from_closed_mesh(Mesh { vertices, faces })
 }
 
 /// Returns a plate in the xy-plane with a square hole of half width `hole`, made of four boxes.
 pub fn frame_plate(hole: f64) -> Shape {
     let (outer, z) = (hole + 1.0, 0.25);
     Shape::union([
-        between([-outer, -outer, -z], [-hole, outer, z]),
-        between([hole, -outer, -z], [outer, outer, z]),
-        between([-hole, -outer, -z], [hole, -hole, z]),
-        between([-hole, hole, -z], [hole, outer, z]),
+        box_between([-outer, -outer, -z], [-hole, outer, z]),
+        box_between([hole, -outer, -z], [outer, outer, z]),
+        box_between([-hole, -outer, -z], [hole, -hole, z]),
+        box_between([-hole, hole, -z], [hole, outer, z]),
     ])
 }
 
 /// Returns a wall between `x = 0` and `x = 0.5` with a slit `|z| < half_height`, made of two boxes.
 pub fn slit_plate(half_height: f64) -> Shape {
     Shape::union([
-        between([0.0, -3.0, half_height], [0.5, 3.0, half_height + 2.0]),
-        between([0.0, -3.0, -half_height - 2.0], [0.5, 3.0, -half_height]),
+        box_between([0.0, -3.0, half_height], [0.5, 3.0, half_height + 2.0]),
+        box_between([0.0, -3.0, -half_height - 2.0], [0.5, 3.0, -half_height]),
     ])
 }
 
@@ -146,25 +146,25 @@ pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     let (half, inner) = (0.5 * bar, 0.5 * gap);
     let outer = inner + bar;
     Shape::union([
-        between([-outer, -half, -half], [outer, half, half]),
-        between([-outer, -half, -length], [-inner, half, -half]),
-        between([inner, -half, -length], [outer, half, -half]),
+        box_between([-outer, -half, -half], [outer, half, half]),
+        box_between([-outer, -half, -length], [-inner, half, -half]),
+        box_between([inner, -half, -length], [outer, half, -half]),
     ])
 }
 
 /// Returns a comb: a base below z = 0, and `teeth` teeth of height 1 and width 0.4, one unit from tooth to tooth along
 /// x.
 pub fn comb(teeth: usize) -> Shape {
-    let tooth = |k: usize| between([k as f64, -0.2, 0.0], [k as f64 + 0.4, 0.2, 1.0]);
-    let base = between([-1.0, -0.2, -0.3], [teeth as f64 + 1.0, 0.2, 0.0]);
+    let tooth = |k: usize| box_between([k as f64, -0.2, 0.0], [k as f64 + 0.4, 0.2, 1.0]);
+    let base = box_between([-1.0, -0.2, -0.3], [teeth as f64 + 1.0, 0.2, 0.0]);
     Shape::union((0..teeth).map(tooth).chain([base]))
 }
 
 /// Returns the square plate `[0, 1]²` at z = 0, divided into `2·cells²` triangles.
 pub fn square_plate(cells: usize) -> Shape {
     let at = |k: usize| k as f64 / cells as f64;
-    let line = GridDirection::Bounded(cells + 1);
-    Shape::open(Mesh {
+    let line = GridExtent::Bounded(cells + 1);
+    Shape::from_open_mesh(Mesh {
         vertices: (0..=cells)
             .flat_map(|i| (0..=cells).map(move |j| DVec3::new(at(i), at(j), 0.0)))
             .collect(),
@@ -186,5 +186,5 @@ pub fn needles(count: usize, width: f64) -> Shape {
             .extend([foot, foot + DVec3::Z, foot + DVec3::Z + width * DVec3::Y]);
         mesh.faces.push([base, base + 1, base + 2]);
     }
-    Shape::open(mesh)
+    Shape::from_open_mesh(mesh)
 }

@@ -1,7 +1,7 @@
 //! Generates solids of cells: sheets of four-sided cells, thickened, in some of which cells are missing. Their tops and
 //! bottoms are large regions of coplanar triangles, rarely convex.
 
-use super::{GridDirection, Mesh, Shape, lumps::seeded_rng};
+use super::{GridExtent, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};
 use rand::RngExt;
 use std::collections::HashMap;
@@ -16,8 +16,8 @@ pub fn gear(spokes: usize) -> Shape {
         radii[i] * DVec2::new(angle.cos(), angle.sin())
     };
     CellGrid {
-        rows: GridDirection::Bounded(radii.len()),
-        columns: GridDirection::Wrapping(columns),
+        rows: GridExtent::Bounded(radii.len()),
+        columns: GridExtent::Wrapping(columns),
         is_filled: &|i, j| match i {
             1 => j % 8 < 3,
             3 => j % 4 < 2,
@@ -30,8 +30,8 @@ pub fn gear(spokes: usize) -> Shape {
 /// Returns a plate with `n × m` square holes, which are as wide as the bridges between them.
 pub fn perforated_plate(n: usize, m: usize) -> Shape {
     CellGrid {
-        rows: GridDirection::Bounded(2 * n + 2),
-        columns: GridDirection::Bounded(2 * m + 2),
+        rows: GridExtent::Bounded(2 * n + 2),
+        columns: GridExtent::Bounded(2 * m + 2),
         is_filled: &|i, j| i % 2 == 0 || j % 2 == 0,
     }
     .thicken(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
@@ -42,8 +42,8 @@ pub fn perforated_plate(n: usize, m: usize) -> Shape {
 pub fn divided_l_prism(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     CellGrid {
-        rows: GridDirection::Bounded(2 * cells + 1),
-        columns: GridDirection::Bounded(2 * cells + 1),
+        rows: GridExtent::Bounded(2 * cells + 1),
+        columns: GridExtent::Bounded(2 * cells + 1),
         is_filled: &|i, j| i < cells || j < cells,
     }
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
@@ -56,8 +56,8 @@ pub fn slotted_plate(width: f64) -> Shape {
         [-1.0, -0.5 * width, 0.5 * width, 1.0],
     );
     CellGrid {
-        rows: GridDirection::Bounded(4),
-        columns: GridDirection::Bounded(4),
+        rows: GridExtent::Bounded(4),
+        columns: GridExtent::Bounded(4),
         is_filled: &|i, j| (i, j) != (1, 1),
     }
     .thicken(|i, j| DVec2::new(x[i], y[j]), 0.25)
@@ -68,8 +68,8 @@ pub fn interlocking_combs(teeth: usize) -> Shape {
     let x = |i: usize| (i / 2) as f64 + if i % 2 == 1 { 0.4 } else { 0.0 };
     let y = [0.0, 0.3, 1.3];
     let comb = CellGrid {
-        rows: GridDirection::Bounded(2 * teeth),
-        columns: GridDirection::Bounded(3),
+        rows: GridExtent::Bounded(2 * teeth),
+        columns: GridExtent::Bounded(3),
         is_filled: &|i, j| j == 0 || i % 2 == 0,
     }
     .thicken(|i, j| DVec2::new(x(i), y[j]), 0.2);
@@ -80,15 +80,15 @@ pub fn interlocking_combs(teeth: usize) -> Shape {
         .placed(turn, DVec3::new(x(2 * teeth - 1) + 0.5, 1.7, 0.0));
     let mut mesh = comb.mesh;
     mesh.append(&other.mesh);
-    Shape::closed(mesh)
+    Shape::from_closed_mesh(mesh)
 }
 
 /// Returns a unit cube, its top and its bottom divided into `cells²` squares.
 pub fn divided_cube(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     CellGrid {
-        rows: GridDirection::Bounded(cells + 1),
-        columns: GridDirection::Bounded(cells + 1),
+        rows: GridExtent::Bounded(cells + 1),
+        columns: GridExtent::Bounded(cells + 1),
         is_filled: &|_, _| true,
     }
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
@@ -106,29 +106,29 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
     }
     let at = |i: usize, j: usize, z: f64| DVec3::new(unit * i as f64, unit * j as f64, z);
     CellGrid {
-        rows: GridDirection::Bounded(cells + 1),
-        columns: GridDirection::Bounded(cells + 1),
+        rows: GridExtent::Bounded(cells + 1),
+        columns: GridExtent::Bounded(cells + 1),
         is_filled: &|_, _| true,
     }
-    .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
+    .solid_between_sheets(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
 }
 
 /// A grid of four-sided cells, some of which are filled.
 struct CellGrid<'a> {
-    rows: GridDirection,
-    columns: GridDirection,
+    rows: GridExtent,
+    columns: GridExtent,
     is_filled: &'a dyn Fn(usize, usize) -> bool,
 }
 
 impl CellGrid<'_> {
     /// Returns the solid that extends by `half` to either side of the filled cells, which are placed in the xy-plane.
     fn thicken(&self, at: impl Fn(usize, usize) -> DVec2, half: f64) -> Shape {
-        self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
+        self.solid_between_sheets(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
     }
 
     /// Returns the solid between two sheets, over the filled cells. Seen from above, rows go to the right and columns
     /// upwards.
-    fn between(
+    fn solid_between_sheets(
         &self,
         low: impl Fn(usize, usize) -> DVec3,
         high: impl Fn(usize, usize) -> DVec3,
@@ -136,8 +136,8 @@ impl CellGrid<'_> {
         let mut numbers = HashMap::new();
         let mut vertices = Vec::new();
         let mut top = Vec::new();
-        for i in 0..self.rows.steps() {
-            for j in (0..self.columns.steps()).filter(|&j| (self.is_filled)(i, j)) {
+        for i in 0..self.rows.step_count() {
+            for j in (0..self.columns.step_count()).filter(|&j| (self.is_filled)(i, j)) {
                 let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
                 // Vertex k + 1 is above vertex k of the bottom.
                 let [a, b, c, d] = corners.map(|(i, j)| {
@@ -155,7 +155,7 @@ impl CellGrid<'_> {
             faces.extend([[v - 1, w - 1, w], [v - 1, w, v]]);
         }
         faces.extend(top);
-        Shape::closed(Mesh { vertices, faces })
+        Shape::from_closed_mesh(Mesh { vertices, faces })
     }
 }
 

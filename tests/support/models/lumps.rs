@@ -35,21 +35,21 @@ pub fn dented_cube(half: f64, depth: f64) -> Shape {
     mesh.vertices.push((half - depth) * DVec3::Z);
     mesh.faces
         .extend([[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]);
-    Shape::closed(mesh)
+    Shape::from_closed_mesh(mesh)
 }
 
 /// Returns a solid with a cavity, as two shells of which the inner one is reversed.
 pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
     let mut mesh = outer.mesh.clone();
     mesh.append(&inner.mesh.clone().flipped());
-    Shape::closed(mesh)
+    Shape::from_closed_mesh(mesh)
 }
 
 /// Returns two solids that do not touch as one mesh.
 pub fn merged_solids(one: &Shape, other: &Shape) -> Shape {
     let mut mesh = one.mesh.clone();
     mesh.append(&other.mesh);
-    Shape::closed(mesh)
+    Shape::from_closed_mesh(mesh)
 }
 
 /// Returns a divided icosahedron whose vertices are at distances from the origin given by `radius`, a function of the
@@ -60,5 +60,5 @@ fn star_shaped_solid(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape
         faces,
     } = icosphere(1.0, levels).mesh;
     vertices.iter_mut().for_each(|v| *v *= radius(*v));
-    Shape::closed(Mesh { vertices, faces })
+    Shape::from_closed_mesh(Mesh { vertices, faces })
 }

@@ -1,6 +1,6 @@
 //! Generates round shapes: spheres, tori, knots.
 
-use super::{GridDirection, Mesh, Shape, grid_faces};
+use super::{GridExtent, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use std::collections::HashMap;
@@ -62,7 +62,7 @@ pub fn icosphere(radius: f64, levels: u32) -> Shape {
         vertices.iter_mut().for_each(|v| *v = v.normalize());
     }
     let vertices = vertices.iter().map(|v| radius * v.normalize()).collect();
-    Shape::convex(Mesh { vertices, faces })
+    Shape::from_convex_mesh(Mesh { vertices, faces })
 }
 
 /// Returns the inradius of a convex mesh around the origin: the least distance of a face's plane from the origin.
@@ -89,12 +89,9 @@ pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
         vertices: (0..rings)
             .flat_map(|i| (0..sides).map(move |j| vertex(i, j)))
             .collect(),
-        faces: grid_faces(
-            GridDirection::Wrapping(rings),
-            GridDirection::Wrapping(sides),
-        ),
+        faces: grid_faces(GridExtent::Wrapping(rings), GridExtent::Wrapping(sides)),
     };
-    Shape::closed(mesh.flipped())
+    Shape::from_closed_mesh(mesh.flipped())
 }
 
 /// Returns a tube around a trefoil knot, of about unit size, with `rings` sections of `sides` vertices.
@@ -118,9 +115,6 @@ pub fn torus_knot(rings: usize, sides: usize) -> Shape {
             vertices.push(curve(u) + 0.08 * (v.cos() * side + v.sin() * up));
         }
     }
-    let faces = grid_faces(
-        GridDirection::Wrapping(rings),
-        GridDirection::Wrapping(sides),
-    );
-    Shape::closed(Mesh { vertices, faces })
+    let faces = grid_faces(GridExtent::Wrapping(rings), GridExtent::Wrapping(sides));
+    Shape::from_closed_mesh(Mesh { vertices, faces })
 }

@@ -1,6 +1,6 @@
 //! Generates a screw and its nut.
 
-use super::{GridDirection, Mesh, Shape, grid_faces};
+use super::{GridExtent, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -15,13 +15,13 @@ const ROWS_PER_PITCH: usize = 6;
 /// Returns the surface of a screw about z: four pitches of a thread with a sine profile, mean radius 1 and amplitude
 /// 0.1. The number of triangles grows as the square of `fineness`.
 pub fn screw(fineness: usize) -> Shape {
-    Shape::open(thread_surface(4, 0.0, fineness))
+    Shape::from_open_mesh(thread_surface(4, 0.0, fineness))
 }
 
 /// Returns the inner surface of the nut: one pitch high, from z = [`PITCH`] on, and wider than the screw by
 /// `clearance`.
 pub fn nut(clearance: f64, fineness: usize) -> Shape {
-    Shape::open(thread_surface(1, clearance, fineness)).moved(PITCH * DVec3::Z)
+    Shape::from_open_mesh(thread_surface(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 
 /// Returns a helical surface: a rotation by an angle and a lift by the same fraction of the pitch map it to itself, up
@@ -39,9 +39,6 @@ fn thread_surface(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
         vertices: (0..rows)
             .flat_map(|i| (0..segments).map(move |j| vertex(i, j)))
             .collect(),
-        faces: grid_faces(
-            GridDirection::Bounded(rows),
-            GridDirection::Wrapping(segments),
-        ),
+        faces: grid_faces(GridExtent::Bounded(rows), GridExtent::Wrapping(segments)),
     }
 }

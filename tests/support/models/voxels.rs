@@ -67,5 +67,5 @@ fn cubes(size: i64, full: impl Fn([i64; 3]) -> bool) -> Shape {
             }
         }
     }
-    Shape::closed(mesh)
+    Shape::from_closed_mesh(mesh)
 }

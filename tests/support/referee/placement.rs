@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 /// Offsets are subtracted before anything is rounded at their size, and A's velocity is subtracted
 /// from both bodies, so that far and fast scenes keep their digits.
 #[derive(Clone, Debug)]
-pub struct Placement {
+pub struct RelativeMotion {
     start: [DVec3; 3],
     centre: DVec3,
     offset: DVec3,
@@ -19,10 +19,10 @@ pub struct Placement {
     origin: DVec3,
 }
 
-impl Placement {
+impl RelativeMotion {
     /// Returns the placements of both bodies of a query, A first.
-    pub fn pair(query: &Query) -> [Placement; 2] {
-        let (mut a, mut b) = (Placement::new(&query.a), Placement::new(&query.b));
+    pub fn pair(query: &Query) -> [RelativeMotion; 2] {
+        let (mut a, mut b) = (RelativeMotion::new(&query.a), RelativeMotion::new(&query.b));
         let (pa, pb) = (
             query.a.motion.start().translation(),
             query.b.motion.start().translation(),
@@ -38,7 +38,7 @@ impl Placement {
         let motion = &actor.motion;
         let start = rotation(motion.start().rotation().to_array());
         let centre = motion.centre();
-        Placement {
+        RelativeMotion {
             start,
             centre,
             offset: apply(start, centre),
@@ -50,7 +50,7 @@ impl Placement {
     }
 
     /// Returns the position of a point of the body at a time, relative to the centre of body A.
-    pub fn at(&self, time: f64, point: DVec3) -> DVec3 {
+    pub fn point_position_at(&self, time: f64, point: DVec3) -> DVec3 {
         let arm = apply(self.start, point - self.centre);
         rotated(arm, time * self.spin) + self.offset + time * self.velocity
     }

@@ -20,8 +20,9 @@ const FACES_PER_GROUP: usize = 8;
 impl<'a> PosedMesh<'a> {
     pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
         let of_face = |face: &[u32; 3]| {
-            face.iter()
-                .fold(Bounds::EMPTY, |all, &v| all.with_point(points[v as usize]))
+            face.iter().fold(Bounds::EMPTY, |all, &v| {
+                all.bounds_with_point(points[v as usize])
+            })
         };
         let boxes: Vec<Bounds> = mesh.faces.iter().map(of_face).collect();
         let face = |face: &[u32; 3]| Face::new(face.map(|v| points[v as usize]));
@@ -101,12 +102,12 @@ pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
     let mut best = f64::INFINITY;
     for k in 0..3 {
         for (p, face) in [(a.corners[k], b), (b.corners[k], a)] {
-            best = lesser(best, face.nearest(p).distance_squared(p));
+            best = lesser(best, face.nearest_point(p).distance_squared(p));
         }
     }
     for e in edges_a {
         for f in edges_b {
-            best = lesser(best, line_distance_squared(e, f));
+            best = lesser(best, inner_edge_distance_squared(e, f));
         }
     }
     best
@@ -122,7 +123,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
 }
 
 /// Returns the squared distance of the lines of two edges; infinity unless both nearest points are on the edges.
-fn line_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+fn inner_edge_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;
@@ -150,7 +151,7 @@ pub fn nearest_on_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
 
 /// Returns the point of a triangle that is nearest to `p`.
 pub fn nearest_on_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
-    Face::new(corners).nearest(p)
+    Face::new(corners).nearest_point(p)
 }
 
 /// A triangle in the form from which its nearest points are computed.
@@ -190,7 +191,7 @@ impl Face {
 
     /// Returns the point of the triangle nearest to `p`: the projection onto its plane if that is inside, else a point
     /// on an edge.
-    fn nearest(&self, p: DVec3) -> DVec3 {
+    fn nearest_point(&self, p: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
         let (x, y) = ((p - a).dot(self.along), (p - a).dot(self.across));
         let share = y / self.height;
@@ -256,7 +257,7 @@ impl Bounds {
         hi: DVec3::NEG_INFINITY,
     };
 
-    fn with_point(self, p: DVec3) -> Bounds {
+    fn bounds_with_point(self, p: DVec3) -> Bounds {
         Bounds {
             lo: self.lo.min(p),
             hi: self.hi.max(p),
@@ -264,7 +265,7 @@ impl Bounds {
     }
 
     fn union(self, other: Bounds) -> Bounds {
-        self.with_point(other.lo).with_point(other.hi)
+        self.bounds_with_point(other.lo).bounds_with_point(other.hi)
     }
 
     pub(crate) fn distance_squared(&self, other: &Bounds) -> f64 {

@@ -40,7 +40,7 @@ impl ExactCase {
             panic!("{}: {reply:?}", name_of(&kind));
         };
         let late = time - self.contact_time;
-        let (early_by, late_by) = allowed_error(kind);
+        let (early_by, late_by) = allowed_earliness_and_lateness(kind);
         assert!(
             (-early_by / self.closing_speed..=late_by).contains(&late),
             "{}: {late} late",
@@ -50,7 +50,7 @@ impl ExactCase {
 }
 
 /// Returns how early, as a distance, and how late, as a time, a peer may report a contact.
-fn allowed_error(kind: PeerKind) -> (f64, f64) {
+fn allowed_earliness_and_lateness(kind: PeerKind) -> (f64, f64) {
     match kind {
         PeerKind::ParryF64 => (1e-9, 1e-9),
         // Sixteen roundings of coordinates between 8 and 16; the largest are 9.
@@ -213,7 +213,7 @@ fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f6
 /// Tests a known error of parry's casts: with a whole turn or more, they report a contact later than the first. They
 /// bisect a distance that is not monotone over the whole time.
 #[rstest]
-fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
+fn a_whole_turn_or_more_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
     for kind in [PeerKind::ParryF64, PeerKind::ParryF32] {
         let ContactClaim::Contact { time } = exact.reply_of_peer(kind).claim else {

@@ -6,7 +6,7 @@ use super::{Placement, RivalMotion};
 use crate::method::solver::{ContactClaim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
-use closing::ClosingSpeedBounds;
+use closing::ClosingSpeedBounder;
 use rigid_ccd::table::motions::Motions;
 
 mod closing;
@@ -33,7 +33,7 @@ mod tests;
 pub struct C2a {
     trees: RssTreePair,
     work_limit: WorkLimit,
-    closing_speed_bounds: ClosingSpeedBounds,
+    closing_speed_bounder: ClosingSpeedBounder,
     pair_stack: Vec<CandidatePair>,
 }
 
@@ -41,7 +41,7 @@ pub struct C2a {
 #[derive(Clone, Copy, Debug)]
 struct CandidatePair {
     pair: RssNodePair,
-    distance: f64,
+    distance_bound: f64,
     /// A time from now during which the nodes do not touch.
     safe_step: f64,
 }
@@ -54,7 +54,7 @@ struct DescentResult {
     /// The nearest triangles; `None` before any are found.
     nearest_triangles: Option<(TriangleIndexPair, RssNodePair)>,
     /// The least safe step of all pairs at which the descent has stopped so far.
-    step: f64,
+    safe_step: f64,
 }
 
 /// The fixed inputs of a descent: the placement of the bodies and the limits.
@@ -84,7 +84,7 @@ impl C2a {
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         let trees = RssTreePair::new(a, b);
         C2a {
-            closing_speed_bounds: ClosingSpeedBounds::new(&trees),
+            closing_speed_bounder: ClosingSpeedBounder::new(&trees),
             trees,
             work_limit: WorkLimit::default(),
             pair_stack: Vec::new(),
@@ -95,7 +95,7 @@ impl C2a {
 impl Solver for C2a {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-        self.closing_speed_bounds.set_motions(&a, &b);
+        self.closing_speed_bounder.set_motions(&a, &b);
         let mut pairs_left = self.work_limit.max_pairs;
         let mut time = 0.0;
         let mut last = None;
@@ -112,7 +112,7 @@ impl Solver for C2a {
                 ),
                 tolerance,
             };
-            self.closing_speed_bounds.set_frame(&frame);
+            self.closing_speed_bounder.set_frame(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 DescentOutcome::Done(found) => found,
                 DescentOutcome::WithinTolerance => {
@@ -122,10 +122,10 @@ impl Solver for C2a {
                     return Reply::new(ContactClaim::Unresolved { safe_until: time }, steps);
                 }
             };
-            if found.step >= setup.remaining_time {
+            if found.safe_step >= setup.remaining_time {
                 return Reply::new(ContactClaim::NoContact, steps);
             }
-            let next = time + found.step;
+            let next = time + found.safe_step;
             // Stop at NaN, and at a step below the resolution of time.
             if !(next > time) {
                 return Reply::new(ContactClaim::Unresolved { safe_until: time }, steps);
@@ -151,7 +151,7 @@ impl C2a {
         let mut found = DescentResult {
             distance: f64::INFINITY,
             nearest_triangles: None,
-            step: f64::INFINITY,
+            safe_step: f64::INFINITY,
         };
         if let Some((leaves, pair)) = last.and_then(|last| last.nearest_triangles) {
             self.include_triangles(&mut found, setup, leaves, pair);
@@ -169,7 +169,7 @@ impl C2a {
             let Some(candidate) = self.pair_stack.pop() else {
                 return DescentOutcome::Done(found);
             };
-            if candidate.may_stop_descent(&mut found, setup) {
+            if candidate.try_stop_descent(&mut found, setup) {
                 continue;
             }
             if *pairs_left == 0 || found.distance.is_nan() {
@@ -182,7 +182,7 @@ impl C2a {
                 }
                 PairChildren::Pairs([first, second]) => {
                     let (first, second) = (self.candidate_pair(first), self.candidate_pair(second));
-                    let ordered = if first.distance < second.distance {
+                    let ordered = if first.distance_bound < second.distance_bound {
                         [second, first]
                     } else {
                         [first, second]
@@ -198,10 +198,10 @@ impl C2a {
         let gap = self.trees.gap_bound(&pair);
         CandidatePair {
             safe_step: self
-                .closing_speed_bounds
+                .closing_speed_bounder
                 .safe_step(&self.trees, &pair, &gap),
             pair,
-            distance: gap.distance,
+            distance_bound: gap.distance_bound,
         }
     }
 
@@ -219,15 +219,15 @@ impl C2a {
             .vector_from_a_to_b();
         let distance = between.length();
         let gap = GapBound {
-            distance,
+            distance_bound: distance,
             direction: between / distance,
         };
         let step = self
-            .closing_speed_bounds
+            .closing_speed_bounder
             .safe_step(&self.trees, &pair, &gap);
         // NaN counts as nearer.
-        if !(step >= found.step) {
-            found.step = step;
+        if !(step >= found.safe_step) {
+            found.safe_step = step;
         }
         if !(distance >= found.distance) {
             found.distance = distance;
@@ -239,13 +239,13 @@ impl C2a {
 impl CandidatePair {
     /// Returns true if the descent may stop at this pair, whose step is then accounted for in `found`.
     #[inline]
-    fn may_stop_descent(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
-        if self.safe_step >= lesser(found.step, setup.remaining_time) {
+    fn try_stop_descent(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
+        if self.safe_step >= lesser(found.safe_step, setup.remaining_time) {
             return true;
         }
-        let far = self.distance * (1.0 + setup.max_relative_excess) >= found.distance;
+        let far = self.distance_bound * (1.0 + setup.max_relative_excess) >= found.distance;
         if far {
-            found.step = self.safe_step;
+            found.safe_step = self.safe_step;
         }
         far
     }
@@ -264,13 +264,13 @@ fn max_relative_excess(
     /// allowed.
     const LAST_FINER_STEP_AND_EXCESS: (u64, f64) = (6, 0.5);
     /// The length of a step at and below which the next step is exact, as a fraction of the duration.
-    const EXACT_STEP_FRACTION: f64 = 0.005;
+    const EXACT_BELOW_STEP_FRACTION: f64 = 0.005;
     /// The distance at and below which the next step is exact, as a multiple of the tolerance.
-    const EXACT_DISTANCE_IN_TOLERANCES: f64 = 16.0;
+    const EXACT_BELOW_DISTANCE_IN_TOLERANCES: f64 = 16.0;
 
     let exact = last.is_some_and(|last| {
-        !(last.step > EXACT_STEP_FRACTION * duration
-            && last.distance > EXACT_DISTANCE_IN_TOLERANCES * tolerance)
+        !(last.safe_step > EXACT_BELOW_STEP_FRACTION * duration
+            && last.distance > EXACT_BELOW_DISTANCE_IN_TOLERANCES * tolerance)
     });
     match step {
         _ if exact => 0.0,

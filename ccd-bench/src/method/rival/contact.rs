@@ -14,7 +14,7 @@ use super::resolution::resolution;
 use super::screw::to_screw_motions;
 use super::tree::NodeContent;
 use crate::method::solver::{ContactClaim, Reply, Solver};
-use boxes::{BoxSeparation, box_separation};
+use boxes::{BoxSeparation, test_box_separation};
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 use clock::{HalvedInterval, MotionEncloser};
@@ -28,7 +28,7 @@ use rigid_ccd::table::motions::Motions;
 ///
 /// Values from 0.1 to 2 were measured; this one is the fastest, on knots of 2,880 and 11,520
 /// triangles and a bunny of 26,000.
-const MAX_RELATIVE_SPREAD: f64 = 0.2;
+const MAX_RELATIVE_MOTION_SPREAD: f64 = 0.2;
 
 /// Finds the first contact of two triangle meshes that move by [screw motions](super::to_screw_motions()) between the
 /// start and end poses of their given motions.
@@ -184,16 +184,18 @@ impl Search<'_> {
         let NodePair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match box_separation(
+        let spread = match test_box_separation(
             &a.bounds,
             &b.bounds,
             self.motion_encloser.placement_enclosure(interval),
         ) {
             BoxSeparation::Separated => return FirstTouch::NotInInterval,
-            BoxSeparation::NotSeparated { spread } => spread,
+            BoxSeparation::NotSeparated {
+                motion_spread: spread,
+            } => spread,
         };
         let size = [a, b].map(|node| node.bounds.half_extents.max_element());
-        let wide = spread > MAX_RELATIVE_SPREAD * greater(size[0], size[1]);
+        let wide = spread > MAX_RELATIVE_MOTION_SPREAD * greater(size[0], size[1]);
         if wide && !self.motion_encloser.is_too_short_to_halve(interval) {
             self.motion_encloser.halving_count += 1;
             let [early, late] = interval.halves();

@@ -37,8 +37,8 @@ mod tests;
 pub struct DynamicChecker {
     trees: RssTreePair,
     work_limit: WorkLimit,
-    radius_a: RadiusCache,
-    radius_b: RadiusCache,
+    radius_cache_a: RadiusCache,
+    radius_cache_b: RadiusCache,
     segment_stack: Vec<TimeSegment>,
     pair_stack: Vec<(RssNodePair, f64)>,
 }
@@ -93,8 +93,8 @@ impl DynamicChecker {
         DynamicChecker {
             trees: RssTreePair::new(a, b),
             work_limit: WorkLimit::default(),
-            radius_a: RadiusCache::default(),
-            radius_b: RadiusCache::default(),
+            radius_cache_a: RadiusCache::default(),
+            radius_cache_b: RadiusCache::default(),
             segment_stack: Vec::new(),
             pair_stack: Vec::new(),
         }
@@ -109,8 +109,13 @@ impl Solver for DynamicChecker {
         let mut task = QueryTask {
             a,
             b,
-            speed_bound: speed(&a, self.radius_a.radius_about(a.centre, &self.trees.a))
-                + speed(&b, self.radius_b.radius_about(b.centre, &self.trees.b)),
+            speed_bound: speed(
+                &a,
+                self.radius_cache_a.radius_about(a.centre, &self.trees.a),
+            ) + speed(
+                &b,
+                self.radius_cache_b.radius_about(b.centre, &self.trees.b),
+            ),
             tolerance,
             earliest_touch_time: None,
             steps: 0,
@@ -244,7 +249,8 @@ impl DynamicChecker {
             return DistanceBound::AtLeast(f64::INFINITY);
         };
         self.pair_stack.clear();
-        self.pair_stack.push((roots, self.trees.distance(&roots)));
+        self.pair_stack
+            .push((roots, self.trees.distance_bound(&roots)));
         let mut least = f64::INFINITY;
         while let Some((pair, distance)) = self.pair_stack.pop() {
             if distance >= least {
@@ -282,8 +288,8 @@ impl DynamicChecker {
     /// Pushes two pairs onto the stack, the nearer one on top, but drops those that are not nearer than `least`.
     fn push_nearer_pairs(&mut self, [first, second]: [RssNodePair; 2], least: f64) {
         let (first, second) = (
-            (first, self.trees.distance(&first)),
-            (second, self.trees.distance(&second)),
+            (first, self.trees.distance_bound(&first)),
+            (second, self.trees.distance_bound(&second)),
         );
         let ordered = if first.1 < second.1 {
             [second, first]

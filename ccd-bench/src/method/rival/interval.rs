@@ -21,7 +21,7 @@ pub(super) type IntervalMat = Interval<DMat3>;
 pub(super) struct SineCosineRange {
     pub(super) cos: Interval,
     /// The radius of the range of the sine, which is centred at zero.
-    pub(super) sin: f64,
+    pub(super) sin_radius: f64,
 }
 
 impl SineCosineRange {
@@ -36,7 +36,7 @@ impl SineCosineRange {
                 middle: 0.5 * (1.0 + least_cos),
                 radius: 0.5 * (1.0 - least_cos),
             },
-            sin: if half_angle < FRAC_PI_2 { sin } else { 1.0 },
+            sin_radius: if half_angle < FRAC_PI_2 { sin } else { 1.0 },
         }
     }
 }

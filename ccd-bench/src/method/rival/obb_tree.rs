@@ -82,7 +82,7 @@ impl ObbTree {
     }
 
     /// Returns an upper bound of the distance of the mesh's points from a point in its frame.
-    pub(super) fn radius_about(&self, from: DVec3) -> f64 {
+    pub(super) fn radius_bound_about(&self, from: DVec3) -> f64 {
         self.origin.distance(from) + self.radius
     }
 }

@@ -12,7 +12,7 @@ use rigid_ccd::table::motions::Motions;
 const MIN_HALF_ANGLE_SINE: f64 = 1.0 / 4096.0;
 
 /// The largest distance of two positions that count as equal up to rounding, as a share of the motion's displacement.
-const ROUNDING_SHARE: f64 = 1e-9;
+const MAX_ROUNDING_PER_TRAVEL: f64 = 1e-9;
 
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose
 /// \[CONTACT02\].
@@ -47,7 +47,7 @@ pub fn are_screw_motions(query: &Motions) -> bool {
         };
         [0.25, 0.5, 0.75]
             .into_iter()
-            .all(|share| apart(share) <= ROUNDING_SHARE * travel)
+            .all(|share| apart(share) <= MAX_ROUNDING_PER_TRAVEL * travel)
     };
     same(&query.a) && same(&query.b)
 }

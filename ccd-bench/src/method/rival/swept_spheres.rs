@@ -2,7 +2,7 @@
 
 use super::principal_axes::principal_axes;
 use super::tree::NodeContent;
-use super::triangles_apart::{NearestPoints, Triangle, nearest};
+use super::triangles_apart::{NearestPoints, Triangle, nearest_points};
 use super::{Placement, rectangles};
 use ccd_core::glam::{DVec2, DVec3};
 use ccd_core::order::greater;
@@ -71,7 +71,7 @@ pub(super) struct TriangleIndexPair {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GapBound {
     /// The lower bound of the distance; zero if the nodes overlap.
-    pub(super) distance: f64,
+    pub(super) distance_bound: f64,
     /// The unit vector from A towards B in the frame of body A; zero if their rectangles meet.
     pub(super) direction: DVec3,
 }
@@ -141,8 +141,8 @@ impl RssTreePair {
 
     /// Returns a lower bound of the distance of two nodes.
     #[inline]
-    pub(super) fn distance(&self, pair: &RssNodePair) -> f64 {
-        self.gap_bound(pair).distance
+    pub(super) fn distance_bound(&self, pair: &RssNodePair) -> f64 {
+        self.gap_bound(pair).distance_bound
     }
 
     /// Returns a lower bound of the distance of two nodes, and its direction.
@@ -155,12 +155,12 @@ impl RssTreePair {
         let distance = greater(0.0, length - (a.radius + b.radius));
         if !(distance > 0.0) {
             return GapBound {
-                distance: 0.0,
+                distance_bound: 0.0,
                 direction: DVec3::ZERO,
             };
         }
         GapBound {
-            distance,
+            distance_bound: distance,
             direction: self.a.frames[pair.a as usize].rotation * (between / length),
         }
     }
@@ -179,7 +179,7 @@ impl RssTreePair {
         placement: &Placement,
     ) -> NearestPoints {
         let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));
-        nearest(&self.a.triangles[leaves.a as usize], &moved)
+        nearest_points(&self.a.triangles[leaves.a as usize], &moved)
     }
 
     /// Returns the pairs that replace a pair of nodes: the larger node is opened \[PQP99 §5\], and two leaves give

@@ -37,7 +37,7 @@ impl NearestPoints {
 /// # Complexity
 /// Constant: the nearest of the nine pairs of edges and the six pairs of a corner and a face
 /// \[PQP99 §4\], with the three features of one triangle at a time.
-pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
+pub(super) fn nearest_points(a: &Triangle, b: &Triangle) -> NearestPoints {
     let (face_a, face_b) = (TrianglePlane::new(a), TrianglePlane::new(b));
     let (over_a, over_b) = (face_a.scaled_heights(b), face_b.scaled_heights(a));
     // Nothing is above or below the plane of a needle, which has no normal.
@@ -80,7 +80,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
 fn nearest_edge_points(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
     let (from_b, along_b) = (pack_vectors(b), pack_vectors(&edges(b)));
     let long_b = along_b.dot_each(along_b);
-    let scale_b = reciprocal(long_b);
+    let scale_b = reciprocal_or_zero(long_b);
     let edges_a = edges(a);
     let (zero, one) = (f64x4::splat(0.0), f64x4::splat(1.0));
     let mut squared = f64x4::splat(f64::INFINITY);
@@ -98,7 +98,7 @@ fn nearest_edge_points(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
         let skew = sine_squared.simd_gt(zero);
         let s = skew.select(s.fast_clamp(zero, one), zero);
         let t = (both.mul_sub(s, ahead_b) * scale_b).fast_clamp(zero, one);
-        let s = (both.mul_add(t, ahead_a) * reciprocal(long_a)).fast_clamp(zero, one);
+        let s = (both.mul_add(t, ahead_a) * reciprocal_or_zero(long_a)).fast_clamp(zero, one);
         let vectors = apart
             .plus_scaled_each(t, along_b)
             .minus(Vec3x4::splat(DVec3::ZERO).plus_scaled(s, along));
@@ -235,7 +235,7 @@ fn pack_vectors([a, b, c]: &Triangle) -> Vec3x4 {
 /// Returns the reciprocal in each lane, or zero where a lane is zero. The nearest point of an edge without length is
 /// then its start.
 #[inline(always)]
-fn reciprocal(x: f64x4) -> f64x4 {
+fn reciprocal_or_zero(x: f64x4) -> f64x4 {
     let zero = f64x4::splat(0.0);
     x.simd_gt(zero).select(f64x4::splat(1.0) / x, zero)
 }

@@ -26,7 +26,7 @@ const CHART_FILE: &str = "chart.csv";
 const TRIALS_FILE: &str = "trials.csv";
 
 /// The key of a cell: its scene, its method, and the bits of its tolerance.
-type Key = (String, String, u64);
+type CellKey = (String, String, u64);
 
 impl Journal {
     /// Opens the journal in a folder for writing. Keeps its content if it was measured with the same stamp, and
@@ -64,15 +64,15 @@ impl Journal {
 
     /// Reads the journal in a folder, whatever settings its measurements were made with.
     pub fn read(folder: &Path) -> Self {
-        let mut cells: Vec<MeasurementCell> = read_valid_rows(&folder.join(CHART_FILE));
-        let mut trials: Vec<Trial> = read_valid_rows(&folder.join(TRIALS_FILE));
+        let mut cells: Vec<MeasurementCell> = read_rows_until_invalid(&folder.join(CHART_FILE));
+        let mut trials: Vec<Trial> = read_rows_until_invalid(&folder.join(TRIALS_FILE));
         // Trials are written before their cell, so a cell implies all of its trials.
-        let mut counts: HashMap<Key, usize> = HashMap::new();
+        let mut counts: HashMap<CellKey, usize> = HashMap::new();
         for trial in &trials {
             *counts.entry(cell_key_of_trial(trial)).or_default() += 1;
         }
         cells.retain(|cell| counts.get(&cell_key(cell)) == Some(&cell.rows));
-        let done: HashSet<Key> = cells.iter().map(cell_key).collect();
+        let done: HashSet<CellKey> = cells.iter().map(cell_key).collect();
         trials.retain(|trial| done.contains(&cell_key_of_trial(trial)));
         Journal {
             cells,
@@ -125,18 +125,18 @@ pub fn program_stamp() -> String {
     format!("program {program:08x}\n")
 }
 
-fn cell_key(cell: &MeasurementCell) -> Key {
+fn cell_key(cell: &MeasurementCell) -> CellKey {
     let tolerance = cell.tolerance.to_bits();
     (cell.scene.clone(), cell.method.clone(), tolerance)
 }
 
-fn cell_key_of_trial(trial: &Trial) -> Key {
+fn cell_key_of_trial(trial: &Trial) -> CellKey {
     let tolerance = trial.tolerance.to_bits();
     (trial.scene.clone(), trial.method.clone(), tolerance)
 }
 
 /// Reads the rows of a table up to the first invalid row, which an interruption may have truncated.
-fn read_valid_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
+fn read_rows_until_invalid<T: DeserializeOwned>(path: &Path) -> Vec<T> {
     let Ok(reader) = csv::Reader::from_path(path) else {
         return Vec::new();
     };

@@ -1,7 +1,7 @@
 //! A method that is ready for queries about a scene.
 
 use super::MAX_PAIRS_FOR_NAIVE_SCHEDULE;
-use crate::method::guarded::{GuardSettings, GuardedMethod, MethodPrograms, QueryOutcome};
+use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms, QueryOutcome};
 use crate::method::solver::{Solver, answer_timed};
 use crate::method::{Method, PAPER_TOLERANCE, ProjectSolver};
 use crate::scene::Scene;
@@ -35,7 +35,7 @@ impl<'s> Session<'s> {
     ) -> io::Result<Option<Self>> {
         let runner = match method {
             Method::ThisProject(kind, pieces) => {
-                let too_many = scene.pairs() > MAX_PAIRS_FOR_NAIVE_SCHEDULE;
+                let too_many = scene.piece_pair_count() > MAX_PAIRS_FOR_NAIVE_SCHEDULE;
                 let suits = kind.schedule != ScheduleKind::Naive || !too_many;
                 let Some(bodies) = scene.bodies_with_pieces(pieces).filter(|_| suits) else {
                     return Ok(None);
@@ -52,7 +52,7 @@ impl<'s> Session<'s> {
             }
             Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
-                let setting = GuardSettings::new(method, PAPER_TOLERANCE);
+                let setting = GuardedMethodSettings::new(method, PAPER_TOLERANCE);
                 Runner::SeparateProcess(Box::new(GuardedMethod::new(programs, setting, meshes)?))
             }
         };

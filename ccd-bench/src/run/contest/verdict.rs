@@ -58,7 +58,7 @@ const MAX_LATENESS: f64 = 1e-12;
 const MAX_BRACKET_WIDTH: f64 = 1e-9;
 
 /// The allowed excess of the bodies' distance over the tolerance due to rounding, as a fraction of the tolerance.
-const DISTANCE_ROUNDING: f64 = 1e-6;
+const DISTANCE_ROUNDING_IN_TOLERANCES: f64 = 1e-6;
 
 impl Judgement {
     /// Returns a judgement without a time error, for a claim whose time is not compared with the exact one.
@@ -118,7 +118,8 @@ pub fn is_within_tolerance(
     time: f64,
     tolerance: f64,
 ) -> bool {
-    referee.distance(query, time).lower <= tolerance * (1.0 + DISTANCE_ROUNDING)
+    referee.distance_bounds(query, time).lower
+        <= tolerance * (1.0 + DISTANCE_ROUNDING_IN_TOLERANCES)
 }
 
 /// Judges a claim about bodies whose exact first contact is between `lo` and `hi`; `near` tells whether the bodies are

@@ -45,12 +45,12 @@ struct Ring {
 }
 
 impl Ring {
-    fn vertex(&self, i: usize) -> u32 {
+    fn vertex_index(&self, i: usize) -> u32 {
         self.first_vertex + (i % self.vertex_count) as u32
     }
 
     /// Returns the number of edges of the circle; a pole has none.
-    fn steps(&self) -> usize {
+    fn edge_count(&self) -> usize {
         if self.vertex_count == 1 {
             0
         } else {
@@ -83,15 +83,23 @@ fn ring_vertex_counts(vertices: usize) -> Vec<usize> {
 /// Adds the strip of triangles between two neighbouring circles of latitude, the northern one given first. The next
 /// step is always the one whose middle comes first, which keeps the triangles well shaped.
 fn join_rings(north: Ring, south: Ring, faces: &mut Vec<[u32; 3]>) {
-    let (n, s) = (north.steps(), south.steps());
+    let (n, s) = (north.edge_count(), south.edge_count());
     let (mut i, mut j) = (0, 0);
     while i < n || j < s {
         // The middles (2i + 1)/2n and (2j + 1)/2s, compared without rounding.
         if j == s || (i < n && (2 * i + 1) * s <= (2 * j + 1) * n) {
-            faces.push([north.vertex(i), south.vertex(j), north.vertex(i + 1)]);
+            faces.push([
+                north.vertex_index(i),
+                south.vertex_index(j),
+                north.vertex_index(i + 1),
+            ]);
             i += 1;
         } else {
-            faces.push([north.vertex(i), south.vertex(j), south.vertex(j + 1)]);
+            faces.push([
+                north.vertex_index(i),
+                south.vertex_index(j),
+                south.vertex_index(j + 1),
+            ]);
             j += 1;
         }
     }

@@ -151,12 +151,15 @@ fn files_take_precedence_over_models_made_by_code() {
     std::fs::create_dir_all(&directory).unwrap();
     let file = directory.join("board.obj");
     std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    let board = Model::Board.load(Some(&directory)).unwrap();
+    let board = Model::Board.load_or_generate(Some(&directory)).unwrap();
     assert_eq!(board.faces().len(), 1);
-    let santa = Model::Santa.load(Some(&directory)).unwrap();
+    let santa = Model::Santa.load_or_generate(Some(&directory)).unwrap();
     assert_eq!(santa.faces().len(), 37_888);
     std::fs::write(&file, "v 0 0 0\nf 1 2 3\n").unwrap();
-    let error = Model::Board.load(Some(&directory)).unwrap_err().to_string();
+    let error = Model::Board
+        .load_or_generate(Some(&directory))
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("board.obj"), "{error}");
     std::fs::remove_dir_all(&directory).unwrap();
 }

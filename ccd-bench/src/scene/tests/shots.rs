@@ -35,7 +35,7 @@ impl ShotGenerator {
                 let from =
                     rng.random_range(self.start_distances.clone()) * random_unit_vector(&mut rng);
                 let target = self.max_offset * random_unit_ball_point(&mut rng);
-                let start = Pose::new(from, orientation(&mut rng))?;
+                let start = Pose::new(from, random_orientation(&mut rng))?;
                 let velocity = 2.0 * (target - from);
                 let spin = if row < self.translation_count {
                     DVec3::ZERO
@@ -54,11 +54,14 @@ impl ShotGenerator {
 ///
 /// # Errors
 /// None: all motions are finite.
-pub(crate) fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, InputError> {
+pub(crate) fn drops_onto_or_past_board(
+    count: usize,
+    seed: u64,
+) -> Result<Vec<Motions>, InputError> {
     let mut rng = Pcg64::seed_from_u64(seed);
     (0..count)
         .map(|row| {
-            let start = Pose::new(5.0 * DVec3::Z, orientation(&mut rng))?;
+            let start = Pose::new(5.0 * DVec3::Z, random_orientation(&mut rng))?;
             let spin = 0.75 * PI * random_unit_vector(&mut rng);
             let motion = Motion::new(start, -10.0 * DVec3::Z, spin)?;
             let height = 3.5 - 7.0 * row as f64 / count as f64;
@@ -96,7 +99,7 @@ fn random_unit_ball_point(rng: &mut impl Rng) -> DVec3 {
 }
 
 /// Returns a uniformly distributed rotation, as a point of the unit sphere in four dimensions.
-fn orientation(rng: &mut impl Rng) -> DQuat {
+fn random_orientation(rng: &mut impl Rng) -> DQuat {
     let share: f64 = rng.random_range(0.0..1.0);
     let (sin_a, cos_a) = rng.random_range(0.0..TAU).sin_cos();
     let (sin_b, cos_b) = rng.random_range(0.0..TAU).sin_cos();

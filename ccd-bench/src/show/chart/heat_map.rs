@@ -115,7 +115,7 @@ pub struct HeatCell {
     text_colour: RGBColor,
     lines: [String; 2],
     /// The length of the bar, as a share of the cell's width.
-    bar_length: f64,
+    bar_fraction: f64,
 }
 
 impl HeatCell {
@@ -128,7 +128,7 @@ impl HeatCell {
             fill_colour: fill,
             text_colour: ink,
             lines: [word.to_owned(), limit],
-            bar_length: share,
+            bar_fraction: share,
         }
     }
 
@@ -146,7 +146,7 @@ impl HeatCell {
             fill_colour: GROWTH_COLOURS[darkness],
             text_colour: if darkness < 2 { TEXT_COLOUR } else { WHITE },
             lines: [String::new(), number],
-            bar_length: 0.0,
+            bar_fraction: 0.0,
         }
     }
 }
@@ -169,7 +169,7 @@ impl HeatMap {
                 draw_text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &format)?;
             }
             for (number, row) in self.rows.iter().enumerate() {
-                self.row(sheet, FIRST_ROW_TOP + ROW_HEIGHT * number as f64, row)?;
+                self.draw_row(sheet, FIRST_ROW_TOP + ROW_HEIGHT * number as f64, row)?;
             }
             Ok(())
         })
@@ -184,7 +184,7 @@ impl HeatMap {
         CHART_MARGIN + NAME_COLUMN_WIDTH + self.column_width() * column as f64
     }
 
-    fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
+    fn draw_row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
         let smallest = TextFormat {
             size: SMALLEST_FONT_SIZE,
             ..small_text_format()
@@ -246,7 +246,7 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapTexts) -> Result<()> {
 fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW_HEIGHT - 1.0;
     fill_rect(sheet, (x, y), (width, height), cell.fill_colour)?;
-    let bar = (width * cell.bar_length, BAR_HEIGHT);
+    let bar = (width * cell.bar_fraction, BAR_HEIGHT);
     fill_rect(sheet, (x, y + height - BAR_HEIGHT), bar, CORRECT_COLOUR)?;
     let format = TextFormat {
         size: SMALLEST_FONT_SIZE,

@@ -19,7 +19,7 @@ fn page() -> String {
     page_html("<svg></svg>", &views, &[table]).unwrap()
 }
 
-fn script(html: &str, id: &str) -> Value {
+fn parse_json_script(html: &str, id: &str) -> Value {
     let tag = format!("<script type=\"application/json\" id=\"{id}\">");
     let (_, rest) = html.split_once(&tag).unwrap();
     serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
@@ -27,7 +27,7 @@ fn script(html: &str, id: &str) -> Value {
 
 #[test]
 fn views_are_contacts_first_and_share_equal_meshes() {
-    let data = script(&page(), "views");
+    let data = parse_json_script(&page(), "views");
     assert_eq!(data["meshes"].as_array().map(Vec::len), Some(1));
     let views = data["groups"][0]["views"].as_array().unwrap();
     assert_eq!(views.len(), 8);

@@ -11,23 +11,23 @@ use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 pub(super) fn families() -> Vec<Family> {
     vec![
         family("face onto face", face_onto_face)
-            .with_parameter_values("angle to parallel", negative_powers_of_ten(1..=15)),
+            .with_parameter("angle to parallel", negative_powers_of_ten(1..=15)),
         family("edge across edge", edge_across_edge)
-            .with_parameter_values("angle to parallel", negative_powers_of_ten(1..=15)),
+            .with_parameter("angle to parallel", negative_powers_of_ten(1..=15)),
         family("flat approach", cube_at_flat_angle)
-            .with_parameter_values("angle to the face", negative_powers_of_ten(1..=12)),
+            .with_parameter("angle to the face", negative_powers_of_ten(1..=12)),
         family("cubes that hardly meet", barely_overlapping_cubes)
-            .with_parameter_values("overlap", negative_powers_of_ten(1..=15)),
+            .with_parameter("overlap", negative_powers_of_ten(1..=15)),
         family("rod that hardly reaches", rod_barely_reaching_wall)
-            .with_parameter_values("share of its reach", negative_powers_of_ten(1..=12)),
+            .with_parameter("share of its reach", negative_powers_of_ten(1..=12)),
         family("linked rings", linked_rings)
-            .with_parameter_values("way to contact", negative_powers_of_ten(1..=12)),
+            .with_parameter("way to contact", negative_powers_of_ten(1..=12)),
         family("corner onto face", corner_onto_face)
-            .with_parameter_values("angle to its diagonal", negative_powers_of_ten(1..=15)),
+            .with_parameter("angle to its diagonal", negative_powers_of_ten(1..=15)),
         family("peg turning in a hole", peg_in_a_hole)
-            .with_parameter_values("clearance", negative_powers_of_ten(1..=12)),
+            .with_parameter("clearance", negative_powers_of_ten(1..=12)),
         family("hardly turning", slightly_rotating_cube)
-            .with_parameter_values("radians", negative_powers_of_ten(1..=15)),
+            .with_parameter("radians", negative_powers_of_ten(1..=15)),
     ]
 }
 
@@ -49,7 +49,7 @@ fn edge_across_edge(angle: f64) -> Result<FamilyStep> {
     let lying = BodyMotion::STILL_MOTION.with_orientation(on_edge);
     let expected = contact_at((3.0 - 0.2 * SQRT_2) / 4.0, CONTACT_TIME_ERROR);
     let step = FamilyStep::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
-    step.with_rotated_queries(falling, lying, expected)
+    step.with_query_and_rotations(falling, lying, expected)
 }
 
 /// Makes a cube that falls onto a slab corner first, with its diagonal tilted by a small angle from upright (case T8).
@@ -72,7 +72,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<FamilyStep> {
         .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
     let expected = contact_at(0.5, 1e-15 / clearance);
-    step.with_rotated_queries(turning, BodyMotion::STILL_MOTION, expected)
+    step.with_query_and_rotations(turning, BodyMotion::STILL_MOTION, expected)
 }
 
 /// Makes a cube that falls flat onto a slab while it rotates by a very small angle (case T25).
@@ -96,14 +96,14 @@ fn cube_at_flat_angle(angle: f64) -> Result<FamilyStep> {
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = contact_at(0.5, 1e-15 / sin);
     let step = FamilyStep::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
-    step.with_rotated_queries(flying, BodyMotion::SLAB_MOTION, expected)
+    step.with_query_and_rotations(flying, BodyMotion::SLAB_MOTION, expected)
 }
 
 fn barely_overlapping_cubes(overlap: f64) -> Result<FamilyStep> {
     let flying = BodyMotion::straight_motion(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = contact_at(1.0 / 3.0, CONTACT_TIME_ERROR);
     let step = FamilyStep::new(cube()?, cube()?);
-    step.with_rotated_queries_if(overlap > 1e-12, flying, BodyMotion::STILL_MOTION, expected)
+    step.with_query_and_rotations_if(overlap > 1e-12, flying, BodyMotion::STILL_MOTION, expected)
 }
 
 /// Makes a rod that rotates until its corner barely reaches a wall, shortly before the corner would pass it (case T5).

@@ -9,9 +9,8 @@ use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::greater;
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, make| {
-        family(name, make).with_parameter_values("gap", negative_powers_of_ten(1..=12))
-    };
+    let family =
+        |name, make| family(name, make).with_parameter("gap", negative_powers_of_ten(1..=12));
     vec![
         family("ball passing a box", ball_passing_a_box),
         family("cubes passing", cubes_passing),
@@ -37,7 +36,7 @@ fn contact_free_step(
     b: BodyMotion,
 ) -> Result<FamilyStep> {
     let step = step.with_tolerance(tolerance(gap));
-    step.with_rotated_queries_if(gap >= 1e-12, a, b, Truth::Free)
+    step.with_query_and_rotations_if(gap >= 1e-12, a, b, Truth::Free)
 }
 
 fn ball_passing_a_box(gap: f64) -> Result<FamilyStep> {

@@ -13,21 +13,20 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub(super) fn families() -> Vec<Family> {
     vec![
-        family("hooks pulled apart", hooks)
-            .with_parameter_values("slack", negative_powers_of_ten(1..=12)),
+        family("hooks pulled apart", hooks).with_parameter("slack", negative_powers_of_ten(1..=12)),
         family("ring onto a ring", ring_onto_ring)
-            .with_parameter_values("way to contact", negative_powers_of_ten(1..=12)),
+            .with_parameter("way to contact", negative_powers_of_ten(1..=12)),
         family("screw in its nut", |turns| screw_in_nut(turns, 0.5))
-            .with_parameter_values("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
-        family("screw with little play", |play| screw_in_nut(1.0, play)).with_parameter_values(
+            .with_parameter("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
+        family("screw with little play", |play| screw_in_nut(1.0, play)).with_parameter(
             "play against pitch",
             vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
         ),
         family("sheet between two sheets", sheet_between_sheets)
-            .with_parameter_values("gap", negative_powers_of_ten(1..=12)),
+            .with_parameter("gap", negative_powers_of_ten(1..=12)),
         family("plate through a slit", plate_through_slit)
-            .with_parameter_values("gap", negative_powers_of_ten(1..=12)),
-        family("turned frames", rod_in_rotated_frame).with_parameter_values(
+            .with_parameter("gap", negative_powers_of_ten(1..=12)),
+        family("turned frames", rod_in_rotated_frame).with_parameter(
             "degrees",
             vec![0.0, 1.0, 10.0, 30.0, 45.0, 60.0, 80.0, 90.0, 120.0, 180.0],
         ),
@@ -48,7 +47,7 @@ fn hooks(slack: f64) -> Result<FamilyStep> {
     let holding = BodyMotion::straight_motion((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .with_orientation(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
     let step = FamilyStep::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
-    step.with_rotated_queries(holding, BodyMotion::STILL_MOTION, contact_at(slack, 1e-14))
+    step.with_query_and_rotations(holding, BodyMotion::STILL_MOTION, contact_at(slack, 1e-14))
 }
 
 /// Makes a ring that falls flat onto an equal ring, and meets it all around.
@@ -57,7 +56,7 @@ fn ring_onto_ring(way: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight_motion((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_rotated_queries(falling, BodyMotion::STILL_MOTION, contact_at(way, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL_MOTION, contact_at(way, 1e-14))
 }
 
 /// The pitch of the threads: their rise per turn.
@@ -75,7 +74,7 @@ fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyStep> {
     let turning = BodyMotion::straight_motion(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .with_spin(TAU * turns * DVec3::Z);
     let step = FamilyStep::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
-    step.with_rotated_queries(turning, BodyMotion::STILL_MOTION, Truth::Free)
+    step.with_query_and_rotations(turning, BodyMotion::STILL_MOTION, Truth::Free)
 }
 
 /// Makes a sheet that slides between two other sheets, at a gap from each.
@@ -106,7 +105,7 @@ fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
 
 fn contact_free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilyStep> {
     let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
-    step.with_rotated_queries_if(gap >= 1e-12, moving, BodyMotion::STILL_MOTION, Truth::Free)
+    step.with_query_and_rotations_if(gap >= 1e-12, moving, BodyMotion::STILL_MOTION, Truth::Free)
 }
 
 /// Makes a rod that rotates into a wall, with its mesh stored in a frame that is rotated by the given angle (case T3).
@@ -119,7 +118,7 @@ fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
         .with_spin(PI * DVec3::Y);
     let step = FamilyStep::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(rod_angle_at_wall(wall) / PI, 1e-14);
-    step.with_rotated_queries(
+    step.with_query_and_rotations(
         turning,
         BodyMotion::resting_motion((wall + 1.0) * DVec3::X),
         expected,

@@ -2,8 +2,8 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{
-    TOOTH_WIDTH_SHARE, ball, comb, cone, cube, evenly_stacked_squares, field_of_cubes, sliver_slab,
-    with_bad_faces,
+    TOOTH_WIDTH_SHARE, ball, comb, cone, cube, cube_grid_half_inside_out, evenly_stacked_squares,
+    sliver_slab, with_bad_faces,
 };
 use super::{fall_onto_slab, family, negative_powers_of_ten, powers_of_ten};
 use anyhow::Result;
@@ -15,20 +15,20 @@ pub(super) fn families() -> Vec<Family> {
     let doubled =
         |exponents: std::ops::RangeInclusive<i32>| exponents.map(|k| 2f64.powi(k)).collect();
     vec![
-        family("comb into comb", comb_into_comb).with_parameter_values("teeth", doubled(2..=9)),
+        family("comb into comb", comb_into_comb).with_parameter("teeth", doubled(2..=9)),
         family("ball onto a slab", ball_onto_slab)
-            .with_parameter_values("triangles", powers_of_ten(2..=6)),
+            .with_parameter("triangles", powers_of_ten(2..=6)),
         family("tip of many triangles", tip_onto_slab)
-            .with_parameter_values("triangles at the tip", powers_of_ten(1..=4)),
+            .with_parameter("triangles at the tip", powers_of_ten(1..=4)),
         family("repeated and collapsed faces", cube_with_bad_faces)
-            .with_parameter_values("bad faces", powers_of_ten(0..=3)),
+            .with_parameter("bad faces", powers_of_ten(0..=3)),
         family("layers close behind each other", cube_onto_layers)
-            .with_parameter_values("layers", powers_of_ten(0..=4)),
+            .with_parameter("layers", powers_of_ten(0..=4)),
         family("slab with a sliver", cube_onto_sliver)
-            .with_parameter_values("width of the sliver", negative_powers_of_ten(0..=12)),
-        family("field of solids", field_of_solids).with_parameter_values("solids", doubled(2..=12)),
+            .with_parameter("width of the sliver", negative_powers_of_ten(0..=12)),
+        family("field of solids", field_of_solids).with_parameter("solids", doubled(2..=12)),
         family("cones tip onto tip", tip_onto_tip)
-            .with_parameter_values("way aside", negative_powers_of_ten(1..=12)),
+            .with_parameter("way aside", negative_powers_of_ten(1..=12)),
     ]
 }
 
@@ -40,7 +40,7 @@ fn comb_into_comb(teeth: f64) -> Result<FamilyStep> {
     let shift = 1.0 - (0.5 - TOOTH_WIDTH_SHARE) / teeth;
     let falling = BodyMotion::straight_motion(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
         .with_orientation(DQuat::from_rotation_y(PI));
-    step.with_rotated_queries(falling, BodyMotion::STILL_MOTION, contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL_MOTION, contact_at(0.5, 1e-14))
 }
 
 /// Makes a ball with a vertex at its pole that falls onto a slab (case T22).
@@ -60,7 +60,7 @@ fn tip_onto_slab(sides: f64) -> Result<FamilyStep> {
 fn cube_onto_layers(count: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, evenly_stacked_squares(count as u32)?);
     let falling = BodyMotion::FALLING_MOTION;
-    step.with_rotated_queries(falling, BodyMotion::STILL_MOTION, contact_at(0.625, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL_MOTION, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube with repeated and collapsed faces that falls onto a slab (case T21).
@@ -73,7 +73,7 @@ fn cube_with_bad_faces(count: f64) -> Result<FamilyStep> {
 fn cube_onto_sliver(width: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, sliver_slab(width)?);
     let expected = contact_at(0.625, 1e-14);
-    step.with_rotated_queries(
+    step.with_query_and_rotations(
         BodyMotion::FALLING_MOTION,
         BodyMotion::SLAB_MOTION,
         expected,
@@ -83,9 +83,9 @@ fn cube_onto_sliver(width: f64) -> Result<FamilyStep> {
 /// Makes a cube that falls onto one mesh of many cubes, every other one of which is inside out.
 fn field_of_solids(count: f64) -> Result<FamilyStep> {
     // The cube covers the middle of the field, where at least four others are.
-    let step = FamilyStep::new(cube()?, field_of_cubes(count as u32)?);
+    let step = FamilyStep::new(cube()?, cube_grid_half_inside_out(count as u32)?);
     let expected = contact_at(0.625, 1e-14);
-    step.with_rotated_queries(
+    step.with_query_and_rotations(
         BodyMotion::FALLING_MOTION,
         BodyMotion::STILL_MOTION,
         expected,
@@ -103,5 +103,5 @@ fn tip_onto_tip(aside: f64) -> Result<FamilyStep> {
     let upside_down = BodyMotion::STILL_MOTION.with_orientation(DQuat::from_rotation_y(PI));
     let step = FamilyStep::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
     let expected = contact_at((2.0 + aside * slope) / 4.0, 1e-14);
-    step.with_rotated_queries(falling, upside_down, expected)
+    step.with_query_and_rotations(falling, upside_down, expected)
 }

@@ -16,26 +16,25 @@ pub(super) fn families() -> Vec<Family> {
     };
     vec![
         family("small against large", cubes_of_unequal_size)
-            .with_parameter_values("size against size", sizes(1..=9)),
+            .with_parameter("size against size", sizes(1..=9)),
         family("unit of length", scene_in_length_unit)
-            .with_parameter_values("size of the scene", sizes(2..=9)),
+            .with_parameter("size of the scene", sizes(2..=9)),
         family("far from the origin", cubes_far_from_origin)
-            .with_parameter_values("distance in sizes", powers_of_ten(0..=12)),
+            .with_parameter("distance in sizes", powers_of_ten(0..=12)),
         family("slender triangles", thin_box_onto_slab)
-            .with_parameter_values("length against width", powers_of_ten(0..=12)),
+            .with_parameter("length against width", powers_of_ten(0..=12)),
         family("bullet and paper", bullet_and_paper)
-            .with_parameter_values("way against thickness", powers_of_ten(0..=9)),
-        family("margin", margin)
-            .with_parameter_values("margin against size", margin_parameter_values()),
+            .with_parameter("way against thickness", powers_of_ten(0..=9)),
+        family("margin", margin).with_parameter("margin against size", margin_parameter_values()),
         family("one inside the other", cube_inside_cube)
-            .with_parameter_values("size against size", negative_powers_of_ten(0..=9)),
-        family("unit of time", scene_in_time_unit).with_parameter_values("duration", sizes(1..=9)),
+            .with_parameter("size against size", negative_powers_of_ten(0..=9)),
+        family("unit of time", scene_in_time_unit).with_parameter("duration", sizes(1..=9)),
         family("moving together", cubes_moving_together)
-            .with_parameter_values("common travel", powers_of_ten(0..=9)),
+            .with_parameter("common travel", powers_of_ten(0..=9)),
         family("far centre of rotation", cube_about_far_centre)
-            .with_parameter_values("distance in sizes", powers_of_ten(0..=9)),
+            .with_parameter("distance in sizes", powers_of_ten(0..=9)),
         family("needle tip first", needle_onto_slab)
-            .with_parameter_values("width", negative_powers_of_ten(0..=12)),
+            .with_parameter("width", negative_powers_of_ten(0..=12)),
     ]
 }
 
@@ -52,7 +51,7 @@ fn cubes_of_unequal_size(size: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight_motion((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step = FamilyStep::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
-    step.with_rotated_queries(falling, BodyMotion::STILL_MOTION, contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL_MOTION, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
@@ -66,7 +65,7 @@ fn scene_in_length_unit(size: f64) -> Result<FamilyStep> {
     )
     .with_tolerance(1e-6 * size);
     let slab = BodyMotion::resting_motion(-size * DVec3::Z);
-    step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
+    step.with_query_and_rotations(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
@@ -75,7 +74,7 @@ fn scene_in_time_unit(duration: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { duration, ..step };
     let slab = BodyMotion::SLAB_MOTION;
-    step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
+    step.with_query_and_rotations(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another cube while both move sideways by `travel`.
@@ -142,7 +141,7 @@ fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
     let paper = BodyMotion::resting_motion(0.5 * DVec3::X);
     let step = FamilyStep::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = contact_at(0.5 - half - bullet, 1e-14);
-    step.with_rotated_queries(flying, paper, expected)
+    step.with_query_and_rotations(flying, paper, expected)
 }
 
 /// Makes a cube that falls towards a slab, and is at the distance `margin` from it at half the duration.
@@ -153,7 +152,7 @@ fn margin(margin: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { margin, ..step };
     let slab = BodyMotion::SLAB_MOTION;
-    step.with_rotated_queries(falling, slab, contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(falling, slab, contact_at(0.5, 1e-14))
 }
 
 /// Makes a small cube that moves inside a larger cube, so that the solids overlap but their surfaces do not meet. The
@@ -162,5 +161,5 @@ fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
     let half = 0.9 * size;
     let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight_motion(DVec3::ZERO, 0.05 * DVec3::X);
-    step.with_rotated_queries(moving, BodyMotion::STILL_MOTION, Truth::ContactAtStart)
+    step.with_query_and_rotations(moving, BodyMotion::STILL_MOTION, Truth::ContactAtStart)
 }

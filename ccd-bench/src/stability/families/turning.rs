@@ -12,13 +12,13 @@ use std::f64::consts::{PI, TAU};
 pub(super) fn families() -> Vec<Family> {
     let spins = vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0];
     vec![
-        family("mace", arm_swinging_into_wall).with_parameter_values("radians", spins),
+        family("mace", arm_swinging_into_wall).with_parameter("radians", spins),
         family("drilling cube", cube_falling_while_spinning)
-            .with_parameter_values("turns", powers_of_ten(-2..=4)),
+            .with_parameter("turns", powers_of_ten(-2..=4)),
         family("rod turning into a wall", rod_into_a_wall)
-            .with_parameter_values("turns", powers_of_ten(0..=4)),
+            .with_parameter("turns", powers_of_ten(0..=4)),
         family("rods turning against each other", counter_rotating_rods)
-            .with_parameter_values("turns", powers_of_ten(0..=4)),
+            .with_parameter("turns", powers_of_ten(0..=4)),
     ]
 }
 
@@ -49,7 +49,7 @@ fn arm_swinging_into_wall(spin: f64) -> Result<FamilyStep> {
     let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
     let step = FamilyStep::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-15);
-    step.with_rotated_queries(
+    step.with_query_and_rotations(
         swinging,
         BodyMotion::resting_motion((wall + 1.0) * DVec3::Y),
         expected,
@@ -66,5 +66,5 @@ fn counter_rotating_rods(turns: f64) -> Result<FamilyStep> {
     debug_assert!(angle < PI);
     let step = FamilyStep::new(rod()?, rod()?);
     let expected = contact_at(angle / spin, 1e-15);
-    step.with_rotated_queries(turning(spin, 0.0), turning(-spin, apart), expected)
+    step.with_query_and_rotations(turning(spin, 0.0), turning(-spin, apart), expected)
 }

@@ -42,7 +42,7 @@ fn a_sliver_is_as_thin_as_it_should_be() {
 
 #[test]
 fn cubes_in_a_field_are_turned_inside_out_one_by_one() {
-    let field = field_of_cubes(5).unwrap();
+    let field = cube_grid_half_inside_out(5).unwrap();
     assert_eq!(field.faces().len(), 60);
     let topology = Topology::of(&field);
     assert_eq!(topology.wrong_shells.count(), 2, "{topology:?}");

@@ -1,7 +1,7 @@
 //! Tests distances of surfaces against a scan of all pairs of triangles, and distances of triangles against a grid of
 //! points.
 
-use super::super::triangle::{nearest, nearest_or_common_points};
+use super::super::triangle::{nearest_or_common_points, nearest_points};
 use super::super::{Referee, Surface};
 use super::{query, random_motion, random_vector, triangle_soup};
 use ccd_core::glam::DVec3;
@@ -35,7 +35,7 @@ fn the_tree_finds_the_nearest_of_all_pairs() {
         let expected = pairs
             .map(|(p, q)| (p - q).length())
             .fold(f64::INFINITY, lesser);
-        let found = Referee::new(&surfaces[0], &surfaces[1]).distance(&query, time);
+        let found = Referee::new(&surfaces[0], &surfaces[1]).distance_bounds(&query, time);
         let off = 1e-13;
         assert!(
             found.lower <= expected + off && expected - off <= found.upper,
@@ -56,7 +56,7 @@ fn the_tree_finds_the_nearest_of_all_pairs() {
 
 #[test]
 fn nearest_points_are_as_near_as_a_grid_finds() {
-    const STEPS: u32 = 24;
+    const STEPS_PER_EDGE: u32 = 24;
     let mut rng = Pcg64::seed_from_u64(6);
     for round in 0..150 {
         let [mut a, b] = [0, 1].map(|_| [0, 1, 2].map(|_| random_vector(&mut rng, 1.0)));
@@ -68,16 +68,17 @@ fn nearest_points_are_as_near_as_a_grid_finds() {
         }
         let (p, q) = nearest_or_common_points(&a, &b);
         let found = (p - q).length();
-        let grid = grid_points_in_triangle(&a, STEPS)
-            .flat_map(|p| grid_points_in_triangle(&b, STEPS).map(move |q| (p - q).length()));
+        let grid = grid_points_in_triangle(&a, STEPS_PER_EDGE).flat_map(|p| {
+            grid_points_in_triangle(&b, STEPS_PER_EDGE).map(move |q| (p - q).length())
+        });
         let least = grid.fold(f64::INFINITY, lesser);
         // Each point has a grid point within an edge divided by the steps.
-        let spacing = 2.0 * 2.0 * f64::sqrt(3.0) / f64::from(STEPS) * 2.0;
+        let spacing = 2.0 * 2.0 * f64::sqrt(3.0) / f64::from(STEPS_PER_EDGE) * 2.0;
         assert!(
             found <= least + 1e-14 && least - spacing <= found,
             "{found} {least}"
         );
-        let edges_and_feet = nearest(&a, &b);
+        let edges_and_feet = nearest_points(&a, &b);
         assert!(found <= (edges_and_feet.0 - edges_and_feet.1).length());
     }
 }

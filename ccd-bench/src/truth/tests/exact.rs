@@ -8,14 +8,14 @@ use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// The allowed change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.
-const CONTACT_TIME_TOLERANCE: f64 = 1e-14;
+const RELATIVE_CONTACT_TIME_TOLERANCE: f64 = 1e-14;
 
 fn assert_hit_at(bodies: [&Surface; 2], query: &Motions, exact: f64) {
     let truth = judge(bodies, query);
     let Truth::Hit { lo, hi } = truth else {
         panic!("{truth:?}, expected {exact}");
     };
-    let off = CONTACT_TIME_TOLERANCE * query.duration;
+    let off = RELATIVE_CONTACT_TIME_TOLERANCE * query.duration;
     assert!(
         lo <= exact + off && exact - off <= hi,
         "{lo} {hi}, expected {exact}"
@@ -230,7 +230,7 @@ fn contact_at_the_start_is_found_and_the_inside_is_free() {
         1.0,
     );
     assert_eq!(judge([&cube, &shell], &inside), Truth::Free);
-    let distance = Referee::new(&cube, &shell).distance(&inside, 0.5);
+    let distance = Referee::new(&cube, &shell).distance_bounds(&inside, 0.5);
     let DistanceBounds { lower, upper } = distance;
     assert!(
         lower <= 1.2 && 1.2 <= upper && upper - lower < 1e-12,

@@ -44,10 +44,13 @@ fn brackets_agree_with_all_pairs_at_many_times() {
                     "{round}: {truth:?} {first:?}"
                 );
                 assert!(
-                    referee.distance(&query, greater(0.0, lo - 1e-6)).lower > 0.0,
+                    referee
+                        .distance_bounds(&query, greater(0.0, lo - 1e-6))
+                        .lower
+                        > 0.0,
                     "{round}"
                 );
-                assert!(referee.distance(&query, hi).upper < 1e-10, "{round}");
+                assert!(referee.distance_bounds(&query, hi).upper < 1e-10, "{round}");
                 // Contact is visible shortly afterwards in plain floats.
                 assert!((1..40).any(|k| meshes_pierce(
                     &meshes,

@@ -50,19 +50,22 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
     // Exact bodies keep their bits.
     assert_eq!(
         (
-            exact.upper_bound_of_shapes(0.3),
+            exact.shape_distance_upper_bound(0.3),
             exact.certain_nearness_threshold(0.3)
         ),
         (0.3, 0.3)
     );
     let both = ExcessSum::sum_of_bodies(&exceeding(0.1), &exceeding(0.2));
-    assert!(both.upper_bound_of_overlap() > 0.1 + 0.2);
-    assert!(both.upper_bound_of_shapes(0.3) > 0.3 + both.upper_bound_of_overlap());
+    assert!(both.shape_distance_bound_at_overlap() > 0.1 + 0.2);
+    assert!(both.shape_distance_upper_bound(0.3) > 0.3 + both.shape_distance_bound_at_overlap());
     assert!(
-        both.upper_bound_of_shapes(both.certain_nearness_threshold(1.0)) >= 1.0 - 1e-15
+        both.shape_distance_upper_bound(both.certain_nearness_threshold(1.0)) >= 1.0 - 1e-15
             && both.certain_nearness_threshold(1.0) < 0.7
     );
-    assert_eq!(both.upper_bound_of_shapes(f64::INFINITY), f64::INFINITY);
+    assert_eq!(
+        both.shape_distance_upper_bound(f64::INFINITY),
+        f64::INFINITY
+    );
     // A surface that exceeds the shape makes its body exceed it.
     let about = SolidOfRevolution::cylinder(1.0, 1.0)
         .unwrap()

@@ -41,11 +41,12 @@ fn names_agree_with_a_scan_of_all_facets() {
     let piece = pieces.get(0);
     // The piece belongs to no list, so that nothing is stored.
     let bare = Piece {
-        side_table_entry: None,
+        side_table_row: None,
         ..piece
     };
     assert!(
-        FacetsByCorner::for_piece(&piece).is_some() && FacetsByCorner::for_piece(&bare).is_none()
+        FacetsByCorner::cached_if_many_facets(&piece).is_some()
+            && FacetsByCorner::cached_if_many_facets(&bare).is_none()
     );
     let mut rng = rng(41);
     let (mut faces, mut edges) = (0, 0);

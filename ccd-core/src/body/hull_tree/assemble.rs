@@ -34,9 +34,11 @@ impl HullTree {
     pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
         let hierarchy = hierarchy(pieces, nodes)?;
         let done = compute_bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
-            (HullNode::Leaf(piece), _) => leaf_node(at, pieces.polytope(*piece as usize)),
+            (HullNode::Leaf(piece), _) => {
+                check_and_make_leaf_node(at, pieces.polytope(*piece as usize))
+            }
             (HullNode::Inner(names, hull), [left, right]) => {
-                inner_node(at, hull, [(names[0], left), (names[1], right)])
+                check_and_make_inner_node(at, hull, [(names[0], left), (names[1], right)])
             }
         })?;
         let mut classes = Vec::new();
@@ -54,10 +56,10 @@ impl HullTree {
         }
         let hulls = Hulls {
             facets_by_point: facets_by_point(&done),
-            classes,
-            class_ends,
+            facet_classes: classes,
+            facet_class_ends: class_ends,
             has_uniform_radius: done.iter().map(|node| node.has_uniform_radius).collect(),
-            half_diagonals: done.iter().map(|node| node.size).collect(),
+            half_diagonals: done.iter().map(|node| node.half_diagonal).collect(),
             pieces: flatten_hulls(done)?,
         };
         Ok(HullTree {
@@ -101,17 +103,17 @@ fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
 }
 
 /// Creates the leaf node for a piece, whose hull is the piece itself.
-fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
+fn check_and_make_leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     if let Some(point) = first_point_below_exact_range(&piece.points) {
         let point = point as u32;
-        return Err(HullFault::CoordinateTooSmall { point }.at(at));
+        return Err(HullFault::CoordinateTooSmall { point }.at_node(at));
     }
     let facet_data = FacetData::facet_data_of_piece(&piece);
     let loops = piece.facets.into_iter().map(|facet| facet.corners);
     Ok(Node {
         facet_data,
         has_uniform_radius: true,
-        size: size(&piece.points, piece.radius),
+        half_diagonal: half_diagonal(&piece.points, piece.radius),
         facets: Cow::Owned(loops.collect()),
         points: Cow::Owned(piece.points),
         vertex_ids: piece.vertex_ids,
@@ -121,15 +123,15 @@ fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError>
 }
 
 /// Checks the hull of an inner node against its two children, and creates the node.
-fn inner_node<'a>(
+fn check_and_make_inner_node<'a>(
     at: usize,
     hull: &'a Hull,
     children: [(u32, &Node<'_>); 2],
 ) -> Result<Node<'a>, HullTreeError> {
-    check_facets(hull).map_err(|fault| fault.at(at))?;
+    check_facets(hull).map_err(|fault| fault.at_node(at))?;
     let identity = PointNumbering::new(hull, children.map(|(_, child)| child))
-        .map_err(|fault| fault.at(at))?;
-    check_children_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
+        .map_err(|fault| fault.at_node(at))?;
+    check_children_inside(hull, &identity, &children).map_err(|fault| fault.at_node(at))?;
 
     let [left, right] = children.map(|(_, child)| child);
     let even = |child: &Node<'_>| child.has_uniform_radius && child.radius == left.radius;
@@ -140,7 +142,7 @@ fn inner_node<'a>(
     Ok(Node {
         facet_data: inherit_facet_data(hull, &identity.positions, [of_left, of_right]),
         has_uniform_radius,
-        size: size(&hull.points, radius),
+        half_diagonal: half_diagonal(&hull.points, radius),
         facets: Cow::Borrowed(&hull.facets),
         points: Cow::Borrowed(&hull.points),
         vertex_ids: identity.vertex_ids,
@@ -179,7 +181,7 @@ fn hierarchy(pieces: &Pieces, nodes: &[HullNode]) -> Result<Hierarchy, HullTreeE
     Ok(Hierarchy::new(plain.collect(), pieces.len())?)
 }
 
-fn size(points: &[DVec3], radius: f64) -> f64 {
+fn half_diagonal(points: &[DVec3], radius: f64) -> f64 {
     let (lo, hi) = bounding_box(points.iter().copied());
     0.5 * hi.distance(lo) + radius
 }

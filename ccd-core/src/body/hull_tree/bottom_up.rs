@@ -40,7 +40,7 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
     }
     let row = BottomUpComputation {
         hierarchy,
-        order: &order,
+        postorder: &order,
         subtree_sizes: &subtree_sizes,
         compute_value: make,
     };
@@ -56,7 +56,7 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
 /// The nodes of a tree in postorder, with the function that computes a node's value from its children's values.
 struct BottomUpComputation<'a, F> {
     hierarchy: &'a Hierarchy,
-    order: &'a [usize],
+    postorder: &'a [usize],
     /// The number of nodes in each node's subtree.
     subtree_sizes: &'a [usize],
     compute_value: F,
@@ -75,7 +75,7 @@ impl<F> BottomUpComputation<'_, F> {
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
     {
-        let root = self.order[range.end - 1];
+        let root = self.postorder[range.end - 1];
         match self.hierarchy.nodes()[root] {
             HierarchyNode::Inner(left, _) if parts > 1 && range.len() >= MIN_PARALLEL_WORK => {
                 let middle = range.start + self.subtree_sizes[left as usize];
@@ -115,7 +115,7 @@ impl<F> BottomUpComputation<'_, F> {
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
     {
-        let node = self.order[at];
+        let node = self.postorder[at];
         let here = at - start;
         let children = match self.hierarchy.nodes()[node] {
             HierarchyNode::Inner(_, right) => {

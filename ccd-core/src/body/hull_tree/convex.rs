@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 
 /// Builds the search structure for extremal points of a hull with many points. Edges are climbed if they are proven to
 /// be those of the hull. Otherwise a tree is searched, which uses no facets.
-pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
+pub(crate) fn build_support_map(hull: &Piece<'_>) -> Support {
     if is_convex(hull) {
         Support::new(hull.points, hull.facets)
     } else {

@@ -54,7 +54,7 @@ pub enum HullFault {
 }
 
 impl HullFault {
-    pub(crate) fn at(self, node: usize) -> HullTreeError {
+    pub(crate) fn at_node(self, node: usize) -> HullTreeError {
         HullTreeError::Node {
             node: node as u32,
             fault: self,

@@ -112,14 +112,15 @@ struct ChildFacet<'a> {
 
 impl ChildFacet<'_> {
     /// Returns the common numbers of the facet's corners.
-    fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
+    fn common_corner_numbers(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
         self.corners
             .iter()
             .map(|&v| self.child.common_numbers[v as usize])
     }
 
     fn edges(&self) -> impl Iterator<Item = (u32, u32)> + Clone {
-        self.ids().zip(self.ids().cycle().skip(1))
+        self.common_corner_numbers()
+            .zip(self.common_corner_numbers().cycle().skip(1))
     }
 
     fn mesh_faces(&self) -> Vec<Face> {
@@ -224,12 +225,13 @@ fn is_same_loop(part: &ChildFacet<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
     }
-    let first = part.ids().next();
+    let first = part.common_corner_numbers().next();
     let Some(start) = other.iter().position(|&v| Some(v) == first) else {
         return false;
     };
     let (end, begin) = other.split_at(start);
-    part.ids().eq(begin.iter().chain(end).copied())
+    part.common_corner_numbers()
+        .eq(begin.iter().chain(end).copied())
 }
 
 /// Returns whether two convex polygons together tile a facet of the hull. Edges that run both ways are dropped. The

@@ -19,7 +19,7 @@ pub(super) struct Node<'a> {
     pub(super) leaf_faces: Option<Vec<Face>>,
     pub(super) radius: f64,
     pub(super) has_uniform_radius: bool,
-    pub(super) size: f64,
+    pub(super) half_diagonal: f64,
 }
 
 /// What one facet of a hull is made of: its origin in the mesh, its class and the mesh's triangles in it.

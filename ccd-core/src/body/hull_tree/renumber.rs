@@ -40,7 +40,7 @@ fn renumbered_hierarchy(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, H
     }
     found.sort_unstable();
     for (at, same) in found {
-        let piece = same.ok_or(HullFault::NotAPiece.at(at))?;
+        let piece = same.ok_or(HullFault::NotAPiece.at_node(at))?;
         renamed[at] = HierarchyNode::Leaf(piece as u32);
     }
     // This also fails if a piece of the list is not a leaf.

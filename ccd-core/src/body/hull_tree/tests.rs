@@ -359,13 +359,13 @@ fn bodies_take_the_trees_of_their_pieces_only() {
     let others = Pieces::polytopes(&[polytopes[0].clone(), box_between(0.0, 2.0, 6)]).unwrap();
     let other = Body::new(&others, Volume::Surface).unwrap();
     let refused = other.with_hull_tree(tree.clone()).unwrap_err();
-    assert_eq!(refused, HullFault::NotAPiece.at(2));
+    assert_eq!(refused, HullFault::NotAPiece.at_node(2));
     let single = Body::new(
         &Pieces::polytopes(&polytopes[..1]).unwrap(),
         Volume::Surface,
     );
     let refused = single.unwrap().with_hull_tree(tree).unwrap_err();
-    assert_eq!(refused, HullFault::NotAPiece.at(2));
+    assert_eq!(refused, HullFault::NotAPiece.at_node(2));
 }
 
 #[test]

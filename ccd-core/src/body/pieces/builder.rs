@@ -21,7 +21,7 @@ pub(crate) struct PolytopeParts<'a, A, B> {
 pub(crate) struct PiecesBuilder {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    polytopes: Polytopes,
+    polytope_data: Polytopes,
 }
 
 impl Pieces {
@@ -68,7 +68,7 @@ impl PiecesBuilder {
         } else {
             self.vertex_ids.extend(0..count as u32);
         }
-        let polytopes = &mut self.polytopes;
+        let polytopes = &mut self.polytope_data;
         polytopes.point_ends.push(self.points.len() as u32);
         polytopes.radii.push(polytope.radius);
         for (corners, origin) in polytope.facets {
@@ -91,7 +91,7 @@ impl PiecesBuilder {
 
     /// Returns the finished list without checks, for pieces that are known to be valid.
     pub(super) fn into_unchecked_pieces(self) -> Pieces {
-        let shape = PieceShapes::Polytopes(Box::new(self.polytopes));
-        Pieces::with_shape(self.points, self.vertex_ids, shape)
+        let shape = PieceShapes::Polytopes(Box::new(self.polytope_data));
+        Pieces::new_unvalidated(self.points, self.vertex_ids, shape)
     }
 }

@@ -59,6 +59,7 @@ impl TryFrom<StoredPieces> for Pieces {
                 vertices: points.len(),
             });
         }
-        Pieces::with_shape(points, vertex_ids, PieceShapes::Triangles { face_ids }).into_validated()
+        Pieces::new_unvalidated(points, vertex_ids, PieceShapes::Triangles { face_ids })
+            .into_validated()
     }
 }

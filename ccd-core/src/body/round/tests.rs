@@ -1,5 +1,5 @@
 use super::*;
-use crate::tests::rational::exact;
+use crate::tests::rational::exact_fraction;
 use dashu_ratio::Relaxed;
 
 fn cylinder_and_cone(radius: f64, half_height: f64) -> [SolidOfRevolution; 2] {
@@ -12,16 +12,16 @@ fn cylinder_and_cone(radius: f64, half_height: f64) -> [SolidOfRevolution; 2] {
 
 /// Asserts with exact arithmetic that a polygon winds about the origin once and that no edge enters the disc.
 fn assert_encloses_disc(corners: &[DVec3], radius: f64) {
-    let squared = |x: f64| exact(x) * exact(x);
+    let squared = |x: f64| exact_fraction(x) * exact_fraction(x);
     let corners: Vec<[Relaxed; 2]> = corners
         .iter()
-        .map(|corner| [exact(corner.x), exact(corner.y)])
+        .map(|corner| [exact_fraction(corner.x), exact_fraction(corner.y)])
         .collect();
     for k in 0..corners.len() {
         let ([ax, ay], [bx, by]) = (&corners[k], &corners[(k + 1) % corners.len()]);
         let cross = ax * by - ay * bx;
         let [dx, dy] = [bx - ax, by - ay];
-        assert!(cross > exact(0.0), "corner {k} goes the wrong way");
+        assert!(cross > exact_fraction(0.0), "corner {k} goes the wrong way");
         // The distance of the edge's line from the origin is the cross product divided by the edge's length.
         let square = &cross * &cross;
         let length = &dx * &dx + &dy * &dy;
@@ -72,8 +72,11 @@ fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
             for round in cylinder_and_cone(radius, 1.0) {
                 let about = round.enclose(share * radius).expect("it can be had");
                 assert!(about.excess() <= share * radius, "{round:?} {share}");
-                let reach = |p: &DVec3| exact(p.x) * exact(p.x) + exact(p.y) * exact(p.y);
-                let most = exact(radius) + exact(about.excess());
+                let reach = |p: &DVec3| {
+                    exact_fraction(p.x) * exact_fraction(p.x)
+                        + exact_fraction(p.y) * exact_fraction(p.y)
+                };
+                let most = exact_fraction(radius) + exact_fraction(about.excess());
                 let most = &most * &most;
                 assert!(about.polytope().points.iter().all(|p| reach(p) <= most));
                 // The stated excess is the actual one.

@@ -3,7 +3,7 @@
 use super::{DisjointSets, ExtremePoints, part_extreme_points};
 use crate::body::pieces::Pieces;
 use crate::tests::meshes::{cube, translated_triangles};
-use crate::tests::scene::{RngExt, direction, pieces, rng};
+use crate::tests::scene::{RngExt, pieces, random_direction, rng};
 use glam::DVec3;
 
 #[test]
@@ -40,8 +40,8 @@ fn a_chain_of_many_is_one_part_in_any_order() {
     let mut chain = Vec::new();
     let mut at = DVec3::ZERO;
     for _ in 0..2_000 {
-        let next = at + direction(&mut rng);
-        chain.push([at, next, at + direction(&mut rng)]);
+        let next = at + random_direction(&mut rng);
+        chain.push([at, next, at + random_direction(&mut rng)]);
         at = next;
     }
     assert_eq!(part_extreme_points(&pieces(&chain)).len(), 1);

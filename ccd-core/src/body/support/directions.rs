@@ -43,8 +43,8 @@ pub(super) fn table_directions() -> impl Iterator<Item = DVec3> {
 #[inline]
 pub(super) fn nearest_direction_number(v: DVec3) -> usize {
     let square = v.length_squared();
-    let from_pole = count(LATITUDE_BORDER_SQUARED_COSINES.map(|c| v.z * v.z < c * square));
-    let from_axis = count(MERIDIAN_BORDER_TANGENTS.map(|t| v.y.abs() > t * v.x.abs()));
+    let from_pole = count_true(LATITUDE_BORDER_SQUARED_COSINES.map(|c| v.z * v.z < c * square));
+    let from_axis = count_true(MERIDIAN_BORDER_TANGENTS.map(|t| v.y.abs() > t * v.x.abs()));
     let latitude = if v.z < 0.0 { 8 - from_pole } else { from_pole };
     let longitude = match (v.x < 0.0, v.y < 0.0) {
         (false, false) => from_axis,
@@ -60,6 +60,6 @@ pub(super) fn nearest_direction_number(v: DVec3) -> usize {
 }
 
 #[inline]
-fn count(passed: [bool; 4]) -> usize {
+fn count_true(passed: [bool; 4]) -> usize {
     passed.into_iter().map(usize::from).sum()
 }

@@ -12,7 +12,7 @@ const LANES: usize = 8;
 pub struct SupportScan {
     /// Blocks of the x, y and z of eight points each; the last point is repeated to fill the last block.
     blocks: Vec<[[f64; LANES]; 3]>,
-    last: u32,
+    last_index: u32,
 }
 
 impl SupportScan {
@@ -25,7 +25,7 @@ impl SupportScan {
         };
         SupportScan {
             blocks: (0..points.len()).step_by(LANES).map(block).collect(),
-            last: last as u32,
+            last_index: last as u32,
         }
     }
 
@@ -51,6 +51,6 @@ impl SupportScan {
         let most = highest.into_iter().fold(f64::NEG_INFINITY, greater);
         let index = |lane: usize| (of[lane] * LANES as u64) as u32 + lane as u32;
         let level = (0..LANES).filter(|&lane| highest[lane] == most);
-        level.map(index).min().unwrap_or(0).min(self.last)
+        level.map(index).min().unwrap_or(0).min(self.last_index)
     }
 }

@@ -18,7 +18,7 @@ use glam::DVec3;
 pub struct SupportTable {
     points: Vec<DVec3>,
     /// The largest absolute value of the corners' coordinates.
-    reach: f64,
+    max_abs_coordinate: f64,
     ball: (DVec3, f64),
     neighbours: AdjacencyLists<u32>,
     start_corners: [u32; TABLE_DIRECTION_COUNT],
@@ -37,7 +37,7 @@ impl SupportTable {
         let reach = |p: &DVec3| p.abs().max_element();
         let mut table = SupportTable {
             points: points.to_vec(),
-            reach: points.iter().map(reach).fold(0.0, greater),
+            max_abs_coordinate: points.iter().map(reach).fold(0.0, greater),
             ball: bounding_ball(points),
             neighbours: AdjacencyLists::new(points.len(), edges.into_iter()),
             start_corners: [first; TABLE_DIRECTION_COUNT],
@@ -92,7 +92,8 @@ impl SupportTable {
     /// at most twice the rounding. The search therefore visits all corners connected by corners no lower than that.
     /// One of them is the highest, or higher than the current one.
     fn hill_climb(&self, start: u32, direction: DVec3) -> u32 {
-        let slack = 2.0 * HEIGHT_ERROR_F64 * self.reach * direction.abs().element_sum();
+        let slack =
+            2.0 * HEIGHT_ERROR_F64 * self.max_abs_coordinate * direction.abs().element_sum();
         let (mut at, mut height) = (start, self.height(start, direction));
         // Each round ends higher than the last one.
         for _ in 0..self.points.len() {

@@ -8,7 +8,7 @@ use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use crate::math::order::greater;
 use crate::rounding::HEIGHT_ERROR_F64;
-use crate::tests::scene::{RngExt, direction, magnitude, rng};
+use crate::tests::scene::{RngExt, random_direction, random_power_of_ten, rng};
 
 fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
     let facet = |corners| Facet {
@@ -91,11 +91,11 @@ fn directions_with_ties(count: usize) -> Vec<DVec3> {
     let mut rng = rng(11);
     let mut whole = || DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-3..=3))));
     let mut looks: Vec<DVec3> = (0..count / 2).map(|_| whole()).collect();
-    looks.extend((0..count / 4).map(|_| direction(&mut rng)));
+    looks.extend((0..count / 4).map(|_| random_direction(&mut rng)));
     looks.extend((0..count / 4).map(|_| {
-        let tilt = direction(&mut rng) * magnitude(&mut rng, -17.0, -3.0);
+        let tilt = random_direction(&mut rng) * random_power_of_ten(&mut rng, -17.0, -3.0);
         let whole = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-3..=3))));
-        (whole + tilt) * magnitude(&mut rng, -30.0, 30.0)
+        (whole + tilt) * random_power_of_ten(&mut rng, -30.0, 30.0)
     }));
     looks
 }
@@ -163,7 +163,7 @@ fn directions_are_their_own_nearest_and_none_is_far() {
     }
     let mut rng = rng(14);
     for _ in 0..10_000 {
-        let look = direction(&mut rng);
+        let look = random_direction(&mut rng);
         let angle = look.angle_between(all[directions::nearest_direction_number(look)]);
         // The limit is half a step of latitude, and half a step of longitude on the equator.
         assert!(angle <= 16f64.to_radians(), "{}", angle.to_degrees());

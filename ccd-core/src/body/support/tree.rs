@@ -103,7 +103,7 @@ impl SupportTree {
 
     /// Returns the number of nodes that a search along a direction visits.
     #[cfg(test)]
-    pub(super) fn visited_node_count(&self, direction: DVec3) -> usize {
+    pub(super) fn count_visited_nodes(&self, direction: DVec3) -> usize {
         let mut search = Search::new(direction);
         self.descend(self.level_starts.len(), 0, &mut search);
         search.visit_count
@@ -119,11 +119,12 @@ impl SupportTree {
         let Some(below) = level.checked_sub(1) else {
             return search.visit_block(&self.blocks[at]);
         };
-        let mut bounds = self.groups[self.level_starts[below] + at].bounds(search.scaled_direction);
+        let mut bounds =
+            self.groups[self.level_starts[below] + at].height_upper_bounds(search.scaled_direction);
         for _ in 0..LANES {
             let lane = index_of_highest(&bounds);
             // Written so that NaN ends the loop.
-            if !(bounds[lane] > search.min_height) {
+            if !(bounds[lane] > search.visit_threshold) {
                 return;
             }
             bounds[lane] = f32::NEG_INFINITY;
@@ -137,10 +138,10 @@ struct Search {
     direction: DVec3,
     /// The direction of the search, scaled so that its largest component is 1.
     scaled_direction: Vec3,
-    size: f64,
+    largest_component: f64,
     max_height: f64,
     /// The height that a disc's upper bound must exceed for the disc to be visited.
-    min_height: f32,
+    visit_threshold: f32,
     highest_point: u32,
     #[cfg(test)]
     visit_count: usize,
@@ -153,9 +154,9 @@ impl Search {
         Search {
             direction,
             scaled_direction: (direction / size).as_vec3(),
-            size,
+            largest_component: size,
             max_height: f64::NEG_INFINITY,
-            min_height: f32::NEG_INFINITY,
+            visit_threshold: f32::NEG_INFINITY,
             highest_point: 0,
             #[cfg(test)]
             visit_count: 0,
@@ -172,7 +173,7 @@ impl Search {
         let lane = index_of_highest(&heights);
         if heights[lane] > self.max_height {
             self.max_height = heights[lane];
-            self.min_height = ((self.max_height / self.size) as f32).next_down();
+            self.visit_threshold = ((self.max_height / self.largest_component) as f32).next_down();
             self.highest_point = block.point_indices[lane];
         }
     }
@@ -203,7 +204,7 @@ impl DiscGroup {
                 discs.normal[axis][lane] = disc.normal[axis];
             }
             discs.radius[lane] = disc.radius;
-            discs.half_thickness[lane] = disc.thickness;
+            discs.half_thickness[lane] = disc.half_thickness;
             discs.rounding[lane] = DISC_HEIGHT_ERROR_F32;
         }
         discs
@@ -211,7 +212,7 @@ impl DiscGroup {
 
     /// Returns an upper bound of the heights of each disc's points along a direction whose largest component is 1.
     #[inline]
-    fn bounds(&self, d: Vec3) -> [f32; LANES] {
+    fn height_upper_bounds(&self, d: Vec3) -> [f32; LANES] {
         let square = d.length_squared() * (1.0 + DISC_TILT_ERROR_F32);
         let ([x, y, z], [u, v, w]) = (&self.centre, &self.normal);
         let mut bounds = [0.0; LANES];
@@ -232,7 +233,7 @@ struct Disc {
     centre: Vec3,
     normal: Vec3,
     radius: f32,
-    thickness: f32,
+    half_thickness: f32,
 }
 
 impl Disc {
@@ -264,7 +265,7 @@ impl Disc {
             centre,
             normal,
             radius: outward(square.sqrt()),
-            thickness: outward(thickness),
+            half_thickness: outward(thickness),
         }
     }
 }

@@ -22,7 +22,7 @@ pub(crate) struct TreeLayout {
 }
 
 /// Returns the largest distance of the pieces' points from the body's origin, rounding radii included.
-fn max_point_distance(pieces: &Pieces) -> f64 {
+fn max_distance_from_origin(pieces: &Pieces) -> f64 {
     let farthest = |points: &[DVec3]| longest_length(points.iter().copied());
     if pieces.are_all_triangles() {
         return farthest(pieces.points());
@@ -88,7 +88,7 @@ struct NodeLayout {
 /// A group of consecutive nodes that are the children of a node.
 struct ChildNodes {
     parent: u32,
-    first: u32,
+    first_child: u32,
     count: u32,
 }
 
@@ -151,7 +151,7 @@ impl TreeLayout {
                 let count = count as u32;
                 layout.node_groups.push(ChildNodes {
                     parent,
-                    first,
+                    first_child: first,
                     count,
                 });
                 NodeChildren::Boxes(layout.node_groups.len() as u32 - 1)
@@ -185,7 +185,7 @@ impl TreeLayout {
         parallel_for_each(&mut boxes, &(), |(), k, group| {
             let ChildNodes {
                 parent,
-                first,
+                first_child: first,
                 count,
             } = self.node_groups[k];
             let children = &nodes[first as usize..][..count as usize];
@@ -209,7 +209,7 @@ impl TreeLayout {
             nodes,
             box_groups: boxes,
             triangle_groups: triangles,
-            span: max_point_distance(pieces),
+            reach_from_origin: max_distance_from_origin(pieces),
         }
     }
 }

@@ -128,9 +128,9 @@ impl FittedBox {
         Node {
             centre,
             axes,
-            half: half.map(outward),
+            half_extents: half.map(outward),
             radius: outward(square.sqrt() + node_points.radius),
-            rounding: round_up_to_f32(node_points.radius),
+            rounding_radius: round_up_to_f32(node_points.radius),
             children: below,
         }
     }

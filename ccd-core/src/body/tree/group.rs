@@ -58,7 +58,7 @@ pub(crate) struct GroupHeader {
     /// An upper bound of the distances of the children's points from the origin.
     pub(crate) reach: f32,
     /// The id of the first child; the ids of the others follow it.
-    pub(crate) first: u32,
+    pub(crate) first_child: u32,
     pub(crate) count: u32,
 }
 
@@ -69,7 +69,7 @@ impl BoxGroup {
             header: GroupHeader {
                 origin,
                 reach: 0.0,
-                first,
+                first_child: first,
                 count: nodes.len() as u32,
             },
             ..BoxGroup::default()
@@ -84,10 +84,10 @@ impl BoxGroup {
             for (rows, axis) in group.axes.iter_mut().zip(node.axes) {
                 set_lane(rows, lane, axis);
             }
-            for (row, half) in group.half_extents.iter_mut().zip(node.half) {
+            for (row, half) in group.half_extents.iter_mut().zip(node.half_extents) {
                 row[lane] = (half + off).next_up();
             }
-            group.rounding_radius[lane] = node.rounding;
+            group.rounding_radius[lane] = node.rounding_radius;
             group.radius[lane] = (node.radius + off).next_up();
             let reach = round_up_to_f32(length(way) + f64::from(node.radius));
             group.header.reach = greater(group.header.reach, reach);
@@ -106,7 +106,7 @@ impl StoredTriangleGroup {
             header: GroupHeader {
                 origin,
                 reach: 0.0,
-                first,
+                first_child: first,
                 count: triangles.len() as u32,
             },
             radius: [0.0; LANES],
@@ -190,10 +190,10 @@ pub(crate) struct Node {
     pub(crate) centre: DVec3,
     /// The axes of the box as unit vectors rounded to f32; the axis of the least extent is last.
     pub(crate) axes: [Vec3; 3],
-    pub(crate) half: [f32; 3],
+    pub(crate) half_extents: [f32; 3],
     pub(crate) radius: f32,
     /// The largest rounding radius of the pieces below, which the half extents `half` do not include.
-    pub(crate) rounding: f32,
+    pub(crate) rounding_radius: f32,
     pub(crate) children: NodeChildren,
 }
 
@@ -213,22 +213,22 @@ impl Node {
     pub(super) const UNFITTED: Node = Node {
         centre: DVec3::ZERO,
         axes: [Vec3::ZERO; 3],
-        half: [0.0; 3],
+        half_extents: [0.0; 3],
         radius: 0.0,
-        rounding: 0.0,
+        rounding_radius: 0.0,
         children: NodeChildren::Piece(0),
     };
 
     /// Returns whether the box is thin enough for the node to count as flat.
     pub(crate) fn is_thin(&self) -> bool {
-        self.half[2] <= FLAT_THICKNESS_F32 * self.radius
+        self.half_extents[2] <= FLAT_THICKNESS_F32 * self.radius
     }
 
     /// Returns half the extent of the box along one of its axes, rounding radius included, widened for the rounding of
     /// the axes.
     pub(super) fn half_extent(&self, axis: usize) -> f64 {
-        f64::from(self.half[axis])
-            + f64::from(self.rounding)
+        f64::from(self.half_extents[axis])
+            + f64::from(self.rounding_radius)
             + RAY_BOX_WIDENING_F64 * f64::from(self.radius)
     }
 

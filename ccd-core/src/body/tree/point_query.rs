@@ -8,7 +8,7 @@ use glam::DVec3;
 use std::ops::Range;
 
 /// Returns the pieces whose boxes contain a point up to rounding, without pieces that are triangles.
-pub(crate) fn polytopes_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
+pub(crate) fn polytopes_with_box_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, 0.0).filter_map(|leaf| match leaf {
         Leaf::Piece(piece) => Some(piece),
         Leaf::Triangles(_) => None,
@@ -56,12 +56,12 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
             match node.children {
                 NodeChildren::Boxes(group) => {
                     let members = &tree.box_groups[group as usize].header;
-                    stack.extend(members.first..members.first + members.count);
+                    stack.extend(members.first_child..members.first_child + members.count);
                 }
                 NodeChildren::Piece(piece) => return Some(Leaf::Piece(piece)),
                 NodeChildren::Triangles(group) => {
                     let members = tree.triangle_group_header(group);
-                    let first = members.first - tree.nodes.len() as u32;
+                    let first = members.first_child - tree.nodes.len() as u32;
                     return Some(Leaf::Triangles(first..first + members.count));
                 }
             }

@@ -29,14 +29,14 @@ pub(crate) struct RayCrossingSums {
 /// # Guarantee
 /// The count of crossings ahead of the point by more than rounding is that of exact arithmetic, and no crossing
 /// behind the point is counted. The surface of pieces that are not triangles consists of the mesh's faces on them.
-pub(crate) fn count_crossings(
+pub(crate) fn sum_signed_crossings(
     tree: &Tree,
     pieces: &Pieces,
     from: DVec3,
     slack: f64,
 ) -> Option<RayCrossingSums> {
     let start = RayStart { from, slack };
-    (0..MAX_RAYS).find_map(|k| count_crossings_along(tree, pieces, start, direction(k)))
+    (0..MAX_RAYS).find_map(|k| sum_signed_crossings_along(tree, pieces, start, direction(k)))
 }
 
 /// The start point of a ray, and the distance up to which a triangle counts as containing it.
@@ -56,7 +56,7 @@ fn direction(k: u32) -> DVec3 {
     DVec3::new(radius * cos, radius * sin, height)
 }
 
-fn count_crossings_along(
+fn sum_signed_crossings_along(
     tree: &Tree,
     pieces: &Pieces,
     start: RayStart,
@@ -77,11 +77,11 @@ fn count_crossings_along(
         match node.children {
             NodeChildren::Boxes(group) => {
                 let members = &tree.box_groups[group as usize].header;
-                stack.extend(members.first..members.first + members.count);
+                stack.extend(members.first_child..members.first_child + members.count);
             }
             NodeChildren::Triangles(group) => {
                 let members = tree.triangle_group_header(group);
-                let first = members.first - tree.nodes.len() as u32;
+                let first = members.first_child - tree.nodes.len() as u32;
                 for piece in first..first + members.count {
                     found.add(pieces.triangle(piece as usize), start)?;
                 }
@@ -169,7 +169,7 @@ impl RayCrossingSums {
             Sign::Unclear
         } else {
             match Sign::of_number(height, size(a) * size(b) * size(c)) {
-                Sign::Unclear => ray_side_by_edges(triangle, corners, sign),
+                Sign::Unclear => triangle_side_of_ray_start(triangle, corners, sign),
                 clear => clear,
             }
         };
@@ -187,7 +187,7 @@ impl RayCrossingSums {
 
 /// Returns whether a triangle is ahead of a ray's start or behind it, computed from the triangle's edges. The edges may
 /// be far shorter than the vectors to the corners.
-fn ray_side_by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+fn triangle_side_of_ray_start(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);

@@ -8,7 +8,8 @@ use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{
-    Pcg64, RngExt, SoupKind, body, direction, magnitude, point_in_ball, rng, soup,
+    Pcg64, RngExt, SoupKind, body, random_direction, random_point_in_ball, random_power_of_ten,
+    rng, soup,
 };
 use glam::{DVec3, Vec3};
 
@@ -57,8 +58,8 @@ fn assert_subtree_bounds_pieces(
         }
         NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
-            for child in members(&group.header) {
-                let lane = (child - group.header.first) as usize;
+            for child in child_ids(&group.header) {
+                let lane = (child - group.header.first_child) as usize;
                 let inside = assert_subtree_bounds_pieces(tree, pieces, child, seen);
                 assert_lane_bounds_pieces(group, lane, pieces, &inside);
                 let leaf = tree.piece(child).is_some();
@@ -68,8 +69,8 @@ fn assert_subtree_bounds_pieces(
         }
         NodeChildren::Triangles(group) => {
             let group = &tree.triangle_group(group, pieces);
-            for child in members(&group.header) {
-                let lane = (child - group.header.first) as usize;
+            for child in child_ids(&group.header) {
+                let lane = (child - group.header.first_child) as usize;
                 let inside = assert_subtree_bounds_pieces(tree, pieces, child, seen);
                 let [piece] = inside[..] else {
                     panic!("one triangle");
@@ -83,14 +84,14 @@ fn assert_subtree_bounds_pieces(
     below
 }
 
-fn members(members: &GroupHeader) -> std::ops::Range<NodeId> {
+fn child_ids(members: &GroupHeader) -> std::ops::Range<NodeId> {
     assert!((1..=LANES as u32).contains(&members.count));
-    members.first..members.first + members.count
+    members.first_child..members.first_child + members.count
 }
 
 /// Asserts that a node's box and ball contain all points of its pieces, rounding radii included.
 fn assert_node_bounds_pieces(node: &Node, pieces: &Pieces, below: &[u32]) {
-    assert!(node.half.iter().all(|h| h.is_finite()) && node.radius.is_finite());
+    assert!(node.half_extents.iter().all(|h| h.is_finite()) && node.radius.is_finite());
     for axis in node.axes {
         assert!((axis.as_dvec3().length() - 1.0).abs() < 4.0 * f64::from(f32::EPSILON));
     }
@@ -104,7 +105,9 @@ fn assert_node_bounds_pieces(node: &Node, pieces: &Pieces, below: &[u32]) {
             let way = point - node.centre;
             let slack = CHECK_TOLERANCE * (point.length() + node.centre.length());
             assert!(way.length() + piece.radius <= f64::from(node.radius) + slack);
-            let half = node.half.map(|h| f64::from(h) + f64::from(node.rounding));
+            let half = node
+                .half_extents
+                .map(|h| f64::from(h) + f64::from(node.rounding_radius));
             for (axis, half) in node.axes.iter().zip(half) {
                 let reach = way.dot(axis.as_dvec3()).abs() + piece.radius;
                 assert!(reach <= half + slack, "{reach:e} > {half:e}");
@@ -154,9 +157,9 @@ fn assert_lane_holds_triangle(group: &TriangleGroup, lane: usize, triangle: Tria
 
 fn random_soup(rng: &mut Pcg64, count: usize) -> Vec<Triangle> {
     let look = SoupKind::ALL[rng.random_range(0..5)];
-    let size = magnitude(rng, -6.0, 6.0);
-    let offset = size * magnitude(rng, -3.0, 6.0);
-    let middle = direction(rng) * offset;
+    let size = random_power_of_ten(rng, -6.0, 6.0);
+    let offset = size * random_power_of_ten(rng, -3.0, 6.0);
+    let middle = random_direction(rng) * offset;
     let triangles = soup(rng, look, count, size);
     triangles.iter().map(|t| t.map(|p| p + middle)).collect()
 }
@@ -207,7 +210,7 @@ fn components_whose_squares_are_no_numbers() {
     let mut rng = rng(4);
     for _ in 0..3_000 {
         let count = rng.random_range(1..30);
-        let tiny = magnitude(&mut rng, -170.0, -150.0);
+        let tiny = random_power_of_ten(&mut rng, -170.0, -150.0);
         let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::WellShaped, count, 1.0)
             .iter()
             .map(|t| {
@@ -232,11 +235,11 @@ fn polytopes_balls_and_capsules_are_held_with_their_radii() {
     for count in [1, 2, 8, 9, 70, 300] {
         let polytopes: Vec<Polytope> = (0..count)
             .map(|_| {
-                let at = point_in_ball(&mut rng, 10.0);
+                let at = random_point_in_ball(&mut rng, 10.0);
                 let points = rng.random_range(1..12);
                 Polytope {
                     points: (0..points)
-                        .map(|_| at + point_in_ball(&mut rng, 1.0))
+                        .map(|_| at + random_point_in_ball(&mut rng, 1.0))
                         .collect(),
                     radius: [0.0, 0.5, 3.0][rng.random_range(0..3)],
                     ..Polytope::default()
@@ -253,7 +256,7 @@ fn unit_normals_and_upper_numbers_are_those_of_f64_rounded() {
     let mut rng = rng(9);
     for size in [1e-160, 1e-9, 1.0, 1e9] {
         for _ in 0..100 {
-            let corners = [(); 3].map(|()| size * point_in_ball(&mut rng, 1.0));
+            let corners = [(); 3].map(|()| size * random_point_in_ball(&mut rng, 1.0));
             let exact = crate::math::vector::normal(corners).unwrap();
             let found = unit_normal(corners).as_dvec3();
             assert!(found.distance(exact) < 2e-7, "{found} for {exact}");

@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::rounding::RAY_BOX_WIDENING_F64;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{direction, random_box_corners};
+use crate::tests::scene::{random_box_corners, random_direction};
 use crate::tests::worst::{WorstCaseSearch, share};
 
 /// Searches for the largest rounding error of a box's projection on a direction, as a share of its allowance, the
@@ -17,7 +17,7 @@ use crate::tests::worst::{WorstCaseSearch, share};
 fn worst_box() {
     let still = Motion::still(Pose::IDENTITY);
     let ball = Body::sphere(0.1).unwrap();
-    let found = WorstCaseSearch::of("RAY_BOX_WIDENING_F64", 10_000).search(|tape| {
+    let found = WorstCaseSearch::new("RAY_BOX_WIDENING_F64", 10_000).search(|tape| {
         let points = random_box_corners(tape);
         let of = Polytope {
             points: points.clone(),
@@ -28,7 +28,8 @@ fn worst_box() {
             Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
         let node = BoundingVolume::new(&problem.a, 0, &Frame::IDENTITY);
         let along = points[tape.index_below(8)] - points[tape.index_below(8)];
-        let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
+        let n =
+            (along.normalize_or_zero() + random_direction(tape) * tape.size(-30..=4)).normalize();
         let [_, high] = node.projection_on(n);
         let axes = node.axes.map(|axis| axis.dot(n).abs());
         let allowed = RAY_BOX_WIDENING_F64 * node.radius * (axes[0] + axes[1] + axes[2]);

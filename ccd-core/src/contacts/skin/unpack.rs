@@ -5,7 +5,7 @@ use crate::body::facets::fan_triangles;
 use crate::body::feature::Feature;
 use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
-use crate::body::tree::point_query::polytopes_at;
+use crate::body::tree::point_query::polytopes_with_box_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -99,7 +99,7 @@ impl NearSurface<'_> {
             id,
             ..
         } = &self.corners[corner as usize];
-        let there = || polytopes_at(self.body.tree(), here.map(f64::from_bits).into());
+        let there = || polytopes_with_box_at(self.body.tree(), here.map(f64::from_bits).into());
         id.or_else(|| {
             let numbers = there().filter_map(|piece| {
                 let points = self.body.pieces().get(piece as usize).points;
@@ -125,7 +125,7 @@ impl NearSurface<'_> {
         let place = point_bits(point);
         *self.corner_indices.entry((place, id)).or_insert_with(|| {
             self.corners.push(Corner {
-                at: self.body_to_a.point(point),
+                position: self.body_to_a.point(point),
                 position_bits: place,
                 id,
             });

@@ -31,13 +31,13 @@ fn slab_with_centre_points(half: DVec3) -> Body {
 fn only_the_foot_on_a_side_is_reported() {
     let rng = &mut rng(74);
     let half = DVec3::new(1.0, 0.8, 0.3);
-    let [cut, whole] = cuboids(half);
+    let [cut, whole] = cuboid_as_triangles_and_as_piece(half);
     let point = Body::sphere(0.0).unwrap();
     for slab in [cut, whole, slab_with_centre_points(half)] {
         let (mut feet, mut beside) = (0, 0);
         for _ in 0..200 {
-            let place = 2.5 * point_in_ball(rng, 1.0);
-            let pairs = contacts(&point, &slab, at(place.x, place.y, place.z), 10.0);
+            let place = 2.5 * random_point_in_ball(rng, 1.0);
+            let pairs = contacts(&point, &slab, pose_at(place.x, place.y, place.z), 10.0);
             assert!(!pairs.is_empty());
             for pair in &pairs {
                 let (witness, upper) = (pair.separation.witness_b, pair.separation.upper);
@@ -111,7 +111,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
         budget: 50 * count,
         ..Settings::DEFAULT
     };
-    let shifted = at(0.0, 0.0, 0.0099);
+    let shifted = pose_at(0.0, 0.0, 0.0099);
     let gaps = |a: &Body, b: &Body, pose: Pose| -> Vec<f64> {
         let pairs = problem_of_still_bodies(a, b, pose, &config)
             .contacts_at(0.0)
@@ -126,7 +126,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
     assert_eq!(of_hull.len(), of_triangles.len());
     let same = |(one, other): (&f64, &f64)| (one - other).abs() < 1e-12;
     assert!(of_hull.iter().zip(&of_triangles).all(same));
-    let back = gaps(&socket, &hull, at(0.0, 0.0, -0.0099));
+    let back = gaps(&socket, &hull, pose_at(0.0, 0.0, -0.0099));
     assert_eq!(of_hull.len(), back.len());
     // Visits are counted.
     let config = Settings {
@@ -153,7 +153,7 @@ fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
         let limbs = [limb(-1.0, 1, radii[0]), limb(1.0, 2, radii[1])];
         let pieces = Pieces::polytopes(&limbs).unwrap();
         let body = Body::new(&pieces, Volume::Surface).unwrap();
-        let pairs = contacts(&point, &body, at(0.0, 0.0, 1.0), 0.6);
+        let pairs = contacts(&point, &body, pose_at(0.0, 0.0, 1.0), 0.6);
         assert_eq!(feature_names(&pairs), ["v0 v0"], "{radii:?}");
         check_separations(&pairs, 0.5, -DVec3::Z);
     }

@@ -5,7 +5,7 @@ use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
 use crate::math::order::{greater, lesser};
 use crate::motion::pose::Pose;
-use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::scene::{Pcg64, RngExt};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -128,7 +128,7 @@ impl Mesh {
     }
 
     /// Returns whether one feature is on the boundary of another.
-    fn bounds(&self, part: Feature, of: Feature) -> bool {
+    fn is_on_boundary(&self, part: Feature, of: Feature) -> bool {
         match (part, of) {
             (Feature::Vertex(v), Feature::Edge(a, b)) => v == a || v == b,
             (Feature::Vertex(v), Feature::Face(face)) => self.faces[face as usize].contains(&v),
@@ -206,9 +206,10 @@ impl CollectedPairs {
         pair: impl Fn(Feature) -> Key,
     ) {
         let (triangle, ids) = (mesh.triangle(face), mesh.faces[face]);
-        let distance = nearest(&[v; 3], &triangle).distance;
+        let distance = nearest_points(&[v; 3], &triangle).distance;
         let margin = 16.0 * self.rounding;
-        let as_near = |corners: Triangle| nearest(&[v; 3], &corners).distance <= distance + margin;
+        let as_near =
+            |corners: Triangle| nearest_points(&[v; 3], &corners).distance <= distance + margin;
         let corner = (0..3).find(|&k| as_near([triangle[k]; 3]));
         let edge = (0..3).find(|&k| {
             let next = triangle[(k + 1) % 3];
@@ -222,7 +223,7 @@ impl CollectedPairs {
         };
         // This tests for equal distances, not merely equal up to rounding.
         let exact = |corners: Triangle| {
-            nearest(&[v; 3], &corners).distance <= distance + 0.25 * self.rounding
+            nearest_points(&[v; 3], &corners).distance <= distance + 0.25 * self.rounding
         };
         let clear = match part {
             Feature::Vertex(_) => corner.is_some_and(|k| exact([triangle[k]; 3])),
@@ -253,7 +254,7 @@ impl CollectedPairs {
         }
         let distance = (e[0] + s * d).distance(f[0] + t * along);
         let segment = |[p, q]: [DVec3; 2]| [p, q, q];
-        let end = |p: DVec3, edge| nearest(&[p; 3], &segment(edge)).distance;
+        let end = |p: DVec3, edge| nearest_points(&[p; 3], &segment(edge)).distance;
         let ends = [end(e[0], f), end(e[1], f), end(f[0], e), end(f[1], e)];
         let nearest_end = ends.into_iter().fold(f64::INFINITY, lesser);
         let slanted = across.length() > 1e-4 * d.length() * along.length();
@@ -267,7 +268,7 @@ impl CollectedPairs {
         let larger = |key: &Key, other: &Key| {
             (0..2).any(|k| {
                 let corner = matches!(key[1 - k], Feature::Vertex(_)) && key[1 - k] == other[1 - k];
-                corner && meshes[k].bounds(key[k], other[k])
+                corner && meshes[k].is_on_boundary(key[k], other[k])
             })
         };
         let within = meshes.map(|mesh| -> BTreeMap<Feature, [u32; 2]> {
@@ -293,7 +294,8 @@ impl CollectedPairs {
                 let faces = within[k].get(&key[k]).into_iter().flatten();
                 faces
                     .map(|&face| {
-                        distance - nearest(&from, &meshes[k].triangle(face as usize)).distance
+                        distance
+                            - nearest_points(&from, &meshes[k].triangle(face as usize)).distance
                     })
                     .fold(0.0, greater)
             };

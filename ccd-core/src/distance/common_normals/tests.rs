@@ -1,6 +1,8 @@
 use super::*;
 use crate::math::order::greater;
-use crate::tests::scene::{Pcg64, RngExt, direction, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    Pcg64, RngExt, random_direction, random_point_in_ball, random_rotation, rng,
+};
 use glam::DQuat;
 
 const SLACK: f64 = 1e-13;
@@ -32,23 +34,23 @@ fn level_offsets() -> Vec<DVec3> {
 fn cubes_that_stand_on_each_other_have_one_normal() {
     let rng = &mut rng(81);
     for _ in 0..200 {
-        let turn = rotation(rng);
+        let turn = random_rotation(rng);
         let below = rotated_offsets(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, -1.0)));
         let above = rotated_offsets(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, 1.0)));
         let normals = common_normals(&above, &below);
         let expected = -(turn * DVec3::Z);
-        for towards in [direction(rng), expected, direction(rng)] {
+        for towards in [random_direction(rng), expected, random_direction(rng)] {
             // A direction away from the cone is turned towards it, unless there is none but the opposite.
             let found = normals.nearest_normal(towards).unwrap();
             assert!(found.distance(expected) < 1e-14, "{found} {expected}");
         }
         assert_eq!(
-            normals.nearest_normal_along(expected, 1e-12 * direction(rng)),
+            normals.nearest_normal_if_along(expected, 1e-12 * random_direction(rng)),
             None
         );
         assert!(
             normals
-                .nearest_normal_along(expected, 1e-12 * expected)
+                .nearest_normal_if_along(expected, 1e-12 * expected)
                 .is_some()
         );
     }
@@ -58,7 +60,7 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
 fn random_cone_vectors(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
     let count = rng.random_range(1..12);
     let offsets =
-        (0..count).map(|_| (about + point_in_ball(rng, 1.5)) * rng.random_range(0.01..10.0));
+        (0..count).map(|_| (about + random_point_in_ball(rng, 1.5)) * rng.random_range(0.01..10.0));
     offsets.collect()
 }
 
@@ -71,7 +73,7 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
     for _ in 0..2000 {
         let [a, b] = [-DVec3::Z, DVec3::Z].map(|about| random_cone_vectors(rng, about));
         let normals = common_normals(&a, &b);
-        let towards = direction(rng);
+        let towards = random_direction(rng);
         let offsets = normals.offsets.clone();
         let flat = |offset: DVec3| towards.reject_from(offset);
         let line = |one: DVec3, other: DVec3| towards.project_onto(one.cross(other));

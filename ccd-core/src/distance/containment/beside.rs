@@ -2,9 +2,9 @@
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
-use crate::math::vector::perpendicular_vector;
 use crate::math::vector::unit_or_any;
-use crate::rounding::EDGE_PROBE_DISTANCE;
+use crate::math::vector::vector_perpendicular_to_both;
+use crate::rounding::EDGE_PROBE_DISTANCE_SHARE;
 use glam::DVec3;
 
 /// Returns points on a thin piece, next to the edges of `other` that lie on it: two for each edge, on either side of
@@ -65,15 +65,15 @@ impl<'a> FlatOutline<'a> {
             corners: piece.facets.iter().reduce(larger),
             normal: DVec3::ZERO,
         };
-        if flat.count() < 3 {
+        if flat.corner_count() < 3 {
             return None;
         }
         let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
-        flat.normal = unit_or_any(perpendicular_vector(b - a, c - a));
+        flat.normal = unit_or_any(vector_perpendicular_to_both(b - a, c - a));
         Some(flat)
     }
 
-    fn count(&self) -> usize {
+    fn corner_count(&self) -> usize {
         self.corners.map_or(self.points.len(), <[u32]>::len)
     }
 
@@ -88,7 +88,7 @@ impl<'a> FlatOutline<'a> {
 
     /// Returns a point on each side of the outline, with the direction from that side into the outline.
     fn side_half_planes(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
-        let count = self.count();
+        let count = self.corner_count();
         (0..count).map(move |k| {
             let (from, to) = (self.corner(k), self.corner((k + 1) % count));
             (from, self.normal.cross(to - from))
@@ -116,7 +116,7 @@ impl<'a> FlatOutline<'a> {
         }
         (leave > enter).then(|| {
             let middle = from + way * (0.5 * (enter + leave));
-            let beside = self.normal.cross(way) * (EDGE_PROBE_DISTANCE * (leave - enter));
+            let beside = self.normal.cross(way) * (EDGE_PROBE_DISTANCE_SHARE * (leave - enter));
             [middle + beside, middle - beside]
         })
     }

@@ -11,7 +11,9 @@ use crate::query::MovingBody;
 use crate::settings::Settings;
 use crate::tests::meshes::{cube, reversed_triangles, translated_triangles};
 use crate::tests::nearest::Triangle;
-use crate::tests::scene::{RngExt, magnitude, pieces, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    RngExt, pieces, random_point_in_ball, random_power_of_ten, random_rotation, rng,
+};
 use glam::DVec3;
 
 fn solid(triangles: &[Triangle]) -> Body {
@@ -43,7 +45,7 @@ fn points_are_inside_or_outside_of_a_cube() {
     for n in [1, 3, 20] {
         let body = solid(&cube(1.0, n));
         for _ in 0..2_000 {
-            let point = point_in_ball(&mut rng, 2.0);
+            let point = random_point_in_ball(&mut rng, 2.0);
             let exact = point.abs().max_element() < 1.0;
             assert_eq!(contains(&body, point), Some(exact), "{point} {n}");
             inside += usize::from(exact);
@@ -160,14 +162,14 @@ fn a_part_on_the_surface_is_left_to_its_pieces() {
 fn placement_and_size_do_not_matter() {
     let mut rng = rng(2);
     for _ in 0..200 {
-        let scale = magnitude(&mut rng, -6.0, 6.0);
-        let turn = rotation(&mut rng);
-        let far = point_in_ball(&mut rng, 1e3 * scale);
+        let scale = random_power_of_ten(&mut rng, -6.0, 6.0);
+        let turn = random_rotation(&mut rng);
+        let far = random_point_in_ball(&mut rng, 1e3 * scale);
         let place = |triangles: Vec<Triangle>, at: DVec3| -> Vec<Triangle> {
             let put = |p: DVec3| turn * (p + at) * scale + far;
             triangles.iter().map(|t| t.map(put)).collect()
         };
-        let at = point_in_ball(&mut rng, 2.0);
+        let at = random_point_in_ball(&mut rng, 2.0);
         let inside = at.abs().max_element() < 0.9;
         if (0.9..1.1).contains(&at.abs().max_element()) {
             continue;

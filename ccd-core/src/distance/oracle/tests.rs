@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::tests::oracle::ConstantOracle;
-use crate::tests::scene::{RngExt, point_in_ball, rng};
+use crate::tests::scene::{RngExt, random_point_in_ball, rng};
 
 #[test]
 fn terms_are_merged_dropped_and_capped() {
@@ -27,7 +27,7 @@ fn terms_are_merged_dropped_and_capped() {
 fn a_combination_names_a_point_of_the_hull() {
     let mut rng = rng(1);
     for _ in 0..1_000 {
-        let points = [(); 4].map(|()| point_in_ball(&mut rng, 1e6));
+        let points = [(); 4].map(|()| random_point_in_ball(&mut rng, 1e6));
         let weights = [(); 4].map(|()| rng.random_range(1e-3..1.0));
         let mut out = ConvexCombination::EMPTY;
         for (k, weight) in weights.into_iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Tests that intersecting pieces are distinguished from touching ones.
 
-use super::{Intersection, OverlapPolytope, decide_intersection};
+use super::{ExpandingPolytope, Intersection, decide_intersection};
 use crate::body::Body;
 use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
@@ -11,29 +11,31 @@ use crate::motion::pose::{Frame, Pose};
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{RngExt, point_in_ball, rng, rotation, two_random_triangles};
+use crate::tests::scene::{
+    RngExt, random_point_in_ball, random_rotation, rng, two_random_triangles,
+};
 use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
 
 /// Returns whether the pieces intersect, and asserts that this is decided.
 fn intersects_decidedly(pair: &PiecePair<'_>, claim: &Claim) -> bool {
-    let checked = separation::check(pair, claim, ROUNDING);
-    match decide_intersection(pair, &checked, ROUNDING, &mut OverlapPolytope::default()) {
+    let checked = separation::check_claim(pair, claim, ROUNDING);
+    match decide_intersection(pair, &checked, ROUNDING, &mut ExpandingPolytope::default()) {
         Intersection::Certain => true,
         Intersection::None => false,
         Intersection::Undecided => panic!("{pair:?}"),
     }
 }
 
-fn at(translation: DVec3) -> Frame {
+fn frame_at(translation: DVec3) -> Frame {
     Frame {
         translation,
         ..Frame::IDENTITY
     }
 }
 
-fn triangles(a: &Triangle, b: &Triangle) -> bool {
+fn triangles_intersect(a: &Triangle, b: &Triangle) -> bool {
     let pair = PiecePair {
         a: Piece::from_points(a),
         b: Piece::from_points(b),
@@ -53,29 +55,35 @@ fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
             DVec3::new(0.6, 0.6, 1.0),
         ]
     };
-    assert!(triangles(&flat, &spike(-0.1)));
-    assert!(triangles(&flat, &spike(-1e-6)));
-    assert!(!triangles(&flat, &spike(0.0)), "a corner on a face");
-    assert!(!triangles(&flat, &spike(0.1)));
+    assert!(triangles_intersect(&flat, &spike(-0.1)));
+    assert!(triangles_intersect(&flat, &spike(-1e-6)));
+    assert!(
+        !triangles_intersect(&flat, &spike(0.0)),
+        "a corner on a face"
+    );
+    assert!(!triangles_intersect(&flat, &spike(0.1)));
     // The triangles share an edge, a corner, or are the same.
-    assert!(!triangles(&flat, &[DVec3::ZERO, 2.0 * DVec3::X, DVec3::Z]));
-    assert!(!triangles(
+    assert!(!triangles_intersect(
+        &flat,
+        &[DVec3::ZERO, 2.0 * DVec3::X, DVec3::Z]
+    ));
+    assert!(!triangles_intersect(
         &flat,
         &[DVec3::ZERO, -DVec3::X, DVec3::new(-1.0, -1.0, 1.0)]
     ));
-    assert!(!triangles(&flat, &flat));
+    assert!(!triangles_intersect(&flat, &flat));
     // The edges meet within, at a right angle.
     let above = [
         DVec3::new(1.0, -1.0, 0.0),
         DVec3::new(1.0, 1.0, 0.0),
         DVec3::new(1.0, 0.0, 2.0),
     ];
-    assert!(!triangles(&flat, &above), "an edge in the plane");
+    assert!(!triangles_intersect(&flat, &above), "an edge in the plane");
     let through = above.map(|p| p - 0.5 * DVec3::Z);
-    assert!(triangles(&flat, &through));
+    assert!(triangles_intersect(&flat, &through));
     // Coplanar triangles have no inside in common.
     let beside = flat.map(|p| p + DVec3::new(0.3, 0.2, 0.0));
-    assert!(!triangles(&flat, &beside));
+    assert!(!triangles_intersect(&flat, &beside));
 }
 
 /// Tests that the decision for random triangles and needles agrees with the separating axis theorem.
@@ -90,14 +98,14 @@ fn the_same_as_all_axes_of_the_separating_axis_theorem() {
             b: Piece::from_points(&pair[1]),
             b_to_a: Frame::IDENTITY,
         });
-        assert_eq!(triangles(&pair[0], &pair[1]), exact, "{pair:?}");
+        assert_eq!(triangles_intersect(&pair[0], &pair[1]), exact, "{pair:?}");
         counts[usize::from(exact)] += 1;
     }
     assert!(counts[0] > 10_000 && counts[1] > 200, "{counts:?}");
 }
 
 /// Decides whether two boxes intersect, from a claim with equal nearest points and an arbitrary axis.
-fn boxes(b_to_a: Frame) -> bool {
+fn boxes_intersect(b_to_a: Frame) -> bool {
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let piece = body.pieces().get(0);
     let pair = PiecePair {
@@ -110,7 +118,7 @@ fn boxes(b_to_a: Frame) -> bool {
     let named = |p: DVec3| -> ConvexCombination {
         // The point is a combination of four corners, with trilinear weights along the box's diagonal directions.
         let mut out = ConvexCombination::EMPTY;
-        for (corner, weight) in tetrahedron(p) {
+        for (corner, weight) in corner_weights(p) {
             out.push(corner, weight);
         }
         out
@@ -124,7 +132,7 @@ fn boxes(b_to_a: Frame) -> bool {
 }
 
 /// Returns four corners of the cube of half extent 1, and weights with which they represent a point.
-fn tetrahedron(p: DVec3) -> [(u32, f64); 4] {
+fn corner_weights(p: DVec3) -> [(u32, f64); 4] {
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| p[j].total_cmp(&p[i]));
     let [x, y, z] = order.map(|k| 0.5 * (p[k] + 1.0));
@@ -138,12 +146,12 @@ fn boxes_overlap_by_more_than_rounding_or_not() {
     let mut rng = rng(2);
     for gap in [-1.0, -1e-3, -1e-9] {
         for way in [DVec3::X, DVec3::Y, -DVec3::Z] {
-            assert!(boxes(at((2.0 + gap) * way)), "{gap} {way}");
+            assert!(boxes_intersect(frame_at((2.0 + gap) * way)), "{gap} {way}");
         }
     }
     for gap in [0.0, 1e-14, 1e-9, 1.0] {
         for way in [DVec3::X, DVec3::Y, -DVec3::Z] {
-            assert!(!boxes(at((2.0 + gap) * way)), "{gap} {way}");
+            assert!(!boxes_intersect(frame_at((2.0 + gap) * way)), "{gap} {way}");
         }
     }
     // The boxes meet edge to edge: no face normal separates the two.
@@ -156,13 +164,17 @@ fn boxes_overlap_by_more_than_rounding_or_not() {
         // The pair is seen from A, which is turned about x itself.
         let a = Frame::from(Pose::new(DVec3::ZERO, turned(DVec3::X)).unwrap());
         let b = Frame::from(Pose::new(pose.unwrap().translation(), turned(DVec3::Y)).unwrap());
-        boxes(a.from_frame(&b))
+        boxes_intersect(a.from_frame(&b))
     };
     assert!(!crossed(1e-9));
     assert!(crossed(-1e-3));
     for _ in 0..100 {
-        let pose = Pose::new(point_in_ball(&mut rng, 0.5), rotation(&mut rng)).unwrap();
-        assert!(boxes(Frame::from(pose)), "deep inside: {pose:?}");
+        let pose = Pose::new(
+            random_point_in_ball(&mut rng, 0.5),
+            random_rotation(&mut rng),
+        )
+        .unwrap();
+        assert!(boxes_intersect(Frame::from(pose)), "deep inside: {pose:?}");
     }
 }
 
@@ -192,14 +204,18 @@ fn false_claims_do_not_change_the_decision() {
     let piece = body.pieces().get(0);
     let (mut overlaps, mut others) = (0, 0);
     for _ in 0..2_000 {
-        let pose = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+        let pose = Pose::new(
+            random_point_in_ball(&mut rng, 3.0),
+            random_rotation(&mut rng),
+        )
+        .unwrap();
         let pair = PiecePair {
             a: piece,
             b: piece,
             b_to_a: pose.into(),
         };
         let lie = Claim {
-            axis: point_in_ball(&mut rng, 1.0),
+            axis: random_point_in_ball(&mut rng, 1.0),
             a: ConvexCombination::point(rng.random_range(0..8)),
             b: ConvexCombination::point(rng.random_range(0..8)),
         };
@@ -218,22 +234,22 @@ fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
     let mut rng = rng(4);
     for _ in 0..2_000 {
         let stretch = [0; 3].map(|_| 10f64.powf(rng.random_range(-4.0..0.0)));
-        let turn = rotation(&mut rng);
+        let turn = random_rotation(&mut rng);
         let mut cloud =
-            || [0; 8].map(|_| turn * (point_in_ball(&mut rng, 1.0) * DVec3::from(stretch)));
+            || [0; 8].map(|_| turn * (random_point_in_ball(&mut rng, 1.0) * DVec3::from(stretch)));
         let (ours, theirs) = (cloud(), cloud());
-        let aside = point_in_ball(&mut rng, 2.0);
+        let aside = random_point_in_ball(&mut rng, 2.0);
         let pair = PiecePair {
             a: Piece::from_points(&ours),
             b: Piece::from_points(&theirs),
-            b_to_a: at(aside),
+            b_to_a: frame_at(aside),
         };
         let differences = || {
             ours.iter()
                 .flat_map(|&p| theirs.iter().map(move |&q| p - q - aside))
         };
         let most = |measure: &dyn Fn(DVec3) -> f64| differences().map(measure).fold(0.0, greater);
-        let [a, mut b, mut c, d] = super::tetrahedron(&pair, ROUNDING).unwrap();
+        let [a, mut b, mut c, d] = super::find_start_tetrahedron(&pair, ROUNDING).unwrap();
         let behind = (b - a).cross(c - a).dot(d - a);
         assert!(behind < 0.0, "faces look outward: {behind}");
         if a.distance(b) < a.distance(c) {
@@ -256,16 +272,17 @@ fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
 fn flat_differences_have_no_tetrahedron() {
     let mut rng = rng(5);
     for _ in 0..200 {
-        let turn = rotation(&mut rng);
-        let mut flat = || [0; 3].map(|_| turn * point_in_ball(&mut rng, 1.0).reject_from(DVec3::Z));
+        let turn = random_rotation(&mut rng);
+        let mut flat =
+            || [0; 3].map(|_| turn * random_point_in_ball(&mut rng, 1.0).reject_from(DVec3::Z));
         let (ours, theirs) = (flat(), flat());
         let pair = PiecePair {
             a: Piece::from_points(&ours),
             b: Piece::from_points(&theirs),
-            b_to_a: at(turn * DVec3::Z),
+            b_to_a: frame_at(turn * DVec3::Z),
         };
-        assert_eq!(super::tetrahedron(&pair, ROUNDING), None);
-        assert!(!OverlapPolytope::default().start_with_tetrahedron(&pair, ROUNDING));
+        assert_eq!(super::find_start_tetrahedron(&pair, ROUNDING), None);
+        assert!(!ExpandingPolytope::default().start_with_tetrahedron(&pair, ROUNDING));
     }
 }
 
@@ -284,8 +301,8 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
         b: ConvexCombination::point(0),
     };
     let (checked, mut inner) = (
-        separation::check(&pair, &claim, ROUNDING),
-        OverlapPolytope::default(),
+        separation::check_claim(&pair, &claim, ROUNDING),
+        ExpandingPolytope::default(),
     );
     let decision = decide_intersection(&pair, &checked, ROUNDING, &mut inner);
     assert_eq!(decision, Intersection::None);
@@ -299,11 +316,11 @@ fn balls_that_touch_exactly_do_not_intersect() {
     let pair = PiecePair {
         a: ball.pieces().get(0),
         b: ball.pieces().get(0),
-        b_to_a: at(DVec3::X),
+        b_to_a: frame_at(DVec3::X),
     };
     let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
-    let checked = separation::check(&pair, &claim, 0.0);
-    let decision = decide_intersection(&pair, &checked, 0.0, &mut OverlapPolytope::default());
+    let checked = separation::check_claim(&pair, &claim, 0.0);
+    let decision = decide_intersection(&pair, &checked, 0.0, &mut ExpandingPolytope::default());
     assert_eq!(decision, Intersection::None);
 }
 

@@ -4,7 +4,7 @@ use super::{CheckedClaim, support_gap};
 use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::PiecePair;
-use crate::math::vector::{perpendicular_vector, unit};
+use crate::math::vector::{unit, vector_perpendicular_to_both};
 use glam::{DMat3, DVec3};
 
 /// Raises the lower bound of a checked claim, by axes that the features at its nearest points suggest.
@@ -42,8 +42,10 @@ fn axes(pair: &PiecePair<'_>, checked: &CheckedClaim) -> [DVec3; 4] {
     let on_b =
         Feature::at_combination(&pair.b, &checked.claim.b, axis_in_b).rotated(pair.b_to_a.rotation);
     let edges = match (on_a.edge, on_b.edge) {
-        (Some(e), Some(f)) => perpendicular_vector(e, f),
-        (Some(e), None) | (None, Some(e)) => perpendicular_vector(perpendicular_vector(e, way), e),
+        (Some(e), Some(f)) => vector_perpendicular_to_both(e, f),
+        (Some(e), None) | (None, Some(e)) => {
+            vector_perpendicular_to_both(vector_perpendicular_to_both(e, way), e)
+        }
         (None, None) => DVec3::ZERO,
     };
     [way, edges, on_a.normal, on_b.normal]
@@ -68,8 +70,8 @@ impl Feature {
             _ => None,
         };
         let normal = match (support, points.len()) {
-            (&[a, b, c, ..], _) => perpendicular_vector(way(a, b), way(a, c)),
-            (_, 3) => perpendicular_vector(way(0, 1), way(0, 2)),
+            (&[a, b, c, ..], _) => vector_perpendicular_to_both(way(a, b), way(a, c)),
+            (_, 3) => vector_perpendicular_to_both(way(0, 1), way(0, 2)),
             (support, _) => facet_normal(piece, support, axis).unwrap_or(DVec3::ZERO),
         };
         Feature { edge, normal }
@@ -92,7 +94,7 @@ fn facet_normal(piece: &Piece<'_>, support: &[u32], axis: DVec3) -> Option<DVec3
     let normal = |corners: &[u32]| {
         let third = corners.len() / 3;
         let [a, b, c] = [0, third, 2 * third].map(|k| piece.points[corners[k] as usize]);
-        unit(perpendicular_vector(b - a, c - a))
+        unit(vector_perpendicular_to_both(b - a, c - a))
     };
     let normals = piece.facets.iter().filter(holds).filter_map(normal);
     normals.reduce(|one, other| {

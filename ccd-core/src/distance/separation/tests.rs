@@ -8,18 +8,20 @@ use crate::body::piece::Piece;
 use crate::body::support::Support;
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::pose::{Frame, Pose};
-use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{self, Pcg64, RngExt, magnitude, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    self, Pcg64, RngExt, random_point_in_ball, random_power_of_ten, random_rotation, rng,
+};
 
 const ROUNDING: f64 = 1e-13;
 
 /// Draws two triangles and the frame between them, and computes their exact distance.
 fn random_triangle_pair(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
     let pair = scene::two_random_triangles(rng);
-    let pose = Pose::new(point_in_ball(rng, 0.5), rotation(rng)).unwrap();
+    let pose = Pose::new(random_point_in_ball(rng, 0.5), random_rotation(rng)).unwrap();
     let frame = Frame::from(pose);
-    let distance = nearest(&pair[0], &pair[1].map(|p| frame.point(p))).distance;
+    let distance = nearest_points(&pair[0], &pair[1].map(|p| frame.point(p))).distance;
     (pair[0], pair[1], frame, distance)
 }
 
@@ -29,7 +31,7 @@ fn random_claim(rng: &mut Pcg64) -> Claim {
         1 => f64::INFINITY,
         2 => 0.0,
         3 => -1.0,
-        4 => magnitude(rng, -300.0, 300.0),
+        4 => random_power_of_ten(rng, -300.0, 300.0),
         _ => rng.random_range(-1.0..1.0),
     };
     let axis = DVec3::new(numbers(), numbers(), numbers());
@@ -60,7 +62,7 @@ fn bounds_hold_for_any_claim() {
             b_to_a,
         };
         let claim = random_claim(&mut rng);
-        let checked = check(&pair, &claim, ROUNDING);
+        let checked = check_claim(&pair, &claim, ROUNDING);
         assert!(
             checked.lower <= distance,
             "{} > {distance}: {claim:?}",
@@ -73,7 +75,7 @@ fn bounds_hold_for_any_claim() {
         );
         assert!((checked.axis.length() - 1.0).abs() < 1e-15, "{claim:?}");
         let between = checked.witness_a.distance(checked.witness_b);
-        assert!((between - checked.core_distance).abs() < 1e-14);
+        assert!((between - checked.claimed_core_distance).abs() < 1e-14);
         // The features consist of points that exist.
         for (combination, points) in [(checked.claim.a, a), (checked.claim.b, b)] {
             assert!(combination.position(&points).is_some());
@@ -95,7 +97,7 @@ fn a_true_claim_is_tight() {
             b_to_a,
         };
         let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
-        let checked = check(&pair, &claim, ROUNDING);
+        let checked = check_claim(&pair, &claim, ROUNDING);
         assert!(checked.upper <= distance + 3.0 * ROUNDING);
         if distance > 1e-3 {
             assert!(
@@ -131,7 +133,7 @@ fn overflowing_weights_are_a_false_claim() {
             a: lie,
             b: lie,
         };
-        let checked = check(&pair, &claim, ROUNDING);
+        let checked = check_claim(&pair, &claim, ROUNDING);
         assert!(checked.upper >= 5.0, "{weight:e}: {}", checked.upper);
         assert!(checked.witness_a.is_finite(), "{weight:e}");
         // The point is in the triangle's hull.
@@ -160,17 +162,17 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
         a: ConvexCombination::point(0),
         b: ConvexCombination::point(0),
     };
-    let checked = check(&pair, &claim, 0.0);
+    let checked = check_claim(&pair, &claim, 0.0);
     assert_eq!((checked.lower, checked.upper), (1.5, 1.5));
     assert_eq!(checked.witness_a, DVec3::X);
     assert_eq!(checked.witness_b, 2.5 * DVec3::X);
-    assert_eq!(checked.core_distance, 3.0);
+    assert_eq!(checked.claimed_core_distance, 3.0);
 }
 
 /// Checks that `improve_axis` raises the lower bound of a tilted claim to the distance, and returns whether the bound
 /// was poor before.
 fn check_axis_improvement(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
-    let checked = check(pair, tilted, ROUNDING);
+    let checked = check_claim(pair, tilted, ROUNDING);
     let CheckedClaim {
         lower,
         axis,
@@ -196,9 +198,9 @@ fn features_have_better_axes_than_near_points() {
     let couples = [(floor, corner), (below(edge), edge), (below(corner), floor)];
     let mut poor = 0;
     for k in 0..3_000 {
-        let distance = magnitude(&mut rng, -4.0, -1.0);
+        let distance = random_power_of_ten(&mut rng, -4.0, -1.0);
         let (a, b) = couples[k % 3];
-        let b_to_a = Frame::from(Pose::new(DVec3::ZERO, rotation(&mut rng)).unwrap());
+        let b_to_a = Frame::from(Pose::new(DVec3::ZERO, random_rotation(&mut rng)).unwrap());
         let b = b.map(|p| b_to_a.inverse_vector(p + distance * DVec3::Z));
         let pair = PiecePair {
             a: Piece::from_points(&a),
@@ -207,7 +209,7 @@ fn features_have_better_axes_than_near_points() {
         };
         let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
         let tilted = Claim {
-            axis: DVec3::Z + point_in_ball(&mut rng, 1e-11),
+            axis: DVec3::Z + random_point_in_ball(&mut rng, 1e-11),
             ..claim
         };
         poor += usize::from(check_axis_improvement(&pair, &tilted, distance));
@@ -228,10 +230,10 @@ fn facets_have_better_axes_than_corners_across_them() {
     let mut poor = 0;
     let claims: [&[u32]; 2] = [&[low, high], &[low]];
     for corners in claims.repeat(500) {
-        let distance = magnitude(&mut rng, -4.0, 1.0);
+        let distance = random_power_of_ten(&mut rng, -4.0, 1.0);
         let tip = [[0.0, 0.0, 0.0], [8.0, 1.0, 4.0], [-8.0, 1.0, 4.0]].map(DVec3::from);
         let tip = tip.map(|p| p + (1.0 + distance) * DVec3::Z);
-        let a_to_b = Frame::from(Pose::new(DVec3::ZERO, rotation(&mut rng)).unwrap());
+        let a_to_b = Frame::from(Pose::new(DVec3::ZERO, random_rotation(&mut rng)).unwrap());
         let turned = base.points.iter().map(|&p| a_to_b.inverse_vector(p));
         let turned: Vec<DVec3> = turned.collect();
         let b = Piece {
@@ -248,7 +250,7 @@ fn facets_have_better_axes_than_corners_across_them() {
             across.push(corner, 1.0 / corners.len() as f64);
         }
         let tilted = Claim {
-            axis: -DVec3::Z + point_in_ball(&mut rng, 1e-9),
+            axis: -DVec3::Z + random_point_in_ball(&mut rng, 1e-9),
             a: ConvexCombination::point(0),
             b: across,
         };
@@ -262,14 +264,20 @@ fn facets_have_better_axes_than_corners_across_them() {
 fn searches_for_extremal_points_change_no_gap() {
     let mut rng = rng(5);
     let round = |rng: &mut Pcg64| -> Vec<DVec3> {
-        let middle = point_in_ball(rng, 2.0);
-        (0..100).map(|_| middle + scene::direction(rng)).collect()
+        let middle = random_point_in_ball(rng, 2.0);
+        (0..100)
+            .map(|_| middle + scene::random_direction(rng))
+            .collect()
     };
     let mut apart = 0;
     for _ in 0..500 {
         let points = [round(&mut rng), round(&mut rng)];
         let supports = [0, 1].map(|k| Support::from_points(&points[k]));
-        let pose = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+        let pose = Pose::new(
+            random_point_in_ball(&mut rng, 3.0),
+            random_rotation(&mut rng),
+        )
+        .unwrap();
         let pair = |is_searched: bool| {
             let [a, b] = [0, 1].map(|k| Piece {
                 support_map: is_searched.then_some(&supports[k]),
@@ -278,7 +286,10 @@ fn searches_for_extremal_points_change_no_gap() {
             let b_to_a = Frame::from(pose);
             PiecePair { a, b, b_to_a }
         };
-        let [n, from] = [scene::direction(&mut rng), point_in_ball(&mut rng, 3.0)];
+        let [n, from] = [
+            scene::random_direction(&mut rng),
+            random_point_in_ball(&mut rng, 3.0),
+        ];
         let scanned = support_gap(&pair(false), n, from);
         let searched = support_gap(&pair(true), n, from);
         assert!(
@@ -313,20 +324,20 @@ fn the_better_one_of_axis_and_way_counts() {
         };
         let right = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
         let corner = ConvexCombination::point(0);
-        let axis = scene::direction(&mut rng);
-        let wrong_axis = check(&pair, &Claim { axis, ..right }, ROUNDING);
+        let axis = scene::random_direction(&mut rng);
+        let wrong_axis = check_claim(&pair, &Claim { axis, ..right }, ROUNDING);
         let points = Claim {
             a: corner,
             b: corner,
             ..right
         };
-        let wrong_points = check(&pair, &points, ROUNDING);
+        let wrong_points = check_claim(&pair, &points, ROUNDING);
         // An axis that proves half of the distance is good enough.
         for (checked, share) in [(wrong_axis, 0.5), (wrong_points, 1.0)] {
             assert!(checked.lower >= share * distance - 2.0 * radius - 1e-9);
             // The witnesses are on the surfaces, on the line between the points, whatever the axis.
             let between = checked.witness_a.distance(checked.witness_b);
-            assert!((between - (checked.core_distance - 2.0 * radius)).abs() < 1e-13);
+            assert!((between - (checked.claimed_core_distance - 2.0 * radius)).abs() < 1e-13);
         }
     }
     assert!(apart > 500, "{apart}");
@@ -350,7 +361,7 @@ fn witnesses_of_coinciding_points_are_along_the_axis() {
         a: ConvexCombination::point(0),
         b: ConvexCombination::point(0),
     };
-    let checked = check(&pair, &claim, ROUNDING);
+    let checked = check_claim(&pair, &claim, ROUNDING);
     assert_eq!(checked.witness_a, 2.0 * DVec3::Y);
     assert_eq!(checked.witness_b, -2.0 * DVec3::Y);
 }

@@ -14,10 +14,10 @@ use crate::problem::BodyWithPath;
 use crate::query::MovingBody;
 use crate::schedule::Naive;
 use crate::settings::{Settings, StartPolicy};
-use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{
-    Pcg64, RngExt, Scene, SceneKind, body, direction, distance, pieces, rng, scene,
+    Pcg64, RngExt, Scene, SceneKind, body, distance, pieces, random_direction, rng, scene,
 };
 use glam::DVec3;
 use rand::seq::SliceRandom;
@@ -152,7 +152,7 @@ fn check_contact_bounds(problem: &Problem<'_>, s: f64, contact: &Contact) {
         placed(&problem.a, contact.piece_a),
         placed(&problem.b, contact.piece_b),
     );
-    let found = nearest(&a, &b).distance;
+    let found = nearest_points(&a, &b).distance;
     let separation = &contact.separation;
     assert!(
         separation.lower <= found + problem.rounding,
@@ -248,7 +248,7 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
             .map(|k| truth + (1.0 - truth) * f64::from(k) / 64.0)
             .find(|&s| distance(&problem, s) <= problem.margin);
         let lie = Claim {
-            axis: direction(&mut rng),
+            axis: random_direction(&mut rng),
             a: ConvexCombination::point(rng.random_range(0..5)),
             b: ConvexCombination::point(rng.random_range(0..5)),
         };

@@ -4,7 +4,7 @@ use super::*;
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::settings::Settings;
-use crate::tuning::EVALUATIONS_PER_VISIT;
+use crate::tuning::EVALUATIONS_WORTH_A_VISIT;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -35,11 +35,14 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
     let ball = ball();
     let problem = limited_problem(&ball, &config);
     let mut meter = Meter::new(&problem);
-    assert_eq!(meter.count_visit(&problem), Ok(()));
-    meter.stats.point_evaluations += 3 * EVALUATIONS_PER_VISIT;
-    assert_eq!(meter.count_visit(&problem), Ok(()));
+    assert_eq!(meter.count_visit_and_check_limits(&problem), Ok(()));
+    meter.stats.point_evaluations += 3 * EVALUATIONS_WORTH_A_VISIT;
+    assert_eq!(meter.count_visit_and_check_limits(&problem), Ok(()));
     assert_eq!(meter.stats.work(), 5);
-    assert_eq!(meter.count_visit(&problem), Err(Limit::Budget));
+    assert_eq!(
+        meter.count_visit_and_check_limits(&problem),
+        Err(Limit::Budget)
+    );
 }
 
 #[test]
@@ -48,7 +51,7 @@ fn a_deadline_that_is_past_ends_the_first_visit() {
     let settings = settings_with_deadline(Duration::ZERO);
     let problem = limited_problem(&ball, &settings);
     assert_eq!(
-        Meter::new(&problem).count_visit(&problem),
+        Meter::new(&problem).count_visit_and_check_limits(&problem),
         Err(Limit::Deadline)
     );
 }
@@ -59,19 +62,22 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
     let settings = settings_with_deadline(Duration::from_millis(1));
     let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
-    assert_eq!(meter.count_visit(&problem), Ok(()));
+    assert_eq!(meter.count_visit_and_check_limits(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
     let mut visits = 0;
-    while meter.count_visit(&problem) == Ok(()) {
+    while meter.count_visit_and_check_limits(&problem) == Ok(()) {
         visits += 1;
     }
     assert!(visits < WORK_BETWEEN_CLOCK_READS, "{visits}");
     // Equal costs count equally.
     let mut meter = Meter::new(&problem);
-    assert_eq!(meter.count_visit(&problem), Ok(()));
+    assert_eq!(meter.count_visit_and_check_limits(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
-    meter.stats.point_evaluations += WORK_BETWEEN_CLOCK_READS * EVALUATIONS_PER_VISIT;
-    assert_eq!(meter.count_visit(&problem), Err(Limit::Deadline));
+    meter.stats.point_evaluations += WORK_BETWEEN_CLOCK_READS * EVALUATIONS_WORTH_A_VISIT;
+    assert_eq!(
+        meter.count_visit_and_check_limits(&problem),
+        Err(Limit::Deadline)
+    );
 }
 
 #[test]
@@ -83,16 +89,16 @@ fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_lo
     };
     let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
-    assert!((0..10_000).all(|_| meter.count_visit(&problem) == Ok(())));
+    assert!((0..10_000).all(|_| meter.count_visit_and_check_limits(&problem) == Ok(())));
     std::thread::scope(|scope| {
         scope.spawn(|| stop.store(true, Ordering::Relaxed));
     });
     let visits = (0..)
-        .take_while(|_| meter.count_visit(&problem) == Ok(()))
+        .take_while(|_| meter.count_visit_and_check_limits(&problem) == Ok(()))
         .count();
     assert!(visits < WORK_BETWEEN_CLOCK_READS as usize, "{visits}");
     assert_eq!(
-        Meter::new(&problem).count_visit(&problem),
+        Meter::new(&problem).count_visit_and_check_limits(&problem),
         Err(Limit::Stopped)
     );
 }
@@ -103,5 +109,5 @@ fn an_unreachable_deadline_counts_as_none() {
     let settings = settings_with_deadline(Duration::MAX);
     let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
-    assert!((0..10_000).all(|_| meter.count_visit(&problem) == Ok(())));
+    assert!((0..10_000).all(|_| meter.count_visit_and_check_limits(&problem) == Ok(())));
 }

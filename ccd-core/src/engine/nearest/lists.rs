@@ -10,20 +10,20 @@ pub(crate) struct SearchBuffers {
     /// Pairs of nodes, ordered by lower bounds of their distances.
     pub(crate) waiting_pairs: Queue<Siblings>,
     /// All measured pairs of pieces that are not proven apart; their lower bounds are not positive.
-    pub(crate) touching_pairs: Vec<[u32; 2]>,
+    pub(crate) unseparated_pairs: Vec<[u32; 2]>,
     /// Scratch memory for the test whether one body is inside the other.
-    pub(crate) pieces: Vec<u32>,
+    pub(crate) containment_scratch: Vec<u32>,
 }
 
 impl SearchBuffers {
     pub(crate) fn clear(&mut self) {
         self.waiting_pairs.clear();
-        clear_and_shrink(&mut self.touching_pairs);
-        clear_and_shrink(&mut self.pieces);
+        clear_and_shrink(&mut self.unseparated_pairs);
+        clear_and_shrink(&mut self.containment_scratch);
     }
 
     /// Returns all measured pairs of pieces that are not proven apart, and the list of pieces as scratch memory.
-    pub(crate) fn touching_pairs_and_scratch(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
-        (&self.touching_pairs, &mut self.pieces)
+    pub(crate) fn unseparated_pairs_and_scratch(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
+        (&self.unseparated_pairs, &mut self.containment_scratch)
     }
 }

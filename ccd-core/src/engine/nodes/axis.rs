@@ -23,17 +23,17 @@ pub(crate) fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(
     other: &P,
     offset: Vec3x8<L>,
 ) -> AxesX8<L> {
-    let level = offset.level();
+    let level = offset.simd_level();
     let between = children.offset_from_nearest(other.offset_to_nearest(offset));
     let between = axis_along(children, other, offset, between);
-    let own = oriented_towards(children.normal(level), offset);
+    let own = oriented_towards(children.likely_separating_axis(level), offset);
     let own = AxesX8::new(
         own,
         offset,
         children.extent_along_normal(own),
         other.extent_along(own),
     );
-    let others = oriented_towards(Vec3x8::splat(level, other.normal()), offset);
+    let others = oriented_towards(Vec3x8::splat(level, other.likely_separating_axis()), offset);
     let reach = other.extent_along_normal(others);
     let others = AxesX8::new(others, offset, children.extent_along(others), reach);
     // The gap along the axis between the nodes is available last.
@@ -90,7 +90,7 @@ impl<L: Simd> AxesX8<L> {
 /// Returns `n` or `−n`, whichever points along `offset`.
 #[inline(always)]
 pub(crate) fn oriented_towards<L: Simd>(n: Vec3x8<L>, offset: Vec3x8<L>) -> Vec3x8<L> {
-    let level = n.level();
+    let level = n.simd_level();
     let away = n.dot(offset).simd_lt(0.0);
     n * away.select(splat(level, -1.0), splat(level, 1.0))
 }

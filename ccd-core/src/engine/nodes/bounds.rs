@@ -9,7 +9,7 @@ use super::shape::{Children, OtherNode};
 use crate::body::tree::LANES;
 use crate::math::order::lesser;
 use crate::math::simd::splat;
-use crate::tuning::{MIN_REVISIT_SWEEP, REVISIT_DISTANCE, THICKNESS_PER_RADIUS};
+use crate::tuning::{ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_SWEEP, REVISIT_DISTANCE};
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 /// The free times of eight pairs of nodes, and the choices for the next step of each pair.
@@ -45,9 +45,11 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
     let revisit = widest.gap - motion.slack - (radius + other.radius()) * REVISIT_DISTANCE;
-    let split_child = (widest.split_extent + radius * THICKNESS_PER_RADIUS)
-        - (widest.other_extent + THICKNESS_PER_RADIUS * other.radius());
-    let mut free = pairs.free(widest).max(pairs.free(passing));
+    let split_child = (widest.split_extent + radius * ADDED_THICKNESS_PER_RADIUS)
+        - (widest.other_extent + ADDED_THICKNESS_PER_RADIUS * other.radius());
+    let mut free = pairs
+        .fixed_plane_free_times(widest)
+        .max(pairs.fixed_plane_free_times(passing));
     let mut revisit = mask_bits(revisit.simd_gt(0.0));
     if let Some(past) = PassingPairs::new(&pairs, widest) {
         free = free.max(past.turning_plane_time);
@@ -95,11 +97,11 @@ impl<L: Simd> PassingPairs<L> {
     ) -> Option<Self> {
         let EightPairs {
             children,
-            other,
+            other_node: other,
             motion,
             ..
         } = *pairs;
-        let level = pairs.level();
+        let level = pairs.simd_level();
         match motion.larger_body? {
             LargerBody::SplitBody => Some(PassingPairs {
                 turning_plane_time: pairs.free_times_with_split_body(axis),

@@ -7,7 +7,7 @@ use crate::motion::relative::RelativePath;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{ARM_INCREASE_PER_DISTANCE, LEAST_GAP_F32, RATE_ERROR_F32};
 use crate::shortcuts::Shortcut;
-use crate::tuning::{CLOSED_GAP, MIN_TURNING_PLANE_RADIUS_RATIO};
+use crate::tuning::{CLOSED_GAP_THRESHOLD, MIN_TURNING_PLANE_RADIUS_RATIO};
 use glam::Vec3;
 use std::cell::OnceCell;
 
@@ -23,22 +23,22 @@ pub(crate) struct NodeContext<'p> {
     angular_velocities: [Option<(Vec3, f32)>; 2],
     /// The gap that every clock proves, rounded up.
     pub(crate) gap: f32,
-    /// The gap `Problem::node_gap` that pairs of nodes keep if rounding allows, rounded up. Until its clock, a pair of
+    /// The gap `Problem::kept_node_gap` that pairs of nodes keep if rounding allows, rounded up. Until its clock, a pair of
     /// nodes keeps this gap or the sum of `gap` and the rounding, whichever is larger.
-    pub(crate) node_gap: f32,
+    pub(crate) kept_node_gap: f32,
     /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,
     /// A bound of the rounding of closing rates.
     pub(crate) rate_allowance: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.
-    pub(crate) closed_gap: f32,
+    pub(crate) closed_gap_threshold: f32,
     /// The ratio of radii above which a node counts as much larger than another.
     pub(crate) much_larger_ratio: f32,
 }
 
 /// Returns an upper bound of the speeds from which closing rates are computed. The rounding of the positions of arms
 /// adds a share.
-fn speed(a: &BodyWithPath<'_>, b: &BodyWithPath<'_>) -> f64 {
+fn speed_bound(a: &BodyWithPath<'_>, b: &BodyWithPath<'_>) -> f64 {
     let straight = length(b.path.velocity - a.path.velocity)
         + length(b.path.acceleration - a.path.acceleration);
     let turning = |own: &BodyWithPath<'_>, other: &BodyWithPath<'_>| {
@@ -74,10 +74,13 @@ impl<'p> NodeContext<'p> {
                 })
             }),
             gap: round_up_to_f32(problem.gap()),
-            node_gap: round_up_to_f32(problem.node_gap()),
+            kept_node_gap: round_up_to_f32(problem.kept_node_gap()),
             rounding: round_up_to_f32(problem.rounding),
-            rate_allowance: RATE_ERROR_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
-            closed_gap: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
+            rate_allowance: RATE_ERROR_F32 * round_up_to_f32(speed_bound(&problem.a, &problem.b)),
+            closed_gap_threshold: greater(
+                LEAST_GAP_F32,
+                (CLOSED_GAP_THRESHOLD * problem.tolerance) as f32,
+            ),
             much_larger_ratio: if problem.uses_shortcut(Shortcut::TurningNodes) {
                 MIN_TURNING_PLANE_RADIUS_RATIO
             } else {
@@ -89,7 +92,7 @@ impl<'p> NodeContext<'p> {
     /// Returns the motion of the other body relative to this one.
     #[inline(always)]
     pub(crate) fn relative_path_from(&self, body: WhichBody) -> &RelativePath {
-        let path = |body: WhichBody| &body.of(self.problem).path;
+        let path = |body: WhichBody| &body.body_in_problem(self.problem).path;
         self.relative_paths[body as usize]
             .get_or_init(|| RelativePath::new(path(body), path(body.other())))
     }

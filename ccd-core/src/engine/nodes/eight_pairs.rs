@@ -25,7 +25,7 @@ pub(crate) struct RelativeMotionF32 {
     /// The gap to keep, plus a bound of the rounding error of a computed gap.
     pub(crate) slack: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.
-    pub(crate) closed_gap: f32,
+    pub(crate) closed_gap_threshold: f32,
     /// A bound of the rounding of a closing rate.
     pub(crate) rate_allowance: f32,
     pub(crate) larger_body: Option<LargerBody>,
@@ -41,24 +41,24 @@ pub(crate) enum LargerBody {
 /// The children of a group, each paired with the same other node.
 pub(crate) struct EightPairs<'a, L: Simd, C, P> {
     pub(crate) children: &'a C,
-    pub(crate) other: &'a P,
+    pub(crate) other_node: &'a P,
     pub(crate) motion: &'a RelativeMotionF32,
     /// The vectors from the children's centres to the other node's centre.
     pub(crate) offset: Vec3x8<L>,
     /// The velocities of the children's centres relative to the other node's.
     pub(crate) velocity: Vec3x8<L>,
     /// Upper bounds of the speeds of the children's points due to rotation.
-    pub(crate) speed: f32x8<L>,
+    pub(crate) rotational_speed_bounds: f32x8<L>,
     /// The velocity of the other node's centre due to rotation.
     pub(crate) other_rotational_velocity: Vec3x8<L>,
     /// An upper bound of the speeds of the other node's points due to rotation.
-    pub(crate) other_rotational_speed: f32x8<L>,
+    pub(crate) other_rotational_speed_bound: f32x8<L>,
 }
 
 impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     #[inline(always)]
-    pub(crate) fn level(&self) -> L {
-        self.offset.level()
+    pub(crate) fn simd_level(&self) -> L {
+        self.offset.simd_level()
     }
 
     #[inline(always)]
@@ -69,21 +69,21 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         motion: &'a RelativeMotionF32,
     ) -> Self {
         let (centre, other_centre) = (children.centre(level), Vec3x8::splat(level, other.centre()));
-        let turning = motion.split_rotation.velocity(centre);
-        let other_turning = motion.other_rotation.velocity(other_centre);
+        let turning = motion.split_rotation.rotational_velocity(centre);
+        let other_turning = motion.other_rotation.rotational_velocity(other_centre);
         let velocity = Vec3x8::splat(level, motion.velocity);
         EightPairs {
             children,
-            other,
+            other_node: other,
             motion,
             offset: other_centre - centre,
             velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the second derivatives.
-            speed: turning.length()
+            rotational_speed_bounds: turning.length()
                 + children.radius(level) * motion.split_rotation.rate
                 + motion.rate_allowance,
             other_rotational_velocity: other_turning,
-            other_rotational_speed: other_turning.length()
+            other_rotational_speed_bound: other_turning.length()
                 + motion.other_rotation.rate * other.radius()
                 + motion.rate_allowance,
         }
@@ -91,36 +91,43 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
 
     /// Returns the times for which fixed planes perpendicular to the axes keep the pairs apart.
     #[inline(always)]
-    pub(crate) fn free(&self, axis: AxesX8<L>) -> f32x8<L> {
+    pub(crate) fn fixed_plane_free_times(&self, axis: AxesX8<L>) -> f32x8<L> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_allowance;
-        let mut second_derivative = splat(axis.n.level(), LEAST_SECOND_DERIVATIVE_F32);
+        let mut second_derivative = splat(axis.n.simd_level(), LEAST_SECOND_DERIVATIVE_F32);
         if motion.split_rotation.is_turning {
             let m = motion.split_rotation.cross_angular_velocity(axis.n);
             rate += self.children.extent_along(m);
-            second_derivative += second_derivative_bound(m, motion.split_rotation.rate, self.speed);
+            second_derivative += second_derivative_bound(
+                m,
+                motion.split_rotation.rate,
+                self.rotational_speed_bounds,
+            );
         }
         if motion.other_rotation.is_turning {
             let m = motion.other_rotation.cross_angular_velocity(axis.n);
-            rate += self.other.extent_along(m);
-            second_derivative +=
-                second_derivative_bound(m, motion.other_rotation.rate, self.other_rotational_speed);
+            rate += self.other_node.extent_along(m);
+            second_derivative += second_derivative_bound(
+                m,
+                motion.other_rotation.rate,
+                self.other_rotational_speed_bound,
+            );
         }
         let apart = axis.gap - motion.slack;
         if let Some(acceleration) = motion.acceleration {
-            let along = axis.n.dot(Vec3x8::splat(axis.n.level(), acceleration));
-            let rounding = splat(axis.n.level(), RATE_ERROR_F32 * acceleration.length());
+            let along = axis.n.dot(Vec3x8::splat(axis.n.simd_level(), acceleration));
+            let rounding = splat(axis.n.simd_level(), RATE_ERROR_F32 * acceleration.length());
             clock::free_time_decelerating(
                 apart,
-                motion.closed_gap,
+                motion.closed_gap_threshold,
                 rate,
                 second_derivative + along + rounding,
             )
         } else if motion.split_rotation.is_turning || motion.other_rotation.is_turning {
-            clock::free_time(apart, motion.closed_gap, rate, second_derivative)
+            clock::free_time(apart, motion.closed_gap_threshold, rate, second_derivative)
         } else {
-            clock::free_time_at_constant_rate(apart, motion.closed_gap, rate)
+            clock::free_time_at_constant_rate(apart, motion.closed_gap_threshold, rate)
         }
     }
 }
@@ -159,8 +166,8 @@ impl BodyRotation {
 
     /// Returns the velocities of points due to rotation, `ω × (x − centre)`.
     #[inline(always)]
-    pub(crate) fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
-        let level = x.level();
+    pub(crate) fn rotational_velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
+        let level = x.simd_level();
         if self.is_turning {
             Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre))
         } else {
@@ -172,16 +179,16 @@ impl BodyRotation {
     #[inline(always)]
     pub(crate) fn cross_angular_velocity<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
         if self.is_turning {
-            n.cross(Vec3x8::splat(n.level(), self.spin))
+            n.cross(Vec3x8::splat(n.simd_level(), self.spin))
         } else {
-            Vec3x8::splat(n.level(), Vec3::ZERO)
+            Vec3x8::splat(n.simd_level(), Vec3::ZERO)
         }
     }
 
     /// Returns the distances of points from the centre of rotation.
     #[inline(always)]
     pub(crate) fn distances_from_centre<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
-        (x - Vec3x8::splat(x.level(), self.centre)).length()
+        (x - Vec3x8::splat(x.simd_level(), self.centre)).length()
     }
 
     /// Returns the distance of a point from the centre of rotation; 0 without rotation.

@@ -21,7 +21,7 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
     pub(crate) bounds: EightPairBounds,
-    pub(crate) first: NodeId,
+    pub(crate) first_child: NodeId,
 }
 
 /// A node to split, and the other body's node with which its children are paired.
@@ -30,7 +30,7 @@ pub(crate) struct Split {
     /// The body to which the split node belongs.
     pub(crate) body: WhichBody,
     pub(crate) node: NodeId,
-    pub(crate) other: NodeId,
+    pub(crate) other_node: NodeId,
     /// The children to bound, as bits.
     pub(crate) lane_mask: u8,
 }
@@ -41,7 +41,7 @@ impl Split {
         Split {
             body,
             node,
-            other,
+            other_node: other,
             lane_mask: u8::MAX,
         }
     }
@@ -60,8 +60,8 @@ pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansi
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn measure_children(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
-    let mut expansion = bound_children(common, split, s, ClosingRate::Unit);
+pub(crate) fn bound_child_distances(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
+    let mut expansion = bound_children(common, split, s, ClosingRate::UnitRate);
     // A second visit would give the same result.
     expansion.bounds.revisit_mask = 0;
     expansion
@@ -73,7 +73,7 @@ enum ClosingRate {
     /// The rate due to the motion of the bodies.
     FromMotion,
     /// One unit of length per unit of time, along every axis, so that the free time is the distance.
-    Unit,
+    UnitRate,
 }
 
 /// Computes the free times of a split node's children, with the best vector instructions. This function alone contains
@@ -97,7 +97,7 @@ fn bound_children_at_level<L: Simd>(
     closing_rate: ClosingRate,
 ) -> Expansion {
     let motion = RelativeMotion::new(level, common, split, s, closing_rate);
-    let body = motion.split_side.body;
+    let body = motion.split_body.body;
     let tree = body.tree();
     let NodeOrTriangle::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
@@ -106,16 +106,19 @@ fn bound_children_at_level<L: Simd>(
         NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
             let members = &group.header;
-            (motion.bound(group, members), members.first)
+            (motion.bound(group, members), members.first_child)
         }
         NodeChildren::Triangles(group) => {
             let group = &tree.triangle_group(group, body.pieces());
             let members = &group.header;
-            (motion.bound(group, members), members.first)
+            (motion.bound(group, members), members.first_child)
         }
         NodeChildren::Piece(_) => unreachable!("a single piece has no children"),
     };
-    Expansion { bounds, first }
+    Expansion {
+        bounds,
+        first_child: first,
+    }
 }
 
 /// The relative motion of the two bodies at a clock, in the frame of the body whose node is split.
@@ -123,8 +126,8 @@ struct RelativeMotion<'p, L: Simd> {
     level: L,
     node_context: &'p NodeContext<'p>,
     split: &'p Split,
-    split_side: &'p BodyWithPath<'p>,
-    other_side: &'p BodyWithPath<'p>,
+    split_body: &'p BodyWithPath<'p>,
+    other_body: &'p BodyWithPath<'p>,
     /// The other body's present pose and motion in the split body's frame.
     relative_state: RelativeState<L>,
     relative_path: &'p RelativePath,
@@ -148,9 +151,9 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             level,
             node_context: common,
             split,
-            split_side: split.body.of(common.problem),
-            other_side: split.body.other().of(common.problem),
-            relative_state: view.at(level, s),
+            split_body: split.body.body_in_problem(common.problem),
+            other_body: split.body.other().body_in_problem(common.problem),
+            relative_state: view.state_at(level, s),
             relative_path: view,
             horizon: (1.0 - s) as f32,
             closing_rate,
@@ -174,11 +177,11 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             motion: self,
             members,
         };
-        match self.other_side.body.tree().get(self.split.other) {
-            NodeOrTriangle::Node(node) => group_view.bound(group, &group_view.node(node)),
+        match self.other_body.body.tree().get(self.split.other_node) {
+            NodeOrTriangle::Node(node) => group_view.bound(group, &group_view.other_box(node)),
             NodeOrTriangle::Triangle(piece) => {
-                let corners = self.other_side.body.pieces().triangle(piece as usize);
-                group_view.bound(group, &group_view.triangle(corners))
+                let corners = self.other_body.body.pieces().triangle(piece as usize);
+                group_view.bound(group, &group_view.other_triangle(corners))
             }
         }
     }
@@ -202,14 +205,14 @@ impl<L: Simd> GroupMotion<'_, L> {
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairBounds {
         let motion = match self.motion.closing_rate {
             ClosingRate::FromMotion => self.motion_in_f32(other.centre(), other.radius()),
-            ClosingRate::Unit => self.motion_at_unit_rate(other.centre(), other.radius()),
+            ClosingRate::UnitRate => self.motion_at_unit_rate(other.centre(), other.radius()),
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.members.count);
         bound_eight_pairs(self.motion.level, group, other, &motion, lanes)
     }
 
     #[inline(always)]
-    fn node(&self, node: &Node) -> OtherBox {
+    fn other_box(&self, node: &Node) -> OtherBox {
         let [u, v, w] = node.axes;
         OtherBox {
             centre: self.to_group_point(node.centre).as_vec3(),
@@ -218,8 +221,8 @@ impl<L: Simd> GroupMotion<'_, L> {
                 self.to_group_vector(v),
                 self.to_group_vector(w),
             ],
-            half: node.half,
-            rounding: node.rounding,
+            half_extents: node.half_extents,
+            rounding_radius: node.rounding_radius,
             radius: node.radius,
             piece: matches!(node.children, NodeChildren::Piece(_)),
         }
@@ -240,7 +243,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     }
 
     #[inline(always)]
-    fn triangle(&self, [a, b, c]: [DVec3; 3]) -> OtherTriangle {
+    fn other_triangle(&self, [a, b, c]: [DVec3; 3]) -> OtherTriangle {
         let (a, b, c) = (
             self.to_group_point(a),
             self.to_group_point(b),
@@ -296,7 +299,7 @@ impl<L: Simd> GroupMotion<'_, L> {
         let common = self.motion.node_context;
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
-        let slack = greater((common.gap + rounding).next_up(), common.node_gap);
+        let slack = greater((common.gap + rounding).next_up(), common.kept_node_gap);
         RelativeMotionF32 {
             velocity: self.motion.relative_state.velocity.as_vec3(),
             acceleration: self
@@ -308,7 +311,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             other_rotation: other,
             horizon: self.motion.horizon,
             slack,
-            closed_gap: common.closed_gap,
+            closed_gap_threshold: common.closed_gap_threshold,
             rate_allowance: common.rate_allowance,
             larger_body: if split.is_turning && reach > common.much_larger_ratio * radius {
                 Some(LargerBody::SplitBody)
@@ -330,7 +333,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             other_rotation: BodyRotation::NONE,
             horizon: 0.0,
             slack: self.rounding(centre, radius),
-            closed_gap: 0.0,
+            closed_gap_threshold: 0.0,
             rate_allowance: 1.0,
             larger_body: None,
         }

@@ -9,7 +9,7 @@ use glam::Vec3;
 pub(crate) trait Children {
     fn centre<L: Simd>(&self, level: L) -> Vec3x8<L>;
     /// Returns for each child a unit vector that is likely to be a separating axis, or zero.
-    fn normal<L: Simd>(&self, level: L) -> Vec3x8<L>;
+    fn likely_separating_axis<L: Simd>(&self, level: L) -> Vec3x8<L>;
     /// Returns upper bounds of the distances of each child's points from its centre.
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
     /// Returns `max n·(x − centre)` over each child's points `x`.
@@ -30,7 +30,7 @@ pub(crate) trait Children {
 pub(crate) trait OtherNode {
     fn centre(&self) -> Vec3;
     /// Returns a unit vector that is likely to be a separating axis, or zero.
-    fn normal(&self) -> Vec3;
+    fn likely_separating_axis(&self) -> Vec3;
     /// Returns an upper bound of the distances of the node's points from its centre.
     fn radius(&self) -> f32;
     /// Returns `max n·(centre − y)` over the node's points `y`: the node's extent along −n.
@@ -50,7 +50,7 @@ pub(crate) trait OtherNode {
 /// Returns the lesser of the extents of a grown box and of a ball along n: `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`. The box
 /// has half extents hₖ along uₖ, and is grown by r.
 #[inline(always)]
-fn box_extent<L: Simd>(
+fn lesser_extent_of_box_and_ball<L: Simd>(
     n: Vec3x8<L>,
     axes: [Vec3x8<L>; 3],
     half: [f32x8<L>; 3],
@@ -69,7 +69,7 @@ impl Children for BoxGroup {
         Vec3x8::load(level, &self.centre)
     }
     #[inline(always)]
-    fn normal<L: Simd>(&self, level: L) -> Vec3x8<L> {
+    fn likely_separating_axis<L: Simd>(&self, level: L) -> Vec3x8<L> {
         Vec3x8::load(level, &self.axes[2])
     }
     #[inline(always)]
@@ -82,7 +82,7 @@ impl Children for BoxGroup {
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        let level = n.level();
+        let level = n.simd_level();
         let ([u, v, w], [x, y, z]) = (&self.axes, &self.half_extents);
         let axes = [
             Vec3x8::load(level, u),
@@ -94,12 +94,12 @@ impl Children for BoxGroup {
             load(level, &self.rounding_radius),
             load(level, &self.radius),
         ];
-        box_extent(n, axes, half, grown)
+        lesser_extent_of_box_and_ball(n, axes, half, grown)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         // The half size was measured in the same way.
-        load(n.level(), &self.half_extents[2]) + load(n.level(), &self.rounding_radius)
+        load(n.simd_level(), &self.half_extents[2]) + load(n.simd_level(), &self.rounding_radius)
     }
     #[inline(always)]
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
@@ -114,7 +114,7 @@ impl Children for TriangleGroup {
         (a + b + c) * splat(level, 1.0 / 3.0)
     }
     #[inline(always)]
-    fn normal<L: Simd>(&self, level: L) -> Vec3x8<L> {
+    fn likely_separating_axis<L: Simd>(&self, level: L) -> Vec3x8<L> {
         // The products are relative to the radius: the square of a small area would be lost in f32.
         let scale = splat(level, 1.0) / self.radius(level).max(LEAST_DIVISOR);
         let [a, b, c] = self.corners(level);
@@ -126,13 +126,13 @@ impl Children for TriangleGroup {
     }
     #[inline(always)]
     fn offset_from_nearest<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
-        let level = to.level();
+        let level = to.simd_level();
         let to = self.centre(level) + to;
         to - nearest_on_edges(self.corners(level), to)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        let level = n.level();
+        let level = n.simd_level();
         let [a, b, c] = self.corners(level);
         let highest = n.dot(a).max(n.dot(b)).max(n.dot(c));
         highest - n.dot(self.centre(level))
@@ -160,8 +160,8 @@ impl TriangleGroup {
 pub(crate) struct OtherBox {
     pub(crate) centre: Vec3,
     pub(crate) axes: [Vec3; 3],
-    pub(crate) half: [f32; 3],
-    pub(crate) rounding: f32,
+    pub(crate) half_extents: [f32; 3],
+    pub(crate) rounding_radius: f32,
     pub(crate) radius: f32,
     /// True if the node is a single piece.
     pub(crate) piece: bool,
@@ -173,7 +173,7 @@ impl OtherNode for OtherBox {
         self.centre
     }
     #[inline(always)]
-    fn normal(&self) -> Vec3 {
+    fn likely_separating_axis(&self) -> Vec3 {
         self.axes[2]
     }
     #[inline(always)]
@@ -182,23 +182,35 @@ impl OtherNode for OtherBox {
     }
     #[inline(always)]
     fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
-        let [u, v, w] = splat_vectors(offset.level(), self.axes);
-        let x = offset.dot(u).min(self.half[0]).max(-self.half[0]);
-        let y = offset.dot(v).min(self.half[1]).max(-self.half[1]);
-        let z = offset.dot(w).min(self.half[2]).max(-self.half[2]);
+        let [u, v, w] = splat_vectors(offset.simd_level(), self.axes);
+        let x = offset
+            .dot(u)
+            .min(self.half_extents[0])
+            .max(-self.half_extents[0]);
+        let y = offset
+            .dot(v)
+            .min(self.half_extents[1])
+            .max(-self.half_extents[1]);
+        let z = offset
+            .dot(w)
+            .min(self.half_extents[2])
+            .max(-self.half_extents[2]);
         offset - (u * x + v * y + w * z)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        let level = n.level();
-        let [x, y, z] = self.half;
+        let level = n.simd_level();
+        let [x, y, z] = self.half_extents;
         let half = [splat(level, x), splat(level, y), splat(level, z)];
-        let grown = [splat(level, self.rounding), splat(level, self.radius)];
-        box_extent(n, splat_vectors(level, self.axes), half, grown)
+        let grown = [
+            splat(level, self.rounding_radius),
+            splat(level, self.radius),
+        ];
+        lesser_extent_of_box_and_ball(n, splat_vectors(level, self.axes), half, grown)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        splat(n.level(), self.half[2] + self.rounding)
+        splat(n.simd_level(), self.half_extents[2] + self.rounding_radius)
     }
     #[inline(always)]
     fn is_piece(&self) -> bool {
@@ -221,7 +233,7 @@ impl OtherNode for OtherTriangle {
         self.centre
     }
     #[inline(always)]
-    fn normal(&self) -> Vec3 {
+    fn likely_separating_axis(&self) -> Vec3 {
         self.normal
     }
     #[inline(always)]
@@ -230,13 +242,13 @@ impl OtherNode for OtherTriangle {
     }
     #[inline(always)]
     fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
-        let level = offset.level();
+        let level = offset.simd_level();
         let from = Vec3x8::splat(level, Vec3::ZERO) - offset;
         offset + nearest_on_edges(splat_vectors(level, self.corners), from)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        let [a, b, c] = splat_vectors(n.level(), self.corners);
+        let [a, b, c] = splat_vectors(n.simd_level(), self.corners);
         -n.dot(a).min(n.dot(b)).min(n.dot(c))
     }
     #[inline(always)]

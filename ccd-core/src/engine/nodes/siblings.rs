@@ -14,7 +14,7 @@ pub(crate) struct Siblings {
     start_clock: f64,
     /// The split that created the pairs.
     split: Split,
-    first: NodeId,
+    first_child: NodeId,
     /// The children that are to be split before the other node, as bits.
     split_child_mask: u8,
     /// True if the other node is a single piece, and cannot be split.
@@ -56,7 +56,7 @@ impl Siblings {
             free_times: FreeTimes::single_in_first_lane(),
             start_clock: 0.0,
             split: Split::with_all_children(body, 0, 0),
-            first: 0,
+            first_child: 0,
             split_child_mask: 1,
             other_is_piece: false,
             revisit_mask: 0,
@@ -71,7 +71,7 @@ impl Siblings {
             free_times: expansion.bounds.free_times,
             start_clock: s,
             split,
-            first: expansion.first,
+            first_child: expansion.first_child,
             split_child_mask: expansion.bounds.split_child_mask,
             other_is_piece: expansion.bounds.other_is_piece,
             revisit_mask: expansion.bounds.revisit_mask,
@@ -101,16 +101,19 @@ impl Siblings {
     }
 
     fn pair(&self, lane: usize) -> [NodeId; 2] {
-        let child = self.first + lane as NodeId;
+        let child = self.first_child + lane as NodeId;
         match self.split.body {
-            WhichBody::A => [child, self.split.other],
-            WhichBody::B => [self.split.other, child],
+            WhichBody::A => [child, self.split.other_node],
+            WhichBody::B => [self.split.other_node, child],
         }
     }
 
     /// Marks the pairs for which `keeps_apart` returns `true` as finished, since they stay apart to the end. If it
     /// returns `false`, the pair will be split and not visited again: most of its children stay apart.
-    pub(crate) fn finish(&mut self, mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>) {
+    pub(crate) fn finish_if_kept_apart(
+        &mut self,
+        mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>,
+    ) {
         let horizon = (1.0 - self.start_clock) as f32;
         for lane in 0..LANES {
             // The other pairs are already certified to the end.
@@ -143,13 +146,16 @@ impl Siblings {
     /// Removes the pair with the least clock `s`, and returns its next step.
     // In the search's loop: a larger program, such as Python's module, would call it, and take 1 % more time.
     #[inline(always)]
-    pub(crate) fn take_least_pair(&mut self, problem: &Problem<'_>, s: f64) -> NextStep {
+    pub(crate) fn take_next_step(&mut self, problem: &Problem<'_>, s: f64) -> NextStep {
         let advanced = s > self.start_clock;
         let lane = self.free_times.finish_least_lane();
         let Split {
-            body, node, other, ..
+            body,
+            node,
+            other_node: other,
+            ..
         } = self.split;
-        let child = self.first + lane as NodeId;
+        let child = self.first_child + lane as NodeId;
         // A second visit at the same instant would give the same result.
         if advanced && self.revisit_mask >> lane & 1 == 1 {
             return NextStep::Split(Split {
@@ -159,7 +165,7 @@ impl Siblings {
         }
         let split_child = self.split_child_mask >> lane & 1 == 1;
         if self.other_is_piece && !split_child {
-            return measure_step(problem, self.pair(lane));
+            return step_to_measure_pieces(problem, self.pair(lane));
         }
         // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);
@@ -169,7 +175,7 @@ impl Siblings {
 }
 
 /// Returns the step that measures two nodes of a single piece each.
-fn measure_step(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> NextStep {
+fn step_to_measure_pieces(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> NextStep {
     let piece = |side: &BodyWithPath<'_>, node| side.body.tree().piece(node);
     match (piece(&problem.a, a), piece(&problem.b, b)) {
         (Some(a), Some(b)) => NextStep::MeasurePieces(a, b),

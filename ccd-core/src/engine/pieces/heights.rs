@@ -4,7 +4,7 @@ use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
-use crate::motion::track::{AngleSinCos, AxisMotion, RotatingVector, Track};
+use crate::motion::track::{AngleSinCos, MotionAlongAxis, RotatingVector, Track};
 use crate::problem::BodyWithPath;
 use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use glam::DVec3;
@@ -22,9 +22,9 @@ pub(crate) struct Heights<'a> {
     normal: DVec3,
     /// The unit axis about which the body turns.
     axis: DVec3,
-    axis_motion: AxisMotion,
+    motion_along_axis: MotionAlongAxis,
     angular_speed: f64,
-    speed: f64,
+    speed_bound: f64,
     /// The magnitude of the centre's acceleration.
     acceleration: f64,
     least_height: f64,
@@ -33,7 +33,7 @@ pub(crate) struct Heights<'a> {
     second_derivative: f64,
     /// A bound of the error of the lowest height of a piece of many points, which is searched for; 0 for few points. Times the angular speed, it bounds the
     /// error of the least rate.
-    support_error: f64,
+    support_error_bound: f64,
 }
 
 /// The height of one point along the axis, its rate, and a bound of the second derivative due to rotation. For many
@@ -55,7 +55,11 @@ pub(crate) struct PointTracks([(Track, f64); MAX_TRACKED_POINTS]);
 impl PointTracks {
     /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
     #[inline]
-    pub(crate) fn at(&self, angle: AngleSinCos, tau: f64) -> [PointHeight; MAX_TRACKED_POINTS] {
+    pub(crate) fn heights_at(
+        &self,
+        angle: AngleSinCos,
+        tau: f64,
+    ) -> [PointHeight; MAX_TRACKED_POINTS] {
         self.0.map(|(track, second_derivative)| PointHeight {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
@@ -80,15 +84,15 @@ impl<'a> Heights<'a> {
             centre: path.centre,
             normal,
             axis: path.axis,
-            axis_motion: AxisMotion::new(velocity, path.axis, path.rate, normal)
+            motion_along_axis: MotionAlongAxis::new(velocity, path.axis, path.rate, normal)
                 .with_acceleration(path.acceleration.dot(normal)),
             angular_speed: path.rate,
-            speed: length(velocity) + length(path.acceleration),
+            speed_bound: length(velocity) + length(path.acceleration),
             acceleration: length(path.acceleration),
             least_height: f64::INFINITY,
             point_tracks: PointTracks([(Track::default(), 0.0); MAX_TRACKED_POINTS]),
             second_derivative: 0.0,
-            support_error: 0.0,
+            support_error_bound: 0.0,
         };
         match piece.bounding_ball() {
             Some((middle, radius)) => heights.init_many_points(middle, radius),
@@ -99,7 +103,7 @@ impl<'a> Heights<'a> {
 
     fn init_few_points(&mut self) {
         let (mut least_height, mut farthest, mut few) = (f64::INFINITY, 0.0, self.point_tracks);
-        for (k, (track, arm)) in self.tracks().enumerate() {
+        for (k, (track, arm)) in self.tracks_and_arms().enumerate() {
             least_height = lesser(least_height, track.height_at(0.0, AngleSinCos::ZERO));
             farthest = greater(farthest, arm.length_squared());
             if let Some(rest) = few.0.get_mut(k..) {
@@ -107,7 +111,7 @@ impl<'a> Heights<'a> {
             }
         }
         (self.least_height, self.point_tracks) = (least_height, few);
-        self.speed += self.angular_speed * farthest.sqrt();
+        self.speed_bound += self.angular_speed * farthest.sqrt();
     }
 
     fn init_many_points(&mut self, middle: DVec3, radius: f64) {
@@ -119,17 +123,17 @@ impl<'a> Heights<'a> {
         }
         let arm = self.frame.rotation * (middle - self.centre);
         let farthest = (length(arm) + radius) * (1.0 + RATE_ERROR_F64);
-        self.speed += self.angular_speed * farthest;
+        self.speed_bound += self.angular_speed * farthest;
         self.second_derivative = self
-            .axis_motion
+            .motion_along_axis
             .second_derivative(length(self.axis.cross(arm)) + radius)
             * (1.0 + RATE_ERROR_F64);
-        self.support_error = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
+        self.support_error_bound = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
     }
 
     /// Returns an upper bound of the speed of any point at any time.
-    pub(crate) fn speed(&self) -> f64 {
-        self.speed
+    pub(crate) fn speed_bound(&self) -> f64 {
+        self.speed_bound
     }
 
     /// Returns the least height now.
@@ -141,7 +145,7 @@ impl<'a> Heights<'a> {
         !(self.angular_speed > 0.0)
     }
 
-    pub(crate) fn angle(&self, tau: f64) -> AngleSinCos {
+    pub(crate) fn angle_sin_cos(&self, tau: f64) -> AngleSinCos {
         if tau > 0.0 && !self.is_nonrotating() {
             AngleSinCos::new(self.angular_speed * tau)
         } else {
@@ -161,7 +165,7 @@ impl<'a> Heights<'a> {
             second_derivative: 0.0,
         };
         match self.piece.bounding_ball() {
-            Some(_) => self.bound_many_points(self.angle(tau), tau),
+            Some(_) => self.bound_many_points(self.angle_sin_cos(tau), tau),
             None => self
                 .point_heights_at(tau)
                 .fold(start, |bound, point| PointHeight {
@@ -174,13 +178,13 @@ impl<'a> Heights<'a> {
 
     /// Returns the largest descent of any point below [`Heights::least_height`] by rotation alone, up to `horizon`;
     /// `None` if there are many points.
-    pub(crate) fn max_descent_until(&self, horizon: f64) -> Option<f64> {
+    pub(crate) fn max_rotational_descent_until(&self, horizon: f64) -> Option<f64> {
         if self.piece.bounding_ball().is_some() {
             return None;
         }
-        let end = self.angle(horizon);
+        let end = self.angle_sin_cos(horizon);
         let least_height = self
-            .tracks()
+            .tracks_and_arms()
             .map(|(track, _)| track.least_rotational_height(horizon, end))
             .fold(f64::INFINITY, lesser);
         Some(self.least_height - least_height)
@@ -188,17 +192,17 @@ impl<'a> Heights<'a> {
 
     /// Returns the present rate of the points' heights without rotation, which is the same for all points.
     pub(crate) fn linear_rate(&self) -> f64 {
-        self.axis_motion.linear_rate()
+        self.motion_along_axis.linear_rate()
     }
 
     /// Returns the second derivative of the points' heights without rotation.
     pub(crate) fn linear_acceleration(&self) -> f64 {
-        self.axis_motion.linear_acceleration()
+        self.motion_along_axis.linear_acceleration()
     }
 
     /// Returns a lower bound of the second derivative of the points' heights without rotation.
     pub(crate) fn least_linear_acceleration(&self) -> f64 {
-        self.axis_motion.linear_acceleration() - RATE_ERROR_F64 * self.acceleration
+        self.motion_along_axis.linear_acceleration() - RATE_ERROR_F64 * self.acceleration
     }
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
@@ -214,8 +218,8 @@ impl<'a> Heights<'a> {
     }
 
     fn point_heights_at(&self, tau: f64) -> impl Iterator<Item = PointHeight> {
-        let angle = self.angle(tau);
-        self.tracks().map(move |(track, _)| PointHeight {
+        let angle = self.angle_sin_cos(tau);
+        self.tracks_and_arms().map(move |(track, _)| PointHeight {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
             second_derivative: track.second_derivative(),
@@ -225,18 +229,19 @@ impl<'a> Heights<'a> {
     fn bound_many_points(&self, angle: AngleSinCos, tau: f64) -> PointHeight {
         if self.is_nonrotating() {
             return PointHeight {
-                height: self.least_height + self.axis_motion.linear_displacement(tau),
-                rate: self.axis_motion.linear_rate() + self.axis_motion.linear_acceleration() * tau,
+                height: self.least_height + self.motion_along_axis.linear_displacement(tau),
+                rate: self.motion_along_axis.linear_rate()
+                    + self.motion_along_axis.linear_acceleration() * tau,
                 second_derivative: 0.0,
             };
         }
         // The normal, as seen from the turning body.
         let seen = RotatingVector::new(-self.axis, self.normal);
-        let (axis, derivative_length) = (seen.at(angle), seen.derivative_at(angle));
+        let (axis, derivative_length) = (seen.vector_at(angle), seen.derivative_at(angle));
         PointHeight {
-            height: self.lowest_track(axis).height_at(tau, angle) - self.support_error,
+            height: self.lowest_track(axis).height_at(tau, angle) - self.support_error_bound,
             rate: self.lowest_track(derivative_length).rate_at(tau, angle)
-                - self.angular_speed * self.support_error,
+                - self.angular_speed * self.support_error_bound,
             second_derivative: self.second_derivative,
         }
     }
@@ -246,18 +251,18 @@ impl<'a> Heights<'a> {
         let index = self
             .piece
             .extremal_point(self.frame.inverse_vector(-direction));
-        self.track(self.piece.points[index as usize]).0
+        self.track_and_arm(self.piece.points[index as usize]).0
     }
 
     /// Returns for each point its track and its arm from the centre of rotation.
-    fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
-        self.piece.points.iter().map(|&x| self.track(x))
+    fn tracks_and_arms(&self) -> impl Iterator<Item = (Track, DVec3)> {
+        self.piece.points.iter().map(|&x| self.track_and_arm(x))
     }
 
     #[inline]
-    fn track(&self, point: DVec3) -> (Track, DVec3) {
+    fn track_and_arm(&self, point: DVec3) -> (Track, DVec3) {
         let arm = self.frame.rotation * (point - self.centre);
-        (self.axis_motion.track(self.normal.dot(arm), arm), arm)
+        (self.motion_along_axis.track(self.normal.dot(arm), arm), arm)
     }
 }
 

@@ -46,7 +46,7 @@ impl Snapshot<'_> {
     ///
     /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
     /// between the faces there.
-    pub(crate) fn choose_plane_body(
+    pub(crate) fn choose_plane_state(
         &self,
         plane: &TouchingPlane,
         ids: [u32; 2],
@@ -64,7 +64,7 @@ impl Snapshot<'_> {
                 .then_some(level)
         };
         let time = |level: &TouchingPlaneState| {
-            self.touching_plane_time(level, from)
+            self.touching_plane_free_time(level, from)
                 .unwrap_or(f64::INFINITY)
         };
         [WhichBody::A, WhichBody::B]
@@ -77,7 +77,7 @@ impl Snapshot<'_> {
     }
 
     /// Returns a time for which the pieces certainly do not approach along the plane's normal; `None` if they never do.
-    pub(crate) fn touching_plane_time(
+    pub(crate) fn touching_plane_free_time(
         &self,
         level: &TouchingPlaneState,
         from: DVec3,

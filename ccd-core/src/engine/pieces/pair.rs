@@ -107,7 +107,7 @@ impl<C: Default + Clone> Pair<C> {
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
-                let inner = &mut meter.scratch_memory().overlap_polytope;
+                let inner = &mut meter.scratch_memory().expanding_polytope;
                 match overlap::decide_intersection(
                     &snapshot.pieces,
                     &checked,
@@ -124,7 +124,7 @@ impl<C: Default + Clone> Pair<C> {
             }
             let level = || {
                 let plane = problem.touching_plane.as_ref()?;
-                let level = snapshot.choose_plane_body(plane, ids, checked.witness_a)?;
+                let level = snapshot.choose_plane_state(plane, ids, checked.witness_a)?;
                 Some(ContactRule::TouchingPlane(level))
             };
             let goal = match self.contact_rule {
@@ -147,7 +147,7 @@ impl<C: Default + Clone> Pair<C> {
             ContactRule::Apart | ContactRule::Separated => (problem.gap(), false),
             ContactRule::InContactAtStart { floor } => (floor, true),
             ContactRule::TouchingPlane(level) => {
-                let free = snapshot.touching_plane_time(&level, checked.witness_a);
+                let free = snapshot.touching_plane_free_time(&level, checked.witness_a);
                 meter.stats.point_evaluations += snapshot.evaluations();
                 return step_from_free_time(s, free).unwrap_or_else(|| in_contact(&checked));
             }
@@ -171,9 +171,12 @@ impl<C: Default + Clone> Pair<C> {
             } else {
                 snapshot
             };
-            let level = began.choose_plane_body(plane, ids, checked.witness_a)?;
+            let level = began.choose_plane_state(plane, ids, checked.witness_a)?;
             self.contact_rule = ContactRule::TouchingPlane(level);
-            step_from_free_time(s, snapshot.touching_plane_time(&level, checked.witness_a))
+            step_from_free_time(
+                s,
+                snapshot.touching_plane_free_time(&level, checked.witness_a),
+            )
         });
         meter.stats.point_evaluations += snapshot.evaluations();
         match step {

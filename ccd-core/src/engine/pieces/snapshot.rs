@@ -9,7 +9,7 @@ use crate::engine::meter::Meter;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
-use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{APPROACH_DECREASE, RATE_ERROR_F64};
@@ -86,7 +86,7 @@ impl<'p> Snapshot<'p> {
             steps => ASSUMED_ORACLE_STEPS * steps,
         };
         match claim {
-            Ok(claim) => Some(separation::check(
+            Ok(claim) => Some(separation::check_claim(
                 &self.pieces,
                 &claim,
                 self.problem.rounding,
@@ -297,11 +297,13 @@ impl<'p> Snapshot<'p> {
             |relative_speed: f64| relative_speed * free > ROTATION_GAP_SHARE * plane.slack;
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
-            if uses_up(holder.relative_speed) && uses_up(holder.relative_speed_along(normal)) {
+            if uses_up(holder.relative_speed_bound)
+                && uses_up(holder.relative_speed_bound_along(normal))
+            {
                 let sweep =
                     PiecePastTurningPlane::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.slack, self.time_left());
-                self.count_evaluations(sweep.evaluations.get());
+                self.record_evaluations(sweep.evaluations.get());
                 longest = greater(longest, free?);
             }
         }
@@ -323,7 +325,7 @@ impl<'p> Snapshot<'p> {
         self.evaluations.get()
     }
 
-    fn count_evaluations(&self, points: u64) {
+    fn record_evaluations(&self, points: u64) {
         self.evaluations.set(self.evaluations.get() + points);
     }
 
@@ -343,7 +345,7 @@ impl<'p> Snapshot<'p> {
         let clock = self.clock;
         let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal, clock);
         let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
-        let rounding = RATE_ERROR_F64 * (a.speed() + b.speed());
+        let rounding = RATE_ERROR_F64 * (a.speed_bound() + b.speed_bound());
         let linear_acceleration = a.least_linear_acceleration() + b.least_linear_acceleration();
         let rounds = if a.is_nonrotating() && b.is_nonrotating() {
             1
@@ -362,22 +364,24 @@ impl<'p> Snapshot<'p> {
             gap.free_time()
         };
         let points = self.pieces.evaluations_per_search();
-        self.count_evaluations(points);
+        self.record_evaluations(points);
         let crossing = match (a.tracks_if_few_points(), b.tracks_if_few_points()) {
-            (Some(below), Some(above)) => first_crossing(self.time_left(), rounds, |tau| {
-                self.count_evaluations(points);
-                least_free_time(
-                    &above.at(b.angle(tau), tau),
-                    &below.at(a.angle(tau), tau),
-                    free,
-                )
-            }),
-            _ => first_crossing(self.time_left(), rounds, |tau| {
-                self.count_evaluations(points);
+            (Some(below), Some(above)) => {
+                first_possible_crossing(self.time_left(), rounds, |tau| {
+                    self.record_evaluations(points);
+                    least_free_time(
+                        &above.heights_at(b.angle_sin_cos(tau), tau),
+                        &below.heights_at(a.angle_sin_cos(tau), tau),
+                        free,
+                    )
+                })
+            }
+            _ => first_possible_crossing(self.time_left(), rounds, |tau| {
+                self.record_evaluations(points);
                 least_free_time_of_many_points(&b, &a, tau, free)
             }),
         }?;
-        if self.rotation_keeps_slack(&a, &b, slack) {
+        if self.stays_apart_despite_rotation(&a, &b, slack) {
             None
         } else {
             Some(crossing)
@@ -387,19 +391,25 @@ impl<'p> Snapshot<'p> {
     /// Returns whether the pieces certainly stay apart to the end, because rotation lowers their points by less than
     /// the slack that the straight motion leaves. Without this test, the steps towards the time of closest approach
     /// become ever shorter.
-    fn rotation_keeps_slack(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
+    fn stays_apart_despite_rotation(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.time_left();
         let displacement = least_linear_displacement(
             a.linear_rate() + b.linear_rate(),
             a.linear_acceleration() + b.linear_acceleration(),
             horizon,
         );
-        let left = slack + displacement - RATE_ERROR_F64 * (a.speed() + b.speed()) * horizon;
+        let left =
+            slack + displacement - RATE_ERROR_F64 * (a.speed_bound() + b.speed_bound()) * horizon;
         // Written so that NaN is not past.
         if (a.is_nonrotating() && b.is_nonrotating()) || !(left > 0.0) {
             return false;
         }
-        let descents = || Some(a.max_descent_until(horizon)? + b.max_descent_until(horizon)?);
+        let descents = || {
+            Some(
+                a.max_rotational_descent_until(horizon)?
+                    + b.max_rotational_descent_until(horizon)?,
+            )
+        };
         descents().is_some_and(|descents| left - descents > 0.0)
     }
 }

@@ -18,7 +18,9 @@ use crate::schedule::{BestFirst, Naive};
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::torus;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
-use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, body, distance, magnitude, rng, scene};
+use crate::tests::scene::{
+    Pcg64, RngExt, Scene, SceneKind, body, distance, random_power_of_ten, rng, scene,
+};
 use glam::DVec3;
 use std::time::Duration;
 
@@ -75,7 +77,7 @@ fn scene_within_margin(rng: &mut Pcg64, most: usize) -> Scene {
     scene.settings.margin = if rng.random_bool(0.5) {
         gap * rng.random_range(1.0..1.5)
     } else {
-        lesser(size * magnitude(rng, -3.0, 2.0), 1e11)
+        lesser(size * random_power_of_ten(rng, -3.0, 2.0), 1e11)
     };
     scene
 }

@@ -1,7 +1,7 @@
 //! Tests principal axes by the definition of an eigenvector.
 
 use super::{principal_axes, sin_cos_of_half_angle};
-use crate::tests::scene::{RngExt, direction, rng};
+use crate::tests::scene::{RngExt, random_direction, rng};
 use glam::{DVec3, dvec3};
 
 #[test]
@@ -23,9 +23,12 @@ fn axes_are_orthonormal_and_diagonalise_the_spread() {
     let mut rng = rng(4);
     for size in [1e-6, 1.0, 1e9] {
         let stretch = size * dvec3(1.0, 0.2, 0.01);
-        let frame = glam::DMat3::from_quat(glam::DQuat::from_axis_angle(direction(&mut rng), 1.0));
+        let frame = glam::DMat3::from_quat(glam::DQuat::from_axis_angle(
+            random_direction(&mut rng),
+            1.0,
+        ));
         let points: Vec<DVec3> = (0..500)
-            .map(|_| frame * (stretch * direction(&mut rng)) + stretch)
+            .map(|_| frame * (stretch * random_direction(&mut rng)) + stretch)
             .collect();
         let axes = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         let off = axes.transpose() * axes - glam::DMat3::IDENTITY;

@@ -1,9 +1,9 @@
 //! Compares lengths and unit vectors with double-double arithmetic, for all magnitudes.
 
-use super::{distance, length, normal, perpendicular_vector, unit};
+use super::{distance, length, normal, unit, vector_perpendicular_to_both};
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::DoubleDouble3;
-use crate::tests::scene::{Pcg64, RngExt, direction, rng};
+use crate::tests::scene::{Pcg64, RngExt, random_direction, rng};
 use glam::DVec3;
 
 /// Draws a number of either sign and of any magnitude below 2¹⁰⁰⁰, denormal numbers and zero included.
@@ -25,14 +25,14 @@ fn random_number_of_any_magnitude(rng: &mut Pcg64) -> f64 {
 }
 
 /// Draws a vector of any magnitude, with components of similar or different magnitudes.
-fn vector(rng: &mut Pcg64) -> DVec3 {
+fn random_vector(rng: &mut Pcg64) -> DVec3 {
     match rng.random_range(0..2) {
         0 => DVec3::new(
             random_number_of_any_magnitude(rng),
             random_number_of_any_magnitude(rng),
             random_number_of_any_magnitude(rng),
         ),
-        _ => direction(rng) * random_number_of_any_magnitude(rng),
+        _ => random_direction(rng) * random_number_of_any_magnitude(rng),
     }
 }
 
@@ -48,7 +48,7 @@ fn units_are_units_of_the_same_direction() {
     let mut rng = rng(31);
     let mut denormal = 0;
     for _ in 0..200_000 {
-        let v = vector(&mut rng);
+        let v = random_vector(&mut rng);
         let Some(n) = unit(v) else {
             assert_eq!(v, DVec3::ZERO);
             continue;
@@ -83,7 +83,7 @@ fn lengths_are_right() {
     assert_eq!(distance(DVec3::X * 1e-200, DVec3::X * -1e-200), 2e-200);
     let mut rng = rng(32);
     for _ in 0..100_000 {
-        let v = vector(&mut rng);
+        let v = random_vector(&mut rng);
         let largest = v.abs().max_element();
         if largest == 0.0 {
             continue;
@@ -103,7 +103,7 @@ fn lengths_are_right() {
 fn normals_are_those_of_triangles_of_any_size() {
     let mut rng = rng(33);
     for _ in 0..100_000 {
-        let (u, v) = (direction(&mut rng), direction(&mut rng));
+        let (u, v) = (random_direction(&mut rng), random_direction(&mut rng));
         if u.cross(v).length() < 0.1 {
             continue;
         }
@@ -118,7 +118,7 @@ fn normals_are_those_of_triangles_of_any_size() {
     assert_eq!(normal([DVec3::ZERO, DVec3::X, 3.0 * DVec3::X]), None);
     assert_eq!(normal([DVec3::X; 3]), None);
     assert_eq!(
-        perpendicular_vector(DVec3::X * 1e-300, DVec3::X),
+        vector_perpendicular_to_both(DVec3::X * 1e-300, DVec3::X),
         DVec3::ZERO
     );
 }

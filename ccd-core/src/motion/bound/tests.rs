@@ -8,7 +8,7 @@ use glam::DVec3;
 /// Tests that the rounding error of [`sound_bound`] is within the allowance for rates.
 #[test]
 fn worst_sound_bound() {
-    let found = WorstCaseSearch::of("RATE_F64, the sound bound", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("RATE_F64, the sound bound", 40_000).search(|tape| {
         let n = unit(tape.vector(-40..=0).into())?;
         let motion = Velocities {
             linear_velocity: DVec3::from(tape.vector(-30..=10)),

@@ -1,13 +1,13 @@
 use super::Gap;
 use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::DoubleDouble;
-use crate::tests::scene::{RngExt, magnitude, rng};
+use crate::tests::scene::{RngExt, random_power_of_ten, rng};
 use crate::tests::worst::{WorstCaseSearch, share};
 
 /// Compares free times, without their allowance for rounding, with the exact roots of quadratic equations.
 #[test]
 fn worst_free_time() {
-    let found = WorstCaseSearch::of("RATE_F64, a free time", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("RATE_F64, a free time", 40_000).search(|tape| {
         let gap = Gap {
             gap: tape.size(-200..=30),
             rate: tape.any_number(-60..=60),
@@ -38,13 +38,13 @@ fn a_free_time_of_parting_is_never_late_and_near() {
     let mut rng = rng(1);
     let (mut closes, mut near, mut stays) = (0, 0, 0);
     for _ in 0..100_000 {
-        let [gap, rate] = [0; 2].map(|_| magnitude(&mut rng, -12.0, 6.0));
+        let [gap, rate] = [0; 2].map(|_| random_power_of_ten(&mut rng, -12.0, 6.0));
         // The second derivative is that at which the gap just closes, or any other.
         let just = rate * rate / (2.0 * gap);
         let second_derivative = if rng.random_bool(0.5) {
-            just * (1.0 + magnitude(&mut rng, -16.0, 0.0) * rng.random_range(-1.0..1.0))
+            just * (1.0 + random_power_of_ten(&mut rng, -16.0, 0.0) * rng.random_range(-1.0..1.0))
         } else {
-            magnitude(&mut rng, -12.0, 6.0)
+            random_power_of_ten(&mut rng, -12.0, 6.0)
         };
         let found = Gap {
             gap,

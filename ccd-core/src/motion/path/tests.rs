@@ -6,7 +6,9 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::rounding::position_rounding;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation, rng,
+};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::{DMat3, DVec3};
 
@@ -14,23 +16,27 @@ use glam::{DMat3, DVec3};
 fn frames_are_the_poses_of_the_motion_less_the_origin() {
     let mut rng = rng(1);
     for _ in 0..2_000 {
-        let start = Pose::new(point_in_ball(&mut rng, 9.0), rotation(&mut rng)).unwrap();
-        let turn = match rng.random_range(0..3) {
-            0 => 0.0,
-            1 => magnitude(&mut rng, -12.0, -3.0),
-            _ => magnitude(&mut rng, -3.0, 1.6),
-        };
-        let duration = magnitude(&mut rng, -3.0, 3.0);
-        let motion = Motion::about(
-            start,
-            point_in_ball(&mut rng, 5.0) / duration,
-            direction(&mut rng) * turn / duration,
-            point_in_ball(&mut rng, 3.0),
+        let start = Pose::new(
+            random_point_in_ball(&mut rng, 9.0),
+            random_rotation(&mut rng),
         )
         .unwrap();
-        let origin = point_in_ball(&mut rng, 9.0);
+        let turn = match rng.random_range(0..3) {
+            0 => 0.0,
+            1 => random_power_of_ten(&mut rng, -12.0, -3.0),
+            _ => random_power_of_ten(&mut rng, -3.0, 1.6),
+        };
+        let duration = random_power_of_ten(&mut rng, -3.0, 3.0);
+        let motion = Motion::about(
+            start,
+            random_point_in_ball(&mut rng, 5.0) / duration,
+            random_direction(&mut rng) * turn / duration,
+            random_point_in_ball(&mut rng, 3.0),
+        )
+        .unwrap();
+        let origin = random_point_in_ball(&mut rng, 9.0);
         let path = Path::new(&motion, origin, duration);
-        let point = point_in_ball(&mut rng, 3.0);
+        let point = random_point_in_ball(&mut rng, 3.0);
         for s in [0.0, 0.3, 1.0, rng.random_range(0.0..1.0)] {
             let frame = path.frame(s);
             let truth = motion.pose(s * duration).transform_point(point) - origin;
@@ -51,7 +57,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
             );
         }
         // Points move at their distance from the axis times the rate, the farthest one the fastest.
-        let points = [point, point_in_ball(&mut rng, 3.0)];
+        let points = [point, random_point_in_ball(&mut rng, 3.0)];
         let place = |x| path.frame(0.4).point(x);
         let fastest = points.map(|x| path.velocity_at(place(x), 0.4).distance(path.velocity));
         let expected = greater(fastest[0], fastest[1]);
@@ -69,7 +75,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
 #[test]
 fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
     let mut rng = rng(2);
-    let start = Pose::new(DVec3::ONE, rotation(&mut rng)).unwrap();
+    let start = Pose::new(DVec3::ONE, random_rotation(&mut rng)).unwrap();
     let motion = Motion::new(start, DVec3::X, DVec3::ZERO).unwrap();
     let path = Path::new(&motion, DVec3::ZERO, 1.0);
     assert_eq!(path.frame(0.0).rotation, path.frame(0.9).rotation);
@@ -96,15 +102,20 @@ fn exact_position(path: &Path, s: DoubleDouble, x: DVec3) -> DoubleDouble3 {
 /// worst case that a search finds.
 #[test]
 fn worst_part() {
-    let found = WorstCaseSearch::of("place_rounding, part of a path", 4_000).search(
+    let found = WorstCaseSearch::new("place_rounding, part of a path", 4_000).search(
         |tape: &mut RandomCase| {
-            let start = Pose::new(tape.vector(-20..=10).map(f64::from), rotation(tape)).ok()?;
-            let spin = direction(tape) * tape.size(-10..=19);
+            let start =
+                Pose::new(tape.vector(-20..=10).map(f64::from), random_rotation(tape)).ok()?;
+            let spin = random_direction(tape) * tape.size(-10..=19);
             let centre = tape.vector(-20..=4);
             let motion = Motion::about(start, tape.vector(-20..=10), spin, centre).ok()?;
             let path = Path::new(&motion, DVec3::ZERO, 1.0);
             let path = path.with_acceleration(tape.vector(-20..=4).into());
-            let (from, time, share_of_time) = (tape.fraction(), tape.fraction(), tape.fraction());
+            let (from, time, share_of_time) = (
+                tape.next_fraction(),
+                tape.next_fraction(),
+                tape.next_fraction(),
+            );
             let to = from + (1.0 - from) * time;
             let arm = DVec3::from(tape.vector(-20..=4));
             let part = path.subpath([from, to]);
@@ -112,7 +123,7 @@ fn worst_part() {
             let s = begins + share_of_time * (ends - begins);
             let x = path.centre + arm;
             let error = exact_position(&part, share_of_time, x) - exact_position(&path, s, x);
-            let way = path.centre_at(0.0).length() + path.speed();
+            let way = path.centre_at(0.0).length() + path.speed_bound();
             let allowed = position_rounding(x.distance(path.centre), path.rate, way);
             Some(share(error.length().get(), allowed))
         },

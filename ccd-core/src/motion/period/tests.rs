@@ -4,7 +4,9 @@ use super::*;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::rounding::position_rounding;
-use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation, rng,
+};
 use glam::DVec3;
 
 #[test]
@@ -13,24 +15,28 @@ fn distances_change_by_no_more_than_said() {
     let (mut exact, mut drifting) = (0, 0);
     for number in 0..2_000 {
         let reach = 2.0;
-        let rate = TAU * magnitude(&mut rng, 0.5, 4.0);
+        let rate = TAU * random_power_of_ten(&mut rng, 0.5, 4.0);
         let ratio = [0.0, 1.0, 3.0 / 7.0, 0.5001, 1e-6][number % 5];
-        let velocity = point_in_ball(&mut rng, 1.0);
-        let drift =
-            point_in_ball(&mut rng, 1.0) * [0.0, magnitude(&mut rng, -6.0, 0.0)][number / 5 % 2];
-        let pull = point_in_ball(&mut rng, 1.0) * [0.0, 1.0][number / 10 % 2];
-        let spins = [rate, ratio * rate].map(|rate| rate * direction(&mut rng));
+        let velocity = random_point_in_ball(&mut rng, 1.0);
+        let drift = random_point_in_ball(&mut rng, 1.0)
+            * [0.0, random_power_of_ten(&mut rng, -6.0, 0.0)][number / 5 % 2];
+        let pull = random_point_in_ball(&mut rng, 1.0) * [0.0, 1.0][number / 10 % 2];
+        let spins = [rate, ratio * rate].map(|rate| rate * random_direction(&mut rng));
         let velocities = [velocity, velocity + drift];
         let mut paths = [0, 1].map(|k| {
-            let start = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
-            let centre = point_in_ball(&mut rng, 3.0);
+            let start = Pose::new(
+                random_point_in_ball(&mut rng, 3.0),
+                random_rotation(&mut rng),
+            )
+            .unwrap();
+            let centre = random_point_in_ball(&mut rng, 3.0);
             let motion = Motion::about(start, velocities[k], spins[k], centre).unwrap();
             Path::new(&motion, DVec3::ZERO, 1.0).with_acceleration(pull)
         });
         if number % 3 == 0 {
             paths.swap(0, 1);
         }
-        let points = paths.map(|path| path.centre + point_in_ball(&mut rng, reach));
+        let points = paths.map(|path| path.centre + random_point_in_ball(&mut rng, reach));
         let rounding = paths
             .iter()
             .map(|path| position_rounding(reach, path.rate, 10.0))

@@ -2,7 +2,7 @@
 
 use super::{Frame, Pose};
 use crate::error::InputError;
-use crate::tests::scene::{point_in_ball, rng, rotation};
+use crate::tests::scene::{random_point_in_ball, random_rotation, rng};
 use glam::{DQuat, DVec3};
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -10,8 +10,11 @@ use std::f64::consts::FRAC_1_SQRT_2;
 fn quaternions_of_any_length_name_the_same_orientation() {
     let mut rng = rng(1);
     for _ in 0..100 {
-        let q = rotation(&mut rng);
-        let (point, at) = (point_in_ball(&mut rng, 2.0), point_in_ball(&mut rng, 2.0));
+        let q = random_rotation(&mut rng);
+        let (point, at) = (
+            random_point_in_ball(&mut rng, 2.0),
+            random_point_in_ball(&mut rng, 2.0),
+        );
         let unit = Pose::new(at, q).unwrap().transform_point(point);
         for scale in [1e-305, 1e-170, 1e-150, 1e-3, 7.0, 1e150, 1e160, 1e307] {
             let pose = Pose::new(at, q * scale).unwrap();
@@ -59,10 +62,15 @@ fn invalid_poses_are_refused() {
 fn frames_undo_and_combine() {
     let mut rng = rng(2);
     for _ in 0..200 {
-        let poses =
-            [(); 2].map(|()| Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap());
+        let poses = [(); 2].map(|()| {
+            Pose::new(
+                random_point_in_ball(&mut rng, 3.0),
+                random_rotation(&mut rng),
+            )
+            .unwrap()
+        });
         let [a, b] = poses.map(Frame::from);
-        let point = point_in_ball(&mut rng, 3.0);
+        let point = random_point_in_ball(&mut rng, 3.0);
         assert!(a.point(point).distance(poses[0].transform_point(point)) < 1e-14);
         assert!(a.inverse_point(a.point(point)).distance(point) < 1e-14);
         assert!(a.inverse_vector(a.rotation * point).distance(point) < 1e-14);

@@ -6,29 +6,32 @@ use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
 use crate::settings::Instructions;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation,
+    rng,
+};
 use crate::vectorize;
 use fearless_simd::Simd;
 use glam::DVec3;
 
 fn path(rng: &mut Pcg64) -> Path {
-    let start = Pose::new(point_in_ball(rng, 9.0), rotation(rng)).unwrap();
+    let start = Pose::new(random_point_in_ball(rng, 9.0), random_rotation(rng)).unwrap();
     let turn = match rng.random_range(0..3) {
         0 => 0.0,
-        1 => magnitude(rng, -12.0, -3.0),
-        _ => magnitude(rng, -3.0, 1.6),
+        1 => random_power_of_ten(rng, -12.0, -3.0),
+        _ => random_power_of_ten(rng, -3.0, 1.6),
     };
-    let spin = direction(rng) * turn;
+    let spin = random_direction(rng) * turn;
     let motion = Motion::about(
         start,
-        point_in_ball(rng, 5.0),
+        random_point_in_ball(rng, 5.0),
         spin,
-        point_in_ball(rng, 3.0),
+        random_point_in_ball(rng, 3.0),
     )
     .unwrap();
-    let path = Path::new(&motion, point_in_ball(rng, 9.0), 1.0);
+    let path = Path::new(&motion, random_point_in_ball(rng, 9.0), 1.0);
     if rng.random_bool(0.5) {
-        path.with_acceleration(point_in_ball(rng, 5.0))
+        path.with_acceleration(random_point_in_ball(rng, 5.0))
     } else {
         path
     }
@@ -49,7 +52,7 @@ fn relative_state_of_point<L: Simd>(
         velocity,
         acceleration,
         spin,
-    } = view.at(level, s);
+    } = view.state_at(level, s);
     let point = rotation * (PackedVector::new(level, point) - view.other_centre(level));
     let acceleration = acceleration.unwrap_or(PackedVector::new(level, DVec3::ZERO));
     [
@@ -71,9 +74,9 @@ fn each_body_sees_what_the_frames_of_both_say() {
         for (own, other) in [(&paths.0, &paths.1), (&paths.1, &paths.0)] {
             let view = RelativePath::new(own, other);
             for s in [0.0, 1.0, rng.random_range(0.0..1.0)] {
-                let x = point_in_ball(&mut rng, 3.0);
+                let x = random_point_in_ball(&mut rng, 3.0);
                 let [best, plain] = [Instructions::Best, Instructions::Baseline]
-                    .map(|set| vectorize!(set.level(), level => relative_state_of_point(level, &view, s, x)));
+                    .map(|set| vectorize!(set.simd_level(), level => relative_state_of_point(level, &view, s, x)));
                 assert_eq!(best, plain);
                 let frame = own.frame(s);
                 let expected = [
@@ -99,9 +102,12 @@ fn packed_products_are_those_of_the_library() {
     let mut rng = rng(4);
     for _ in 0..1_000 {
         let frame = path(&mut rng).frame(rng.random_range(0.0..1.0));
-        let (v, w) = (point_in_ball(&mut rng, 5.0), point_in_ball(&mut rng, 5.0));
+        let (v, w) = (
+            random_point_in_ball(&mut rng, 5.0),
+            random_point_in_ball(&mut rng, 5.0),
+        );
         let products = |set: Instructions| {
-            vectorize!(set.level(), level => {
+            vectorize!(set.simd_level(), level => {
                 let columns = padded_columns(frame.rotation).map(|column| PackedVector::load(level, &column));
                 let matrix = PackedMatrix::new(columns);
                 let (a, b) = (PackedVector::new(level, v), PackedVector::new(level, w));

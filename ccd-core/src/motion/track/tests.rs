@@ -2,14 +2,16 @@
 
 mod sin_cos;
 
-use super::{AngleSinCos, AxisMotion, Track};
+use super::{AngleSinCos, MotionAlongAxis, Track};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{Velocities, published_bound, sound_bound};
-use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::DoubleDouble;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
+use crate::tests::scene::{
+    Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, rng,
+};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
@@ -18,31 +20,36 @@ impl Track {
     /// Creates the track along `n` of a point that starts at `height`, with the vector `arm` from the motion's centre.
     fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
         let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
-        AxisMotion::new(motion.linear_velocity, axis, length(motion.spin), n).track(height, arm)
+        MotionAlongAxis::new(motion.linear_velocity, axis, length(motion.spin), n)
+            .track(height, arm)
     }
 
     /// Returns the height after `tau`.
-    fn at(&self, tau: f64) -> f64 {
+    fn height_after(&self, tau: f64) -> f64 {
         self.height_at(tau, AngleSinCos::new(self.angular_speed * tau))
     }
 }
 
 /// Draws a motion, an axis and an arm of about unit size.
-fn setting(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
+fn random_motion_axis_and_arm(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
     let turn = match rng.random_range(0..5) {
         0 => 0.0,
-        1 => magnitude(rng, -9.0, -1.0),
-        _ => magnitude(rng, -1.0, 1.6),
+        1 => random_power_of_ten(rng, -9.0, -1.0),
+        _ => random_power_of_ten(rng, -1.0, 1.6),
     };
     let fast = match rng.random_range(0..4) {
         0 => 0.0,
-        _ => magnitude(rng, -3.0, 2.0),
+        _ => random_power_of_ten(rng, -3.0, 2.0),
     };
     let motion = Velocities {
-        linear_velocity: direction(rng) * fast,
-        spin: direction(rng) * turn,
+        linear_velocity: random_direction(rng) * fast,
+        spin: random_direction(rng) * turn,
     };
-    (motion, direction(rng), point_in_ball(rng, 1.0))
+    (
+        motion,
+        random_direction(rng),
+        random_point_in_ball(rng, 1.0),
+    )
 }
 
 fn height(motion: &Velocities, n: DVec3, height: f64, arm: DVec3, tau: f64) -> f64 {
@@ -54,36 +61,43 @@ fn height(motion: &Velocities, n: DVec3, height: f64, arm: DVec3, tau: f64) -> f
 fn a_track_is_the_height_of_a_turning_point() {
     let mut rng = rng(1);
     for _ in 0..10_000 {
-        let (motion, n, arm) = setting(&mut rng);
+        let (motion, n, arm) = random_motion_axis_and_arm(&mut rng);
         let track = Track::new(&motion, n, 0.3, arm);
         let tau = rng.random_range(0.0..1.0);
         let size = 2.0 + motion.linear_velocity.length() + motion.spin.length();
-        let off = track.at(tau) - height(&motion, n, 0.3, arm, tau);
+        let off = track.height_after(tau) - height(&motion, n, 0.3, arm, tau);
         assert!(off.abs() < 1e-14 * size, "{off:e} {motion:?}");
     }
 }
 
 /// Returns the highest point of a track over `[0, tau]`, from dense samples refined by golden section search.
-fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
+fn sampled_max_height(track: &Track, turns: f64, tau: f64) -> f64 {
     let samples = 64 + (64.0 * turns) as usize;
     let at = |k: usize| tau * k as f64 / samples as f64;
-    let best = (0..=samples).max_by(|&i, &j| track.at(at(i)).total_cmp(&track.at(at(j))));
+    let best = (0..=samples).max_by(|&i, &j| {
+        track
+            .height_after(at(i))
+            .total_cmp(&track.height_after(at(j)))
+    });
     let best = best.unwrap();
     let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(samples)));
     for _ in 0..100 {
         let (first, second) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
-        if track.at(first) < track.at(second) {
+        if track.height_after(first) < track.height_after(second) {
             low = first;
         } else {
             high = second;
         }
     }
-    greater(track.at(0.5 * (low + high)), track.at(at(best)))
+    greater(
+        track.height_after(0.5 * (low + high)),
+        track.height_after(at(best)),
+    )
 }
 
 /// Returns the time within a duration of 1 at which a track may reach a limit; `None` if it stays below.
-fn crossing_time(track: &Track, limit: f64) -> Option<f64> {
-    first_crossing(1.0, 64, |tau| {
+fn possible_crossing_time(track: &Track, limit: f64) -> Option<f64> {
+    first_possible_crossing(1.0, 64, |tau| {
         let angle = AngleSinCos::new(track.angular_speed * tau);
         Gap {
             gap: limit - track.height_at(tau, angle),
@@ -99,15 +113,15 @@ fn the_first_crossing_is_never_late_and_near() {
     let mut rng = rng(3);
     let (mut crossings, mut near) = (0, 0);
     for _ in 0..10_000 {
-        let (motion, n, arm) = setting(&mut rng);
+        let (motion, n, arm) = random_motion_axis_and_arm(&mut rng);
         let track = Track::new(&motion, n, 0.0, arm);
-        let limit = magnitude(&mut rng, -6.0, 0.3);
+        let limit = random_power_of_ten(&mut rng, -6.0, 0.3);
         let samples = 64 + (64.0 * motion.spin.length()) as usize;
         let at = |k: usize| k as f64 / samples as f64;
-        let truth = (1..=samples).find(|&k| track.at(at(k)) >= limit);
-        let found = crossing_time(&track, limit);
+        let truth = (1..=samples).find(|&k| track.height_after(at(k)) >= limit);
+        let found = possible_crossing_time(&track, limit);
         let until = found.unwrap_or(1.0);
-        let before = highest(&track, motion.spin.length() * until, until);
+        let before = sampled_max_height(&track, motion.spin.length() * until, until);
         let size = 1.0 + motion.linear_velocity.length() + motion.spin.length();
         assert!(
             before <= limit + 1e-14 * size,
@@ -121,7 +135,7 @@ fn the_first_crossing_is_never_late_and_near() {
         let (mut low, mut high) = (at(k - 1), at(k));
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
-            if track.at(middle) < limit {
+            if track.height_after(middle) < limit {
                 low = middle;
             } else {
                 high = middle;
@@ -165,9 +179,9 @@ fn free_times_use_up_the_gap_and_no_more() {
     for _ in 0..10_000 {
         let sign = [-1.0, 0.0, 1.0][rng.random_range(0..3)];
         let gap = Gap {
-            gap: magnitude(&mut rng, -9.0, 3.0),
-            rate: sign * magnitude(&mut rng, -6.0, 6.0),
-            second_derivative: magnitude(&mut rng, -6.0, 6.0),
+            gap: random_power_of_ten(&mut rng, -9.0, 3.0),
+            rate: sign * random_power_of_ten(&mut rng, -6.0, 6.0),
+            second_derivative: random_power_of_ten(&mut rng, -6.0, 6.0),
         };
         let tau = gap.free_time();
         let rest = gap.gap - gap.rate * tau - 0.5 * gap.second_derivative * tau * tau;
@@ -178,7 +192,7 @@ fn free_times_use_up_the_gap_and_no_more() {
 }
 
 /// Returns the arm that is farthest along a direction.
-fn farthest(arms: &[DVec3], c: DVec3) -> DVec3 {
+fn farthest_arm_along(arms: &[DVec3], c: DVec3) -> DVec3 {
     let farther = |a: &DVec3, b: &DVec3| c.dot(*a).total_cmp(&c.dot(*b));
     arms.iter().copied().max_by(farther).unwrap()
 }
@@ -189,12 +203,14 @@ fn the_sound_bound_holds_over_intervals() {
     let mut rng = rng(6);
     let mut beaten = 0;
     for _ in 0..2_000 {
-        let (motion, n, _) = setting(&mut rng);
-        let arms: Vec<DVec3> = (0..8).map(|_| point_in_ball(&mut rng, 1.0)).collect();
+        let (motion, n, _) = random_motion_axis_and_arm(&mut rng);
+        let arms: Vec<DVec3> = (0..8)
+            .map(|_| random_point_in_ball(&mut rng, 1.0))
+            .collect();
         let axis = motion.spin.normalize_or_zero();
         let reach = arms.iter().map(|r| r.reject_from_normalized(axis).length());
         let bound = sound_bound(&motion, n, reach.fold(0.0, greater));
-        let instant = published_bound(&motion, n, |c| farthest(&arms, c));
+        let instant = published_bound(&motion, n, |c| farthest_arm_along(&arms, c));
         let turning = instant - motion.linear_velocity.dot(n).abs();
         let most = greater(0.0, bound - motion.linear_velocity.dot(n));
         assert!(turning <= most + 1e-12 * (1.0 + bound.abs() + instant));
@@ -228,7 +244,7 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     let ball = 0.1;
     let gap = wall - ball;
     // The bound is the fastest advance of the tips, and of the ball about the centre, which does not advance.
-    let allowed = gap / published_bound(&motion, DVec3::Y, |c| farthest(&tips, c));
+    let allowed = gap / published_bound(&motion, DVec3::Y, |c| farthest_arm_along(&tips, c));
     let reach = tips[0].length();
     let contact = (length.atan2(width) + (wall / reach).asin()) / 3.0;
     assert!(allowed > 1.0, "a step of {allowed} passes the whole motion");
@@ -240,9 +256,11 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     assert!(
         tracks
             .iter()
-            .all(|track| highest(track, turns, step) < wall)
+            .all(|track| sampled_max_height(track, turns, step) < wall)
     );
-    let first = tracks.iter().filter_map(|track| crossing_time(track, wall));
+    let first = tracks
+        .iter()
+        .filter_map(|track| possible_crossing_time(track, wall));
     let first = first.fold(f64::INFINITY, lesser);
     assert!(
         first <= contact && first > 0.98 * contact,
@@ -255,14 +273,16 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
     let mut rng = rng(12);
     let (mut past_trough, mut before_trough) = (0, 0);
     for _ in 0..20_000 {
-        let (mut motion, n, arm) = setting(&mut rng);
+        let (mut motion, n, arm) = random_motion_axis_and_arm(&mut rng);
         motion.linear_velocity = DVec3::ZERO;
         let track = Track::new(&motion, n, 0.3, arm);
         let horizon = rng.random_range(0.0..1.0);
         let least =
             track.least_rotational_height(horizon, AngleSinCos::new(track.angular_speed * horizon));
         let times = (0..=400).map(|k| horizon * f64::from(k) / 400.0);
-        let seen = times.map(|tau| track.at(tau)).fold(f64::INFINITY, lesser);
+        let seen = times
+            .map(|tau| track.height_after(tau))
+            .fold(f64::INFINITY, lesser);
         // Samples are rounded, too.
         let rounding = 1e-15 * (1.0 + track.angular_speed);
         assert!(least <= seen + rounding, "{least} {seen} {track:?}");
@@ -270,7 +290,8 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         let step = horizon / 400.0;
         let missed = track.second_derivative() * step * step + 1e-13 * (1.0 + track.angular_speed);
         assert!(seen - least <= missed, "{seen} {least} {track:?}");
-        if least < track.at(horizon) - missed && least < track.at(0.0) - missed {
+        if least < track.height_after(horizon) - missed && least < track.height_after(0.0) - missed
+        {
             past_trough += 1;
         } else {
             before_trough += 1;
@@ -286,7 +307,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
 /// heights, and is allowed for there.
 #[test]
 fn worst_least_until() {
-    let found = WorstCaseSearch::of("RATE_F64, least heights of points", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("RATE_F64, least heights of points", 40_000).search(|tape| {
         let track = Track {
             height: 0.0,
             linear_rate: 0.0,
@@ -298,7 +319,7 @@ fn worst_least_until() {
         // The angle is arbitrary, or next to the lowest point of the circle.
         let trough = (-track.q).atan2(-track.p).rem_euclid(TAU);
         let horizon = match tape.index_below(2) {
-            0 => tape.fraction(),
+            0 => tape.next_fraction(),
             _ => lesser(1.0, tape.number_near(trough / track.angular_speed)),
         };
         let turn = track.angular_speed * horizon;
@@ -327,7 +348,7 @@ fn worst_least_until() {
 /// rounding is an error of heights: it moves no height by more than twice as much, whatever the rotation.
 #[test]
 fn worst_bend() {
-    let found = WorstCaseSearch::of("RATE_F64, bends of points", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("RATE_F64, bends of points", 40_000).search(|tape| {
         let track = Track {
             height: 0.0,
             linear_rate: 0.0,

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::math::order::greater;
-use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng};
+use crate::tests::scene::{
+    RngExt, random_direction, random_point_in_ball, random_power_of_ten, rng,
+};
 use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
 
@@ -17,7 +19,7 @@ fn largest_deviation_share(trajectory: &dyn Trajectory, from: f64, to: f64, reac
     for k in 0..=16 {
         let t = from + (to - from) * f64::from(k) / 16.0;
         let [true_pose, near] = [trajectory.pose(t).unwrap(), stretch.pose(t - from)];
-        let x = centre + reach * direction(&mut rng);
+        let x = centre + reach * random_direction(&mut rng);
         let off = true_pose.transform_point(x) - near.transform_point(x);
         worst = greater(worst, off.length() / bound);
     }
@@ -31,7 +33,7 @@ fn smooth_trajectories_stray_by_no_more_than_their_accelerations_allow() {
     for _ in 0..3_000 {
         let swing = SwingingTrajectory::draw(&mut rng, 3.0);
         let from = rng.random_range(0.0..2.0);
-        let to = from + magnitude(&mut rng, -6.0, 0.0);
+        let to = from + random_power_of_ten(&mut rng, -6.0, 0.0);
         let found = largest_deviation_share(&swing, from, to, rng.random_range(0.0..2.0));
         assert!(found <= 1.0, "{found} of {swing:?} from {from} to {to}");
         tightest = greater(tightest, found);
@@ -44,11 +46,11 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
     let mut rng = rng(2);
     for _ in 0..2_000 {
         let start = Pose::new(
-            point_in_ball(&mut rng, 9.0),
-            crate::tests::scene::rotation(&mut rng),
+            random_point_in_ball(&mut rng, 9.0),
+            crate::tests::scene::random_rotation(&mut rng),
         );
-        let spin = magnitude(&mut rng, -2.0, 3.0) * direction(&mut rng);
-        let [velocity, centre] = [(); 2].map(|()| point_in_ball(&mut rng, 3.0));
+        let spin = random_power_of_ten(&mut rng, -2.0, 3.0) * random_direction(&mut rng);
+        let [velocity, centre] = [(); 2].map(|()| random_point_in_ball(&mut rng, 3.0));
         let motion = Motion::about(start.unwrap(), velocity, spin, centre).unwrap();
         let whole = motion.stretch(0.0, 1.0).unwrap();
         assert_eq!(whole, Stretch::exact(motion));
@@ -111,7 +113,7 @@ fn deviations_after_times_whose_square_is_zero_are_bounded() {
         linear_acceleration: acceleration,
         angular_acceleration: acceleration,
     }
-    .deviation_after(time);
+    .deviation_bound_after(time);
     for bound in [stray.shift, stray.turn] {
         assert!((0.5e-20..0.500_001e-20).contains(&bound), "{bound:e}");
     }

@@ -3,7 +3,7 @@
 
 use super::front::{Front, FrontPair, Node};
 use super::hull_pair::{FeatureOwners, HullTreePair};
-use super::reach::AxisDistances;
+use super::reach::AxisDistanceCache;
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -14,7 +14,7 @@ use crate::math::order::lesser;
 use crate::motion::bound::VelocityBound;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
-use crate::tuning::{JOIN_DISTANCE_RATIO, SPLIT_OVERLAP};
+use crate::tuning::{JOIN_DISTANCE_RATIO, MIN_OVERLAP_TO_SPLIT};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
@@ -25,7 +25,7 @@ pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
     pub(super) hulls: HullTreePair<'p>,
     pub(super) bound: VelocityBound,
     pub(super) front: &'s mut Front<O::Cache>,
-    pub(super) axis_distances: &'s mut AxisDistances,
+    pub(super) axis_distance_cache: &'s mut AxisDistanceCache,
     pub(super) proven_facts: &'s ProvenFacts,
     pub(super) oracle: &'s mut O,
     pub(super) meter: &'s mut Meter,
@@ -34,17 +34,17 @@ pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
 /// The results at a clock so far, and the pairs that may improve them.
 struct DescentState {
     /// An upper bound of the distance of the two bodies.
-    distance: f64,
+    distance_bound: f64,
     /// The nearest pair of pieces in contact.
     contact: Option<Contact>,
     /// The pairs that may have to be split, as a heap with the nearest first.
-    open: BinaryHeap<OpenPair>,
+    open_pairs: BinaryHeap<OpenPair>,
 }
 
 /// A pair of the front that may have to be split, with a lower bound of its distance.
 struct OpenPair {
     lower: f64,
-    at: u32,
+    front_index: u32,
 }
 
 impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
@@ -54,19 +54,23 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
     pub(super) fn step(&mut self, s: f64) -> ControlFlow<Outcome, f64> {
         let snapshot = Snapshot::from_pieces(self.problem, self.hulls.hulls([0, 0]), s);
         let mut found = DescentState {
-            distance: f64::INFINITY,
+            distance_bound: f64::INFINITY,
             contact: None,
-            open: BinaryHeap::new(),
+            open_pairs: BinaryHeap::new(),
         };
-        for at in self.front.leaves() {
+        for at in self.front.leaf_indices() {
             if self.front.node(at).stays_apart() {
                 continue;
             }
             self.measure(&snapshot, at, &mut found)?;
         }
-        while let Some(OpenPair { lower, at }) = found.open.pop() {
+        while let Some(OpenPair {
+            lower,
+            front_index: at,
+        }) = found.open_pairs.pop()
+        {
             // Written so that a pair with NaN is split.
-            if lower >= found.distance {
+            if lower >= found.distance_bound {
                 break;
             }
             let Some(first) = self.front.split(self.hulls, at) else {
@@ -79,7 +83,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             return ControlFlow::Break(self.proven_facts.contact(self.problem, contact, s));
         }
         let next = self.front.clock();
-        self.join(&snapshot, &mut found, next)?;
+        self.merge_far_pairs(&snapshot, &mut found, next)?;
         ControlFlow::Continue(next)
     }
 
@@ -90,9 +94,9 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         at: u32,
         found: &mut DescentState,
     ) -> ControlFlow<Outcome> {
-        if let Err(reason) = self.meter.count_visit(self.problem) {
+        if let Err(reason) = self.meter.count_visit_and_check_limits(self.problem) {
             return ControlFlow::Break(Outcome::unresolved(
-                self.problem.time(snapshot.clock),
+                self.problem.time_of_clock(snapshot.clock),
                 reason,
             ));
         }
@@ -115,19 +119,19 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         let depth = snapshot.relative_overlap_along_centre_line();
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
-        if depth.is_some_and(|depth| depth > SPLIT_OVERLAP) {
+        if depth.is_some_and(|depth| depth > MIN_OVERLAP_TO_SPLIT) {
             self.meter.stats.point_evaluations += snapshot.pieces.evaluations_per_search();
-            found.open.push(node.reset_unmeasured(at, s));
+            found.open_pairs.push(node.reset_unmeasured(at, s));
             return;
         }
         let Some(checked) = snapshot.query_oracle(self.oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
-            found.open.push(node.reset_unmeasured(at, s));
+            found.open_pairs.push(node.reset_unmeasured(at, s));
             return;
         };
         let reaches = self
-            .axis_distances
-            .distances_of_pair(problem, node.pair, &snapshot);
+            .axis_distance_cache
+            .max_axis_distances(problem, node.pair, &snapshot);
         let free = snapshot.free_time_along_axis(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
         node.feature_owners = self.hulls.feature_owners(node.pair, &checked.claim);
@@ -139,13 +143,16 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         // The distance bound is that of the pieces below the nodes, which are not in contact.
         let settled = node.feature_owners == FeatureOwners::Pieces && checked.upper > contact;
         if settled && apart {
-            found.distance = lesser(found.distance, checked.upper);
+            found.distance_bound = lesser(found.distance_bound, checked.upper);
         }
         // If a pair stays apart, all pairs below it do, whatever their distance.
         let done = apart && (settled || node.stays_apart());
-        if !(done || checked.lower >= found.distance) {
+        if !(done || checked.lower >= found.distance_bound) {
             let lower = checked.lower;
-            found.open.push(OpenPair { lower, at });
+            found.open_pairs.push(OpenPair {
+                lower,
+                front_index: at,
+            });
         }
     }
 
@@ -162,8 +169,8 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         };
         let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
         let reaches = self
-            .axis_distances
-            .distances_of_pair(problem, node.pair, &snapshot);
+            .axis_distance_cache
+            .max_axis_distances(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
         let step = pair.advance_with(
@@ -172,7 +179,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             self.meter,
             |snapshot, checked, kept| {
                 node.lower = checked.lower;
-                found.distance = lesser(found.distance, checked.upper);
+                found.distance_bound = lesser(found.distance_bound, checked.upper);
                 snapshot.free_time_along_axis(checked, kept, bound, reaches)
             },
         );
@@ -190,7 +197,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
 
     /// Replaces far pairs of the front by the pair that covers them, if that makes neither the distance nor the step
     /// smaller. The pair that covers both must be as far apart as the bodies, and apart until the next clock.
-    fn join(
+    fn merge_far_pairs(
         &mut self,
         snapshot: &Snapshot<'p>,
         found: &mut DescentState,
@@ -200,8 +207,8 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         if self.problem.start == StartPolicy::Leave {
             return ControlFlow::Continue(());
         }
-        let distance = found.distance;
-        for (at, first) in self.front.parents_of_leaves() {
+        let distance = found.distance_bound;
+        for (at, first) in self.front.joinable_pairs() {
             let far = [first, first + 1]
                 .into_iter()
                 .all(|child| self.front.node(child).lower >= JOIN_DISTANCE_RATIO * distance);
@@ -226,14 +233,17 @@ impl<C> Node<C> {
         (self.lower, self.feature_owners, self.clock) =
             (f64::NEG_INFINITY, FeatureOwners::BothBridges, s);
         let lower = self.lower;
-        OpenPair { lower, at }
+        OpenPair {
+            lower,
+            front_index: at,
+        }
     }
 }
 
 impl DescentState {
     fn record_contact(&mut self, contact: Contact) {
         let separation = &contact.separation;
-        self.distance = lesser(self.distance, separation.upper);
+        self.distance_bound = lesser(self.distance_bound, separation.upper);
         let nearest = self.contact.get_or_insert(contact);
         if separation.lower < nearest.separation.lower {
             *nearest = contact;
@@ -246,7 +256,7 @@ impl DescentState {
 impl Ord for OpenPair {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.lower.total_cmp(&self.lower);
-        nearer.then(other.at.cmp(&self.at))
+        nearer.then(other.front_index.cmp(&self.front_index))
     }
 }
 

@@ -63,7 +63,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Returns the leaves, in the order of the tree.
-    pub(super) fn leaves(&self) -> Vec<u32> {
+    pub(super) fn leaf_indices(&self) -> Vec<u32> {
         let mut leaves = Vec::with_capacity(self.leaf_count);
         self.walk(|at, node| {
             if node.children.is_none() {
@@ -85,7 +85,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Returns the pairs whose children are both leaves and do not stay apart to the end, each with its first child.
-    pub(super) fn parents_of_leaves(&self) -> Vec<(u32, u32)> {
+    pub(super) fn joinable_pairs(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
         self.walk(|at, node| {
             if let Some(first) = node.children

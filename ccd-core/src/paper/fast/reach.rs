@@ -4,13 +4,13 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::problem::Problem;
 
 #[derive(Debug, Default)]
-pub(super) struct AxisDistances {
+pub(super) struct AxisDistanceCache {
     query: u64,
     /// The cached distances by body and node, each with the number of its query.
     cached_distances: [Vec<(u64, f64)>; 2],
 }
 
-impl AxisDistances {
+impl AxisDistanceCache {
     /// Invalidates all cached distances.
     pub(super) fn invalidate(&mut self) {
         self.query += 1;
@@ -18,7 +18,7 @@ impl AxisDistances {
 
     /// Returns for both nodes of a pair the largest distance of their points from the axis of rotation; `snapshot` has
     /// their hulls.
-    pub(super) fn distances_of_pair(
+    pub(super) fn max_axis_distances(
         &mut self,
         problem: &Problem<'_>,
         pair: [u32; 2],

@@ -18,7 +18,8 @@ use crate::schedule::Naive;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{
-    MotionThroughPose, Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation,
+    MotionThroughPose, Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten,
+    random_rotation, rng,
 };
 use glam::DVec3;
 
@@ -75,7 +76,7 @@ struct Scene {
 
 impl Scene {
     fn new(rng: &mut Pcg64) -> Self {
-        let way = direction(rng);
+        let way = random_direction(rng);
         let (clock, near) = if rng.random_bool(0.4) {
             (0.0, rng.random_range(0.0..0.4))
         } else {
@@ -84,16 +85,16 @@ impl Scene {
         let motion = |rng: &mut Pcg64, place: DVec3| {
             let passage = MotionThroughPose {
                 clock,
-                rotation: rotation(rng),
+                rotation: random_rotation(rng),
                 place,
                 middle: DVec3::ZERO,
-                velocity: point_in_ball(rng, 8.0),
+                velocity: random_point_in_ball(rng, 8.0),
                 spin: if rng.random_bool(0.3) {
                     DVec3::ZERO
                 } else {
-                    point_in_ball(rng, 9.0)
+                    random_point_in_ball(rng, 9.0)
                 },
-                centre: point_in_ball(rng, 1.0),
+                centre: random_point_in_ball(rng, 1.0),
             };
             passage.motion()
         };
@@ -105,7 +106,7 @@ impl Scene {
             }),
             motions: [motion(rng, DVec3::ZERO), motion(rng, near * way)],
             settings: Settings {
-                tolerance: magnitude(rng, -7.0, -2.0),
+                tolerance: random_power_of_ten(rng, -7.0, -2.0),
                 margin: if rng.random_bool(0.2) { 0.1 } else { 0.0 },
                 ..Settings::DEFAULT
             },
@@ -252,7 +253,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe() {
         let answer = solve(&scene.problem());
         let time = match answer.outcome {
             Outcome::Contact { time, .. } => time,
-            Outcome::Free { .. } => scene.problem().time(1.0),
+            Outcome::Free { .. } => scene.problem().time_of_clock(1.0),
             _ => continue,
         };
         let mut last = 0.0;
@@ -291,7 +292,7 @@ fn false_claims_and_give_ups_never_make_it_late() {
             .map(|k| f64::from(k) / 256.0)
             .find(|&s| distance(&problem, s) <= problem.margin);
         let lie = Claim {
-            axis: direction(&mut rng),
+            axis: random_direction(&mut rng),
             a: ConvexCombination::point(rng.random_range(0..3)),
             b: ConvexCombination::point(rng.random_range(0..3)),
         };

@@ -2,7 +2,7 @@
 
 use super::contacts::{ProvenGap, StretchResult};
 use super::drive::{Question, search_stretches};
-use super::lengths::{cut_if_too_long, length};
+use super::lengths::{choose_next_length, cut_if_too_long};
 use super::motions::{Span, StretchMotions};
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit, Outcome};
@@ -70,8 +70,8 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
             return Ok(ControlFlow::Break(touching_as_contact(found)));
         }
         let scratch = &mut self.schedule.scratch;
-        let length = 2.0 * length(stretches, motions, seen, oracle, scratch)?;
-        if stretches.cut_out_around(motions.span, motions.time(seen.0), length) {
+        let length = 2.0 * choose_next_length(stretches, motions, seen, oracle, scratch)?;
+        if stretches.cut_out_around(motions.span, motions.query_time(seen.0), length) {
             return Ok(ControlFlow::Continue(()));
         }
         let stalled = self

@@ -28,13 +28,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let answer = match query.settings.clearance {
             Some(distance) => self.decide_clearance_along(query, distance, oracle)?,
-            None => self.least_distance_of_bodies_along(&query.for_distances(), oracle)?,
+            None => self.search_least_distance_of_bodies_along(&query.for_distances(), oracle)?,
         };
         Ok(answer.widened_by_excess(query.excess()))
     }
 
     /// Computes bounds of the least distance of the bodies, without a correction for their excess over the shapes.
-    fn least_distance_of_bodies_along(
+    fn search_least_distance_of_bodies_along(
         &mut self,
         query: &Query<'_>,
         oracle: &mut O,
@@ -42,7 +42,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut closest = ClosestApproachSearch {
             schedule: self,
             query,
-            found: LeastDistanceSoFar::new(query),
+            least_distance_so_far: LeastDistanceSoFar::new(query),
         };
         search_stretches(&mut closest, query, oracle)
     }
@@ -72,17 +72,17 @@ impl<O: DistanceOracle> DepthFirst<O> {
 struct ClosestApproachSearch<'s, 'q, 'a, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
     query: &'q Query<'a>,
-    found: LeastDistanceSoFar,
+    least_distance_so_far: LeastDistanceSoFar,
 }
 
 impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     /// Tries to prove a lower bound of the least distance over the whole query, if the next such attempt is due.
-    fn prepare(
+    fn before_stretch(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<(), InputError> {
-        let found = &mut self.found;
+        let found = &mut self.least_distance_so_far;
         let work = stretches.stats.work();
         let (Some(rung), Ok(left)) = (
             found
@@ -118,13 +118,13 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let Some(time) = stretches.end_at_proven_stretch_if_too_long(motions) else {
             return Ok(false);
         };
-        let distance_at_time = self.distance_at_time(stretches, oracle, time)?;
+        let distance_at_time = self.measure_at_time(stretches, oracle, time)?;
         let Some(distance_at_time) = distance_at_time
-            .filter(|distance_at_time| distance_at_time.increases_from_end(motions, time))
+            .filter(|distance_at_time| distance_at_time.distance_increases_from_end(motions, time))
         else {
             return Ok(false);
         };
-        let length = distance_at_time.length(motions);
+        let length = distance_at_time.stretch_length(motions);
         Ok(motions.is_worth_a_cut(length)
             && stretches.cut_out_around(motions.span, time, 2.0 * length))
     }
@@ -136,11 +136,13 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
-        let (found, query) = (&mut self.found, self.query);
+        let (found, query) = (&mut self.least_distance_so_far, self.query);
         // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
         // the upper bound.
-        let beyond = found.upper() + motions.total_deviation + 2.0 * problem.tolerance;
-        let answer = self.schedule.least_distance_below(problem, beyond, oracle);
+        let beyond = found.upper() + motions.total_deviation_bound + 2.0 * problem.tolerance;
+        let answer = self
+            .schedule
+            .search_least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.result {
             Err(FartherThanCutoff { lower }) => StretchDistance::for_distant_motions(lower),
@@ -168,15 +170,18 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             found.lower = lesser(found.lower, lower);
             stretches.record_proven_stretch(motions);
         } else if !self.cut_where_nearest(stretches, oracle, motions, &seen)? {
-            let stalled = self
-                .found
-                .unresolved(query, stretches, motions.span, Limit::Stalled);
+            let stalled = self.least_distance_so_far.unresolved(
+                query,
+                stretches,
+                motions.span,
+                Limit::Stalled,
+            );
             return Ok(ControlFlow::Break(stalled));
         }
-        if self.found.upper() > tolerance {
+        if self.least_distance_so_far.upper() > tolerance {
             return Ok(ControlFlow::Continue(()));
         }
-        self.found.lower = 0.0;
+        self.least_distance_so_far.lower = 0.0;
         self.on_end(stretches, oracle).map(ControlFlow::Break)
     }
 
@@ -186,7 +191,8 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         span: Span,
         limit: Limit,
     ) -> Answer {
-        self.found.unresolved(self.query, stretches, span, limit)
+        self.least_distance_so_far
+            .unresolved(self.query, stretches, span, limit)
     }
 
     fn on_end(
@@ -194,9 +200,11 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let nearest = self.found.nearest(self.query, stretches);
+        let nearest = self
+            .least_distance_so_far
+            .nearest_answer(self.query, stretches);
         if meet_after_start(&nearest.outcome, nearest.tolerance) {
-            self.answer_or_overlap(stretches, oracle, nearest)
+            self.check_start_overlap(stretches, oracle, nearest)
         } else {
             Ok(nearest)
         }
@@ -205,17 +213,19 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
 
 impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     /// Returns `nearest`, or the answer that the bodies overlap if they overlap at the start.
-    fn answer_or_overlap(
+    fn check_start_overlap(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
         nearest: Answer,
     ) -> Result<Answer, InputError> {
-        let Ok((pose, terms)) = stretches.motions_at(0.0)? else {
+        let Ok((pose, terms)) = stretches.motions_and_settings_at(0.0)? else {
             return Ok(nearest);
         };
         let problem = pose.problem(self.query, &terms)?;
-        let start = self.schedule.least_distance_of_bodies(&problem, oracle);
+        let start = self
+            .schedule
+            .search_least_distance_of_bodies(&problem, oracle);
         stretches.add(&start.stats);
         Ok(Answer {
             outcome: match start.outcome {
@@ -235,7 +245,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         motions: &StretchMotions,
         seen: &StretchDistance,
     ) -> Result<bool, InputError> {
-        let time = motions.time(seen.time);
+        let time = motions.query_time(seen.time);
         let Query {
             settings: terms,
             duration,
@@ -253,9 +263,9 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
             stretches.push(beyond);
             return Ok(is_cut);
         }
-        let length = match self.distance_at_time(stretches, oracle, time)? {
+        let length = match self.measure_at_time(stretches, oracle, time)? {
             Some(distance_at_time) => greater(
-                distance_at_time.length(motions),
+                distance_at_time.stretch_length(motions),
                 motions.length_for_rate(distance_at_time.rate.abs()),
             ),
             None => motions.length_for_deviation(DEVIATION_SHARE * terms.tolerance),
@@ -265,26 +275,28 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
 
     /// Measures the distance of the bodies at one time, and records it if it is the least so far. Returns `None` if the
     /// bodies overlap, or if a limit is reached.
-    fn distance_at_time(
+    fn measure_at_time(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
         time: f64,
-    ) -> Result<Option<DistanceAtTime>, InputError> {
-        let Ok((pose, terms)) = stretches.motions_at(time)? else {
+    ) -> Result<Option<DeviationLimitAndRate>, InputError> {
+        let Ok((pose, terms)) = stretches.motions_and_settings_at(time)? else {
             return Ok(None);
         };
         let problem = pose.problem(self.query, &terms)?;
-        let answer = self.schedule.least_distance_of_bodies(&problem, oracle);
+        let answer = self
+            .schedule
+            .search_least_distance_of_bodies(&problem, oracle);
         stretches.stats.add(&answer.stats);
         let Outcome::LeastDistance { contact, .. } = answer.outcome else {
             return Ok(None);
         };
-        let found = &mut self.found;
+        let found = &mut self.least_distance_so_far;
         found.record_contact(time, pose.contact(contact));
-        let rounding = 2.0 * pose.total_deviation;
+        let rounding = 2.0 * pose.total_deviation_bound;
         let least = greater(terms.tolerance, rounding);
-        Ok(Some(DistanceAtTime {
+        Ok(Some(DeviationLimitAndRate {
             deviation_limit: greater(least, contact.separation.upper - found.upper()),
             rate: -pose.approach_rate(0.0, &contact),
         }))
@@ -292,7 +304,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
 }
 
 /// A measurement of the bodies at one time, from which the length of stretches near that time is chosen.
-struct DistanceAtTime {
+struct DeviationLimitAndRate {
     /// The deviation limit for stretches near that time: the excess of the measured distance over the least distance
     /// found, but at least the tolerance. Stretches are made so short that their deviations are a share of it.
     deviation_limit: f64,
@@ -300,13 +312,13 @@ struct DistanceAtTime {
     rate: f64,
 }
 
-impl DistanceAtTime {
-    fn length(&self, motions: &StretchMotions) -> f64 {
+impl DeviationLimitAndRate {
+    fn stretch_length(&self, motions: &StretchMotions) -> f64 {
         motions.length_for_deviation(DEVIATION_SHARE * self.deviation_limit)
     }
 
     /// Returns whether the distance increases from the given end of the stretch towards its middle.
-    fn increases_from_end(&self, motions: &StretchMotions, end: f64) -> bool {
+    fn distance_increases_from_end(&self, motions: &StretchMotions, end: f64) -> bool {
         if end > motions.span.from {
             self.rate <= 0.0
         } else {

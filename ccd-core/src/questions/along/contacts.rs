@@ -59,7 +59,7 @@ impl ProvenGap {
                 StretchResult::Done(ControlFlow::Continue(()))
             }
             Outcome::Unresolved(known) => {
-                let until = motions.time(known.safe_until);
+                let until = motions.query_time(known.safe_until);
                 let answer = self.unresolved(stretches, until, known.limit);
                 StretchResult::Done(ControlFlow::Break(answer))
             }
@@ -118,7 +118,7 @@ impl ProvenGap {
     ) -> Result<Answer, InputError> {
         let at = |time: f64, contact| Outcome::contact_at(time, motions.contact(contact));
         let outcome = match outcome {
-            Outcome::Contact { time, contact } => at(motions.time(time), contact),
+            Outcome::Contact { time, contact } => at(motions.query_time(time), contact),
             Outcome::Touching { contact } => at(motions.span.from, contact),
             Outcome::Overlapping { .. } if stretches.starts_at_initial_poses(motions)? => outcome,
             // Bodies that were apart until then overlap by no more than their deviations.

@@ -17,7 +17,7 @@ pub(super) trait Question<O: DistanceOracle> {
     }
 
     /// Does work that concerns the whole query; called before each stretch is searched.
-    fn prepare(
+    fn before_stretch(
         &mut self,
         _stretches: &mut WaitingStretches<'_, '_>,
         _oracle: &mut O,
@@ -67,14 +67,15 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
 ) -> Result<Answer, InputError> {
     let stretches = &mut WaitingStretches::new(query);
     loop {
-        question.prepare(stretches, oracle)?;
+        question.before_stretch(stretches, oracle)?;
         let Some(span) = stretches.next() else {
             return question.on_end(stretches, oracle);
         };
-        let (motions, terms) = match stretches.motions(span, question.takes_accelerations())? {
-            Ok(motions) => motions,
-            Err(limit) => return Ok(question.on_limit(stretches, span, limit)),
-        };
+        let (motions, terms) =
+            match stretches.motions_and_settings(span, question.takes_accelerations())? {
+                Ok(motions) => motions,
+                Err(limit) => return Ok(question.on_limit(stretches, span, limit)),
+            };
         if question.cut_if_too_long(stretches, &motions, oracle)? {
             continue;
         }

@@ -2,7 +2,7 @@
 
 use super::contacts::{ProvenGap, StretchResult};
 use super::drive::{Question, search_stretches};
-use super::lengths::{cut_if_too_long, length};
+use super::lengths::{choose_next_length, cut_if_too_long};
 use super::motions::{Span, StretchMotions};
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit};
@@ -66,11 +66,11 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for FirstContactSearch
             return Ok(ControlFlow::Break(found));
         }
         let rest = Span {
-            from: motions.time(s),
+            from: motions.query_time(s),
             ..motions.span
         };
         let scratch = self.schedule.scratch();
-        let length = length(stretches, motions, (s, contact), oracle, scratch)?;
+        let length = choose_next_length(stretches, motions, (s, contact), oracle, scratch)?;
         // A much shorter stretch also has much smaller deviations.
         let is_short = rest.length() <= lesser(length, 0.5 * motions.span.length());
         if is_short || !stretches.cut(rest, length) {

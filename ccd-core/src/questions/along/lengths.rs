@@ -40,7 +40,7 @@ pub(super) fn cut_if_too_long<O: DistanceOracle>(
 }
 
 /// Chooses the length of the next stretch to search, after the motions of a stretch were found in contact.
-pub(super) fn length<O: DistanceOracle>(
+pub(super) fn choose_next_length<O: DistanceOracle>(
     stretches: &mut WaitingStretches<'_, '_>,
     motions: &StretchMotions,
     (time, seen): (f64, Option<Contact>),

@@ -11,7 +11,7 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::rounding::RETIMED_POSE_ERROR_F64;
 use crate::settings::{QuerySettings, StartPolicy};
-use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, TOLERANCE_PER_DEVIATION};
+use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, MIN_TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
 
 /// A stretch of time within a query.
@@ -25,7 +25,7 @@ pub(super) struct Span {
 
 impl Span {
     /// Returns the stretch of length 0 at the start of this stretch.
-    pub(super) fn start(self) -> Self {
+    pub(super) fn start_span(self) -> Self {
         Span {
             end: self.from,
             ..self
@@ -47,7 +47,7 @@ impl Span {
 pub(super) struct StretchMotions {
     pub(super) stretches: [Stretch; 2],
     /// The sum of the deviations of both bodies.
-    pub(super) total_deviation: f64,
+    pub(super) total_deviation_bound: f64,
     pub(super) span: Span,
 }
 
@@ -65,7 +65,7 @@ impl StretchMotions {
             deviation.at(bodies[k].body.tree().max_distance_from(motion.centre()))
         };
         Ok(StretchMotions {
-            total_deviation: rounded_up_sum(stray(0), stray(1)),
+            total_deviation_bound: rounded_up_sum(stray(0), stray(1)),
             stretches,
             span,
         })
@@ -76,8 +76,10 @@ impl StretchMotions {
         let time = self.span.length();
         for stretch in &mut self.stretches {
             let far = 0.5 * (time * (time * length(stretch.acceleration)));
-            self.total_deviation =
-                rounded_up_sum(self.total_deviation, far * (1.0 + RETIMED_POSE_ERROR_F64));
+            self.total_deviation_bound = rounded_up_sum(
+                self.total_deviation_bound,
+                far * (1.0 + RETIMED_POSE_ERROR_F64),
+            );
             stretch.acceleration = DVec3::ZERO;
         }
         self
@@ -91,15 +93,16 @@ impl StretchMotions {
         let [a, b] = &self.stretches;
         let most = MAX_COORDINATE - query.settings.margin;
         // Written so that NaN is too much.
-        self.total_deviation >= 0.0
-            && self.total_deviation <= most
+        self.total_deviation_bound >= 0.0
+            && self.total_deviation_bound <= most
             && far(a) <= most
             && far(b) <= most
     }
 
     /// Estimates the length of a stretch that has a given deviation. Deviations shrink with a power of the length.
     pub(super) fn length_for_deviation(&self, stray: f64) -> f64 {
-        self.span.length() * (stray / self.total_deviation).powf(1.0 / self.deviation_exponent())
+        self.span.length()
+            * (stray / self.total_deviation_bound).powf(1.0 / self.deviation_exponent())
     }
 
     /// Estimates the length of the stretch whose deviation is `DEVIATION_SHARE` times its change of distance, if the
@@ -107,7 +110,7 @@ impl StretchMotions {
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole
-            * (DEVIATION_SHARE * rate * whole / self.total_deviation)
+            * (DEVIATION_SHARE * rate * whole / self.total_deviation_bound)
                 .powf(1.0 / (self.deviation_exponent() - 1.0))
     }
 
@@ -146,11 +149,11 @@ impl StretchMotions {
         query: &Query<'a>,
         terms: &QuerySettings<'a>,
     ) -> Result<Problem<'a>, InputError> {
-        let tolerance = self.tolerance(terms.tolerance);
+        let tolerance = self.motion_tolerance(terms.tolerance);
         // Both tolerances have the same middle: the gap that is proven.
         let beyond = 0.5 * greater(terms.tolerance - tolerance, 0.0);
         let terms = QuerySettings {
-            margin: terms.margin + beyond + self.total_deviation,
+            margin: terms.margin + beyond + self.total_deviation_bound,
             tolerance,
             start: StartPolicy::Report,
             ..*terms
@@ -167,31 +170,31 @@ impl StretchMotions {
     /// Returns the tolerance for the motions: the tolerance for the bodies minus four times the deviations, or a least
     /// tolerance if too little is left. Two deviations are lost on either side of its middle: for the gap that the
     /// motions keep, and for the contact that they show.
-    fn tolerance(&self, whole: f64) -> f64 {
+    fn motion_tolerance(&self, whole: f64) -> f64 {
         // Written so that without deviations the result is the whole tolerance, to the last bit.
-        let left = whole - 4.0 * self.total_deviation;
-        if self.total_deviation == 0.0 || left >= (1.0 - 4.0 * DEVIATION_SHARE) * whole {
+        let left = whole - 4.0 * self.total_deviation_bound;
+        if self.total_deviation_bound == 0.0 || left >= (1.0 - 4.0 * DEVIATION_SHARE) * whole {
             return left;
         }
         // Too little is left for a contact. Distances blurred by deviations need not be known better.
         let least = greater(
             (1.0 - 4.0 * DEVIATION_SHARE) * whole,
-            TOLERANCE_PER_DEVIATION * self.total_deviation,
+            MIN_TOLERANCE_PER_DEVIATION * self.total_deviation_bound,
         );
         greater(least, LEAST_TOLERANCE)
     }
 
     /// Converts a distance of the motions to a lower bound of the bodies' distance.
     pub(super) fn lower_bound_for_bodies(&self, distance: f64) -> f64 {
-        if self.total_deviation > 0.0 {
-            (distance - self.total_deviation).next_down()
+        if self.total_deviation_bound > 0.0 {
+            (distance - self.total_deviation_bound).next_down()
         } else {
             distance
         }
     }
 
     /// Converts a time of the stretch to a time of the query, rounded so that it is never late.
-    pub(super) fn time(&self, time: f64) -> f64 {
+    pub(super) fn query_time(&self, time: f64) -> f64 {
         let Span { from, end: to, .. } = self.span;
         if from > 0.0 {
             lesser(greater(from, (from + time).next_down()), to)
@@ -203,7 +206,7 @@ impl StretchMotions {
     /// Widens the bounds of a contact of the motions so that they hold for the bodies.
     pub(super) fn contact(&self, contact: Contact) -> Contact {
         let Separation { lower, upper, .. } = contact.separation;
-        let upper = rounded_up_sum(upper, self.total_deviation);
+        let upper = rounded_up_sum(upper, self.total_deviation_bound);
         contact.with_bounds(self.lower_bound_for_bodies(lower), upper)
     }
 }

@@ -5,7 +5,7 @@ use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::run_metered;
 use crate::engine::scratch::Scratch;
-use crate::engine::start::outcome_at_start;
+use crate::engine::start::search_contact_at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
@@ -105,7 +105,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
 
     /// Returns the approximate motions in a stretch and the remaining settings, or the limit that is reached. The
     /// stretch is cut until the deviations are in the range of a query's lengths.
-    pub(super) fn motions(
+    pub(super) fn motions_and_settings(
         &mut self,
         mut span: Span,
         accelerations: bool,
@@ -134,7 +134,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// share of the tolerance, or a cut would not reduce them.
     pub(super) fn accepts_contact(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         Ok(
-            motions.total_deviation <= DEVIATION_SHARE * self.query.settings.tolerance
+            motions.total_deviation_bound <= DEVIATION_SHARE * self.query.settings.tolerance
                 || self.is_limited_by_rounding(motions)?,
         )
     }
@@ -142,8 +142,8 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// Returns whether the deviations are at most twice those of a stretch of length 0, so that they are mostly
     /// rounding and a cut does not help.
     fn is_limited_by_rounding(&self, motions: &StretchMotions) -> Result<bool, InputError> {
-        let least = StretchMotions::new(self.query, motions.span.start())?;
-        Ok(motions.total_deviation <= 2.0 * least.total_deviation)
+        let least = StretchMotions::new(self.query, motions.span.start_span())?;
+        Ok(motions.total_deviation_bound <= 2.0 * least.total_deviation_bound)
     }
 
     /// Returns whether the motions of a stretch start at the poses of the bodies at time 0, up to rounding.
@@ -152,7 +152,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         motions: &StretchMotions,
     ) -> Result<bool, InputError> {
         Ok(motions.span.from == 0.0
-            && (motions.total_deviation == 0.0 || self.is_limited_by_rounding(motions)?))
+            && (motions.total_deviation_bound == 0.0 || self.is_limited_by_rounding(motions)?))
     }
 
     /// Schedules a search of the pose at time 0, and after it the stretch again. An overlap of the stretch's motions at
@@ -170,13 +170,13 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         }
         self.was_start_examined = true;
         self.waiting_spans
-            .extend([motions.span, motions.span.start()]);
+            .extend([motions.span, motions.span.start_span()]);
         Ok(true)
     }
 
     /// Records a stretch as the last one in which the bodies are proven apart, with its deviation.
     pub(super) fn record_proven_stretch(&mut self, motions: &StretchMotions) {
-        self.last_proven_stretch = Some((motions.span, motions.total_deviation));
+        self.last_proven_stretch = Some((motions.span, motions.total_deviation_bound));
     }
 
     /// Returns the time at which a stretch adjoins the last proven stretch, if its deviations are much larger than
@@ -189,7 +189,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         let Span { from, end: to, .. } = motions.span;
         let beside = [(from, proven.end), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
-        (motions.total_deviation > CUT_DEVIATION_RATIO * stray).then_some(time)
+        (motions.total_deviation_bound > CUT_DEVIATION_RATIO * stray).then_some(time)
     }
 
     /// Makes all later work count towards the budget of the part that contains a stretch.
@@ -199,7 +199,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     }
 
     /// Returns the poses of both bodies at a time and the remaining settings, or the limit that is reached.
-    pub(super) fn motions_at(
+    pub(super) fn motions_and_settings_at(
         &self,
         time: f64,
     ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
@@ -210,7 +210,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         let span = Span {
             from: time,
             end: time,
-            part_index: self.spent_work.current_part,
+            part_index: self.spent_work.current_part_index,
         };
         Ok(Ok((StretchMotions::new(self.query, span)?, terms)))
     }
@@ -223,13 +223,13 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         oracle: &mut O,
         scratch: &mut Scratch,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Ok((motions, terms)) = self.motions_at(time)? else {
+        let Ok((motions, terms)) = self.motions_and_settings_at(time)? else {
             return Ok(None);
         };
         let problem = motions.problem(self.query, &terms)?.for_distances();
         let answer = run_metered(&problem, oracle, scratch, |oracle, meter| {
             (
-                outcome_at_start(&problem, f64::INFINITY, oracle, meter),
+                search_contact_at_start(&problem, f64::INFINITY, oracle, meter),
                 0.0,
             )
         });
@@ -338,7 +338,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
 struct WorkByPart {
     work_by_part: Vec<u64>,
     /// The index of the part to whose budget work counts at present.
-    current_part: usize,
+    current_part_index: usize,
     /// The total work of all parts at the time when work began to count towards the present part.
     work_at_part_start: u64,
 }
@@ -347,7 +347,7 @@ impl Default for WorkByPart {
     fn default() -> Self {
         WorkByPart {
             work_by_part: vec![0],
-            current_part: 0,
+            current_part_index: 0,
             work_at_part_start: 0,
         }
     }
@@ -356,13 +356,13 @@ impl Default for WorkByPart {
 impl WorkByPart {
     /// Returns the work spent on the present part; `work` is the total of all parts.
     fn work_spent_on_current_part(&self, work: u64) -> u64 {
-        self.work_by_part[self.current_part] + (work - self.work_at_part_start)
+        self.work_by_part[self.current_part_index] + (work - self.work_at_part_start)
     }
 
     /// Makes all later work count towards the budget of the part of index `part`; `work` is the total of all parts.
     fn switch_to_part(&mut self, part: usize, work: u64) {
-        self.work_by_part[self.current_part] = self.work_spent_on_current_part(work);
-        (self.current_part, self.work_at_part_start) = (part, work);
+        self.work_by_part[self.current_part_index] = self.work_spent_on_current_part(work);
+        (self.current_part_index, self.work_at_part_start) = (part, work);
     }
 
     /// Adds a part with a budget of its own and returns its index, or returns `part` if there are too many parts

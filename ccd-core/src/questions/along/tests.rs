@@ -15,9 +15,11 @@ use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::query::Query;
 use crate::schedule::{BestFirst, DepthFirst, Naive, Schedule};
 use crate::settings::Settings;
-use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{Pcg64, RngExt, SceneKind, SoupKind, body, magnitude, rng, scene, soup};
+use crate::tests::scene::{
+    Pcg64, RngExt, SceneKind, SoupKind, body, random_power_of_ten, rng, scene, soup,
+};
 use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
 
@@ -42,7 +44,7 @@ impl SwingingBodies {
             soups,
             trajectories: swings,
             settings: Settings {
-                tolerance: magnitude(rng, -6.0, -2.0),
+                tolerance: random_power_of_ten(rng, -6.0, -2.0),
                 margin: [0.0, 0.1][rng.random_range(0..2)],
                 ..Settings::DEFAULT
             },
@@ -62,7 +64,7 @@ impl SwingingBodies {
         });
         let pairs = a
             .iter()
-            .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
+            .flat_map(|x| b.iter().map(move |y| nearest_points(x, y).distance));
         pairs.fold(f64::INFINITY, lesser)
     }
 
@@ -125,7 +127,7 @@ fn every_schedule_finds_first_contacts_along_trajectories() {
     let (mut hits, mut misses) = (0, 0);
     for number in 0..60 {
         let mut swings = SwingingBodies::draw(&mut rng);
-        swings.settings.tolerance = magnitude(&mut rng, -3.0, -2.0);
+        swings.settings.tolerance = random_power_of_ten(&mut rng, -3.0, -2.0);
         let Settings {
             margin, tolerance, ..
         } = swings.settings;
@@ -234,7 +236,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
 }
 
 /// A motion with constant velocities that implements [`SmoothTrajectory`], as a user's trajectory does.
-struct UserTrajectory(Motion);
+struct MotionAsSmoothTrajectory(Motion);
 
 /// A motion with constant velocities that is queried as a [`Trajectory`], so that the query is answered stretch by
 /// stretch.
@@ -246,7 +248,7 @@ impl Trajectory for MotionAsTrajectory {
     }
 }
 
-impl SmoothTrajectory for UserTrajectory {
+impl SmoothTrajectory for MotionAsSmoothTrajectory {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let (velocity, spin, centre) = (self.0.velocity(), self.0.spin(), self.0.centre());
         Motion::about(self.0.pose(time), velocity, spin, centre)
@@ -293,7 +295,7 @@ fn a_motion_as_a_trajectory_of_ones_own_has_the_same_answer_within_the_tolerance
             8,
         );
         let problem = scene.problem();
-        let own = scene.motions.map(UserTrajectory);
+        let own = scene.motions.map(MotionAsSmoothTrajectory);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &own[k]));
         let query = Query::new(a, b, 1.0, &scene.settings).unwrap();
         let answer = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);

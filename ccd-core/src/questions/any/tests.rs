@@ -14,7 +14,7 @@ use crate::schedule::BestFirst;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::cube;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
-use crate::tests::scene::{RngExt, SceneKind, direction, distance, pieces, rng, scene};
+use crate::tests::scene::{RngExt, SceneKind, distance, pieces, random_direction, rng, scene};
 
 const SCENE_KINDS: [SceneKind; 4] = [
     SceneKind::RandomMotion,
@@ -151,7 +151,7 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
             .map(|k| f64::from(k) / 64.0)
             .find(|&s| distance(&problem, s) <= 0.0);
         let lie = Claim {
-            axis: direction(&mut rng),
+            axis: random_direction(&mut rng),
             a: ConvexCombination::point(rng.random_range(0..5)),
             b: ConvexCombination::point(rng.random_range(0..5)),
         };

@@ -22,12 +22,12 @@ pub(crate) fn follow_to_minimum<O: DistanceOracle>(
         oracle,
         meter,
         cache: O::Cache::default(),
-        nearest: seen,
+        nearest_pair: seen,
     };
     if let Some([falling, other]) = descent.bracket(seen.clock) {
         descent.narrow(falling, other);
     }
-    descent.nearest
+    descent.nearest_pair
 }
 
 struct Descent<'d, O: DistanceOracle> {
@@ -35,7 +35,7 @@ struct Descent<'d, O: DistanceOracle> {
     oracle: &'d mut O,
     meter: &'d mut Meter,
     cache: O::Cache,
-    nearest: NearestPair,
+    nearest_pair: NearestPair,
 }
 
 /// The distance of two pieces at one clock, and its rate of change.
@@ -50,14 +50,14 @@ impl<O: DistanceOracle> Descent<'_, O> {
     /// Measures the pieces' distance and its rate at a clock, and records the distance if it is the least so far.
     /// Returns `None` if the oracle gives up, or if the least distance is within the tolerance already.
     fn measure(&mut self, clock: f64) -> Option<DistanceAndRate> {
-        if self.nearest.contact.separation.upper <= self.problem.tolerance {
+        if self.nearest_pair.contact.separation.upper <= self.problem.tolerance {
             return None;
         }
-        let pieces @ [a, b] = self.nearest.pieces;
+        let pieces @ [a, b] = self.nearest_pair.pieces;
         let snapshot = Snapshot::new(self.problem, a, b, clock);
         let checked = snapshot.query_oracle(self.oracle, &mut self.cache, self.meter)?;
-        if checked.upper < self.nearest.contact.separation.upper {
-            self.nearest = NearestPair {
+        if checked.upper < self.nearest_pair.contact.separation.upper {
+            self.nearest_pair = NearestPair {
                 clock,
                 pieces,
                 contact: pair::contact(&snapshot, pieces, &checked),

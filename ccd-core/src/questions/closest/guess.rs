@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 /// minimum of their distance. It repeats this at the time of the minimum, as long as the distance decreases.
 ///
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
-pub(crate) fn initial_estimate<O: DistanceOracle>(
+pub(crate) fn estimate_nearest_pair<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
@@ -26,7 +26,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
     let mut clock = clock_of_nearest_balls(problem);
     for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
-        let found = nearest_pieces_at(problem, clock, upper, oracle, meter);
+        let found = search_nearest_pieces_at(problem, clock, upper, oracle, meter);
         let Some(found) = found.map_break(|stop| outcome_of_stop(problem, best, stop))? else {
             break;
         };
@@ -48,19 +48,19 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
 }
 
 /// Returns the nearest pieces of the bodies at a clock; `None` if all pieces are at least `beyond` apart.
-pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
+pub(crate) fn search_nearest_pieces_at<O: DistanceOracle>(
     problem: &Problem<'_>,
     clock: f64,
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
 ) -> ControlFlow<EarlyEndReason, Option<NearestPair>> {
-    let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
+    let mut lists = std::mem::take(&mut meter.scratch_memory().nearest_search_buffers);
     let mut nearest = NearestSearch::new(problem, clock, &mut lists).with_cutoff(beyond);
     let stopped = nearest.search(oracle, meter);
     let found = nearest.nearest_pieces();
     lists.clear();
-    meter.scratch_memory().nearest = lists;
+    meter.scratch_memory().nearest_search_buffers = lists;
     let best = |(pieces, contact)| NearestPair {
         clock,
         pieces,
@@ -86,8 +86,12 @@ fn outcome_of_stop(
     match stop {
         EarlyEndReason::Overlap(_, contact) => Outcome::from_overlap(Overlap::Pieces(contact)),
         EarlyEndReason::Limit(limit) => {
-            let seen =
-                |best: NearestPair| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
+            let seen = |best: NearestPair| {
+                (
+                    problem.time_of_clock(best.clock),
+                    best.contact.cap_lower_bound(0.0),
+                )
+            };
             let lower = greater(0.0, least_distance(problem));
             Outcome::Unresolved(Unresolved::for_least_distance(lower, best.map(seen), limit))
         }

@@ -12,12 +12,12 @@ use crate::problem::Problem;
 #[derive(Debug)]
 pub(crate) struct LowerBoundAttempts {
     /// The amount of work of the search after which it next tries to prove a lower bound.
-    next_attempt_work: u64,
+    work_before_next_attempt: u64,
     /// The amount of work of the search after which it tries to prove a lower bound for the last time. The rest of the
     /// budget is reserved for this attempt.
-    last_attempt_work: u64,
+    work_before_final_attempt: u64,
     /// The share of the least measured distance that the next attempt tries to prove.
-    next_share: f64,
+    next_distance_share: f64,
     /// The greatest lower bound proven so far of the distance at all times.
     pub(crate) lower: f64,
 }
@@ -35,17 +35,17 @@ pub(crate) struct MarginQuery {
 impl MarginQuery {
     /// Returns the problem with the margin, tolerance and budget of this attempt.
     pub(crate) fn problem<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
-        let mut asking = problem.with_margin(self.margin, self.tolerance);
+        let mut asking = problem.with_margin_and_tolerance(self.margin, self.tolerance);
         asking.budget = self.budget;
         asking
     }
 }
 
 /// The amount of work after which a search first tries to prove a lower bound. Most searches end sooner.
-const FIRST_ATTEMPT_WORK: u64 = 1 << 17;
+const WORK_BEFORE_FIRST_ATTEMPT: u64 = 1 << 17;
 
 /// The amount of work after which a search with a deadline or a stop flag first tries to prove a lower bound.
-const FIRST_TIMED_ATTEMPT_WORK: u64 = 1 << 14;
+const WORK_BEFORE_FIRST_TIMED_ATTEMPT: u64 = 1 << 14;
 
 /// The largest number of attempts to prove a lower bound at the end of a search that could not prove all pairs.
 pub(crate) const MAX_FINAL_ATTEMPTS: usize = 8;
@@ -55,18 +55,20 @@ impl LowerBoundAttempts {
     pub(crate) fn new(lower: f64, budget: u64) -> Self {
         let last = budget - budget / 4;
         LowerBoundAttempts {
-            next_attempt_work: FIRST_ATTEMPT_WORK.min(last),
-            last_attempt_work: last,
-            next_share: 0.5,
+            work_before_next_attempt: WORK_BEFORE_FIRST_ATTEMPT.min(last),
+            work_before_final_attempt: last,
+            next_distance_share: 0.5,
             // Written so that NaN is no bound.
             lower: if lower > 0.0 { lower } else { 0.0 },
         }
     }
 
     /// Makes the first attempt earlier if a deadline or another thread may end the search.
-    pub(crate) fn with_earlier_first_attempt(mut self, is_timed: bool) -> Self {
+    pub(crate) fn with_earlier_first_attempt_if_timed(mut self, is_timed: bool) -> Self {
         if is_timed {
-            self.next_attempt_work = self.next_attempt_work.min(FIRST_TIMED_ATTEMPT_WORK);
+            self.work_before_next_attempt = self
+                .work_before_next_attempt
+                .min(WORK_BEFORE_FIRST_TIMED_ATTEMPT);
         }
         self
     }
@@ -75,11 +77,11 @@ impl LowerBoundAttempts {
     /// work as was done before.
     #[inline]
     pub(crate) fn next_attempt_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
-        if work < self.next_attempt_work {
+        if work < self.work_before_next_attempt {
             return None;
         }
-        self.next_attempt_work = if work < self.last_attempt_work {
-            work.saturating_mul(8).min(self.last_attempt_work)
+        self.work_before_next_attempt = if work < self.work_before_final_attempt {
+            work.saturating_mul(8).min(self.work_before_final_attempt)
         } else {
             u64::MAX
         };
@@ -89,7 +91,7 @@ impl LowerBoundAttempts {
     /// Returns the next attempt for a least measured distance of `upper`; `None` if no distance is measured, no budget
     /// is left, or success would not increase the lower bound.
     pub(crate) fn next_attempt(&self, upper: f64, budget: u64) -> Option<MarginQuery> {
-        let level = self.next_share * upper;
+        let level = self.next_distance_share * upper;
         // The tolerance leaves room for proofs.
         let (margin, tolerance) = (0.75 * level, 0.25 * level);
         (margin > self.lower && level < f64::INFINITY && budget > 0).then_some(MarginQuery {
@@ -105,9 +107,9 @@ impl LowerBoundAttempts {
         match proven {
             Some(proven) => {
                 self.lower = greater(self.lower, proven);
-                self.next_share = 0.5 + 0.5 * self.next_share;
+                self.next_distance_share = 0.5 + 0.5 * self.next_distance_share;
             }
-            None => self.next_share *= 0.25,
+            None => self.next_distance_share *= 0.25,
         }
     }
 }

@@ -19,10 +19,10 @@ use std::ops::ControlFlow;
 /// A search for the least distance, which proves that each pair stays at least as far apart as the least distance found
 /// so far.
 pub(crate) struct LeastDistanceSearch {
-    pub(crate) nearest: Option<NearestPair>,
+    pub(crate) nearest_pair: Option<NearestPair>,
     /// The distance from which on pairs are ignored.
     pub(crate) cutoff_distance: f64,
-    pub(crate) proven: ProvenFacts,
+    pub(crate) proven_facts: ProvenFacts,
     /// The reason why some pair could not be proven apart to the end; `None` if there is no such pair.
     pub(crate) first_failure: Option<Limit>,
     /// The lower bound of the distance that is proven for all pairs, with the state of further attempts.
@@ -32,7 +32,7 @@ pub(crate) struct LeastDistanceSearch {
 impl LeastDistanceSearch {
     pub(crate) fn upper(&self) -> f64 {
         let upper = |best: NearestPair| best.contact.separation.upper;
-        self.nearest.map_or(self.cutoff_distance, upper)
+        self.nearest_pair.map_or(self.cutoff_distance, upper)
     }
 
     pub(crate) fn least_distance_outcome(
@@ -40,11 +40,11 @@ impl LeastDistanceSearch {
         problem: &Problem<'_>,
         lower: f64,
     ) -> Result<Outcome, FartherThanCutoff> {
-        let best = self.nearest.ok_or(FartherThanCutoff { lower })?;
+        let best = self.nearest_pair.ok_or(FartherThanCutoff { lower })?;
         let contact = best.contact.cap_lower_bound(lower);
         Ok(Outcome::LeastDistance {
             lower,
-            time: problem.time(best.clock),
+            time: problem.time_of_clock(best.clock),
             contact,
         })
     }
@@ -53,11 +53,11 @@ impl LeastDistanceSearch {
         let lower = lesser(self.lower_bound_attempts.lower, self.upper());
         let seen = |best: NearestPair| {
             let contact = best.contact.cap_lower_bound(lower);
-            (problem.time(best.clock), contact)
+            (problem.time_of_clock(best.clock), contact)
         };
         Outcome::Unresolved(Unresolved::for_least_distance(
             lower,
-            self.nearest.map(seen),
+            self.nearest_pair.map(seen),
             limit,
         ))
     }
@@ -77,9 +77,9 @@ impl LeastDistanceSearch {
         let budget = problem.budget.min(work.saturating_add(rung.budget));
         let lower = MarginQuery { budget, ..rung }.problem(problem);
         let mut below = LeastDistanceSearch {
-            nearest: None,
+            nearest_pair: None,
             cutoff_distance: lower.contact_distance(),
-            proven: ProvenFacts::default(),
+            proven_facts: ProvenFacts::default(),
             first_failure: None,
             lower_bound_attempts: LowerBoundAttempts::new(0.0, 0),
         };
@@ -89,7 +89,7 @@ impl LeastDistanceSearch {
         let mut look = BoundTightener::new(&lower);
         let mut found = None;
         if search.push_roots(&lower).is_ok() {
-            while below.nearest.is_none() && found.is_none() {
+            while below.nearest_pair.is_none() && found.is_none() {
                 found = search
                     .visit_next_pair(&common, &mut look, &mut below)
                     .break_value();
@@ -105,10 +105,10 @@ impl LeastDistanceSearch {
             _ => self.lower_bound_attempts.record_attempt(None),
         }
         if let Some(best) = below
-            .nearest
+            .nearest_pair
             .filter(|best| best.contact.separation.upper < self.upper())
         {
-            self.nearest = Some(best);
+            self.nearest_pair = Some(best);
         }
         ControlFlow::Continue(())
     }
@@ -165,7 +165,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
                     pieces,
                     contact,
                 };
-                self.nearest = Some(follow_to_minimum(problem, oracle, meter, seen));
+                self.nearest_pair = Some(follow_to_minimum(problem, oracle, meter, seen));
                 // The pair is examined again, since it keeps a smaller distance.
                 ControlFlow::Continue(clock)
             }
@@ -192,7 +192,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
         if let Some(limit) = self.first_failure {
             return Ok(self.unresolved_outcome(problem, limit));
         }
-        match self.proven.finish(problem) {
+        match self.proven_facts.finish(problem) {
             overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
             Outcome::Free { proven_gap } => self.least_distance_outcome(problem, proven_gap),
             Outcome::Unresolved(known) => Ok(self.unresolved_outcome(problem, known.limit)),

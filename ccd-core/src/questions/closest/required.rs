@@ -33,7 +33,7 @@ impl RequiredClearance {
         let mut decision = ClearanceDecision {
             clearance: *self,
             any_contact,
-            start_and_deadline: self.deadline.map(|deadline| (Instant::now(), deadline)),
+            start_and_time_limit: self.deadline.map(|deadline| (Instant::now(), deadline)),
             stats: Stats::default(),
             query_tolerance: 0.5 * self.tolerance,
         };
@@ -56,7 +56,7 @@ impl RequiredClearance {
             found => found,
         };
         Ok(Answer {
-            tolerance: greater(self.tolerance, outcome.width()),
+            tolerance: greater(self.tolerance, outcome.least_distance_bracket_width()),
             outcome,
             stats: decision.stats,
         })
@@ -75,10 +75,12 @@ impl RequiredClearance {
                 proven_gap: greater(proven_gap, self.distance),
             },
             Outcome::Contact { time, contact }
-                if !(self.excess.upper_bound_of_shapes(contact.separation.upper)
+                if !(self
+                    .excess
+                    .shape_distance_upper_bound(contact.separation.upper)
                     < self.distance) =>
             {
-                bracket(0.0, time, contact)
+                least_distance_outcome(0.0, time, contact)
             }
             Outcome::Unresolved(known) => {
                 Outcome::Unresolved(Unresolved::for_least_distance(0.0, None, known.limit))
@@ -93,7 +95,7 @@ struct ClearanceDecision<F> {
     clearance: RequiredClearance,
     any_contact: F,
     /// The time at which the decision started, and the longest time that it may take; `None` if there is no deadline.
-    start_and_deadline: Option<(Instant, Duration)>,
+    start_and_time_limit: Option<(Instant, Duration)>,
     stats: Stats,
     /// The tolerance of each query: half the tolerance of the answer.
     query_tolerance: f64,
@@ -108,7 +110,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         };
         let left =
             |(begun, deadline): (Instant, Duration)| deadline.saturating_sub(begun.elapsed());
-        let answer = (self.any_contact)(rung, self.start_and_deadline.map(left))?;
+        let answer = (self.any_contact)(rung, self.start_and_time_limit.map(left))?;
         self.stats.add(&answer.stats);
         Ok(answer)
     }
@@ -135,7 +137,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
             .run_query(margin, finer, self.remaining_work())?
             .outcome;
         Ok(match (found, self.clearance.clearance_outcome(found)) {
-            (Outcome::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
+            (Outcome::Free { proven_gap }, _) => least_distance_outcome(proven_gap, time, contact),
             (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
                 known.lower,
                 Some((time, contact)),
@@ -169,7 +171,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
     }
 }
 
-fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
+fn least_distance_outcome(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
     Outcome::LeastDistance {
         lower,

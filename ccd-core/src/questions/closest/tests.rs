@@ -13,7 +13,9 @@ use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
-use crate::tests::scene::{RngExt, SceneKind, direction, distance, magnitude, rng, scene};
+use crate::tests::scene::{
+    RngExt, SceneKind, distance, random_direction, random_power_of_ten, rng, scene,
+};
 
 const SCENE_KINDS: [SceneKind; 4] = [
     SceneKind::RandomMotion,
@@ -22,7 +24,7 @@ const SCENE_KINDS: [SceneKind; 4] = [
     SceneKind::Receding,
 ];
 
-fn approach(problem: &Problem<'_>) -> Answer {
+fn closest_approach_answer(problem: &Problem<'_>) -> Answer {
     DepthFirst::default().closest_approach_of(problem, &mut ExhaustiveOracle)
 }
 
@@ -39,11 +41,11 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     for number in 0..1_000 {
         let mut scene =
             scene(&mut rng, SCENE_KINDS[number % 4], 12).with_occasional_accelerations(&mut rng);
-        scene.settings.tolerance *= magnitude(&mut rng, -4.0, 0.0);
+        scene.settings.tolerance *= random_power_of_ten(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
         let Answer {
             outcome, tolerance, ..
-        } = approach(&problem);
+        } = closest_approach_answer(&problem);
         let slack = 2.0 * problem.rounding;
         let found = sampled_least_distance(&problem, 64);
         match outcome {
@@ -96,7 +98,7 @@ fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
         let Answer {
             outcome, tolerance, ..
-        } = approach(&scene.problem());
+        } = closest_approach_answer(&scene.problem());
         let Outcome::LeastDistance { lower, .. } = outcome else {
             continue;
         };
@@ -122,7 +124,7 @@ fn a_clearance_is_kept_violated_or_unknown() {
     let mut rng = rng(3);
     for number in 0..200 {
         let scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
-        let outcome = approach(&scene.problem()).outcome;
+        let outcome = closest_approach_answer(&scene.problem()).outcome;
         let (lower, upper) = (outcome.lower(), outcome.upper());
         assert_eq!(outcome.clearance(upper.next_up()), Clearance::Violated);
         assert_ne!(outcome.clearance(f64::NAN), Clearance::Kept);
@@ -146,14 +148,14 @@ fn budgets_end_a_search_with_what_was_seen() {
     for number in 0..100 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
         let (visits, least) = {
-            let answer = approach(&scene.problem());
+            let answer = closest_approach_answer(&scene.problem());
             (answer.stats.iterations, answer.outcome.lower())
         };
         let found = sampled_least_distance(&scene.problem(), 64);
         for budget in 0..visits.min(60) {
             scene.settings.budget = budget;
             let problem = scene.problem();
-            let outcome = approach(&problem).outcome;
+            let outcome = closest_approach_answer(&problem).outcome;
             let Outcome::Unresolved(Unresolved {
                 lower,
                 nearest,
@@ -191,7 +193,7 @@ fn false_claims_and_give_ups_never_raise_the_lower_bound() {
         let problem = scene.problem();
         let found = sampled_least_distance(&problem, 64);
         let lie = Claim {
-            axis: direction(&mut rng),
+            axis: random_direction(&mut rng),
             a: ConvexCombination::point(rng.random_range(0..5)),
             b: ConvexCombination::point(rng.random_range(0..5)),
         };
@@ -221,7 +223,7 @@ fn answers_do_not_depend_on_earlier_searches() {
     for number in 0..200 {
         let scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let problem = scene.problem();
-        let fresh = approach(&problem);
+        let fresh = closest_approach_answer(&problem);
         assert_eq!(
             kept.closest_approach_of(&problem, &mut ExhaustiveOracle),
             fresh
@@ -244,7 +246,7 @@ fn bodies_at_rest_have_a_distance() {
             .motions
             .map(|motion| Motion::still(motion.pose(clock)));
         let problem = scene.problem();
-        let outcome = approach(&problem).outcome;
+        let outcome = closest_approach_answer(&problem).outcome;
         let found = distance(&problem, 0.0);
         let slack = 2.0 * problem.rounding;
         match outcome {

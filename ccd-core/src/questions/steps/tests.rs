@@ -37,7 +37,7 @@ fn answer_in_steps(
         search.advance(&mut ExhaustiveOracle, 0.0),
         Progress::Answered(answer)
     );
-    *memory = search.into_memory();
+    *memory = search.into_schedule();
     (answer, steps)
 }
 

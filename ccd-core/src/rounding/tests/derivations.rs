@@ -103,15 +103,15 @@ fn shares_are_shares() {
         SUFFICIENT_FIRST_FREE_TIME,
         MIN_NEWTON_GROWTH,
         MIN_RESTING_SLACK,
-        NODE_CLOCK_GAP,
-        CLOSED_GAP,
+        NODE_GAP_TOLERANCE_SHARE,
+        CLOSED_GAP_THRESHOLD,
         MIN_BOX_FILL,
         MAX_SCREW_DRIFT,
         MIN_SCREW_ADVANCE,
-        MIN_PROFILE_RADIUS,
+        MIN_PROFILE_DISTANCE_SHARE,
         f64::from(MAX_TURNING_PLANE_TIME),
         f64::from(MIN_REVISIT_SWEEP),
-        f64::from(THICKNESS_PER_RADIUS),
+        f64::from(ADDED_THICKNESS_PER_RADIUS),
     ] {
         assert!(0.0 < share && share < 1.0, "{share}");
     }

@@ -3,14 +3,14 @@
 //! Coordinates are about a unit or far from the origins of the bodies and of the world, and turns are up to a million
 //! radians: each is a part of the bound.
 
-use super::{ErrorShares, error_shares, far_body, motion};
+use super::{ErrorShares, error_shares, far_body, random_motion};
 use crate::math::order::greater;
 use crate::motion::relative::RelativePath;
 use crate::problem::Problem;
 use crate::settings::{Instructions, Settings};
 use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::far_ends::{between, ends};
-use crate::tests::scene::{RngExt, direction, magnitude};
+use crate::tests::scene::{RngExt, random_direction, random_power_of_ten};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use crate::{Body, Motion};
 use glam::DVec3;
@@ -25,16 +25,16 @@ struct Scene {
 
 impl Scene {
     fn new(tape: &mut RandomCase) -> Self {
-        let size = magnitude(tape, -6.0, 6.0);
+        let size = random_power_of_ten(tape, -6.0, 6.0);
         let far = match tape.random_range(0..3) {
             0 => 0.0,
-            _ => magnitude(tape, 0.0, 6.0),
+            _ => random_power_of_ten(tape, 0.0, 6.0),
         };
-        let world = direction(tape) * far;
-        let duration = magnitude(tape, -3.0, 3.0);
+        let world = random_direction(tape) * far;
+        let duration = random_power_of_ten(tape, -3.0, 3.0);
         Scene {
             bodies: [(); 2].map(|()| far_body(tape, 1, size)),
-            motions: [(); 2].map(|()| motion(tape, world, size, duration)),
+            motions: [(); 2].map(|()| random_motion(tape, world, size, duration)),
             accelerations: [DVec3::ZERO; 2],
             duration,
         }
@@ -65,8 +65,8 @@ impl Scene {
     /// velocities.
     fn with_accelerations(self, tape: &mut RandomCase) -> Self {
         let pull = |motion: Motion| {
-            let speed = motion.velocity().length() * magnitude(tape, -2.0, 2.0);
-            direction(tape) * (speed / self.duration)
+            let speed = motion.velocity().length() * random_power_of_ten(tape, -2.0, 2.0);
+            random_direction(tape) * (speed / self.duration)
         };
         Scene {
             accelerations: self.motions.map(pull),
@@ -110,42 +110,42 @@ fn scene_error_shares(tape: &mut RandomCase, scene: &Scene) -> Option<ErrorShare
 
 #[test]
 fn worst_places() {
-    let found = WorstCaseSearch::of("distance_rounding, places", 8_000)
-        .search(|tape| Some(random_scene_error_shares(tape)?.place));
+    let found = WorstCaseSearch::new("distance_rounding, places", 8_000)
+        .search(|tape| Some(random_scene_error_shares(tape)?.position_error_share));
     found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_gaps() {
-    let found = WorstCaseSearch::of("distance_rounding, gaps", 8_000)
+    let found = WorstCaseSearch::new("distance_rounding, gaps", 8_000)
         .search(|tape| Some(random_scene_error_shares(tape)?.gap));
     found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_distances() {
-    let found = WorstCaseSearch::of("distance_rounding, distances", 8_000)
+    let found = WorstCaseSearch::new("distance_rounding, distances", 8_000)
         .search(|tape| Some(random_scene_error_shares(tape)?.distance));
     found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_places_without_turns() {
-    let found = WorstCaseSearch::of("distance_rounding, places, without turns", 8_000)
-        .search(|tape| Some(error_shares_without_rotation(tape)?.place));
+    let found = WorstCaseSearch::new("distance_rounding, places, without turns", 8_000)
+        .search(|tape| Some(error_shares_without_rotation(tape)?.position_error_share));
     found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_gaps_without_turns() {
-    let found = WorstCaseSearch::of("distance_rounding, gaps, without turns", 8_000)
+    let found = WorstCaseSearch::new("distance_rounding, gaps, without turns", 8_000)
         .search(|tape| Some(error_shares_without_rotation(tape)?.gap));
     found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_distances_without_turns() {
-    let found = WorstCaseSearch::of("distance_rounding, distances, without turns", 8_000)
+    let found = WorstCaseSearch::new("distance_rounding, distances, without turns", 8_000)
         .search(|tape| Some(error_shares_without_rotation(tape)?.distance));
     found.assert_tight_bound(100.0);
 }
@@ -153,9 +153,12 @@ fn worst_distances_without_turns() {
 /// Searches for the worst rounding of positions on motions whose velocities are derived from given poses at both ends.
 #[test]
 fn worst_places_between_poses() {
-    let found = WorstCaseSearch::of("distance_rounding, between poses", 8_000).search(|tape| {
-        let world = direction(tape) * magnitude(tape, 0.0, 11.9);
-        let (size, duration) = (magnitude(tape, -3.0, 3.0), magnitude(tape, -3.0, 3.0));
+    let found = WorstCaseSearch::new("distance_rounding, between poses", 8_000).search(|tape| {
+        let world = random_direction(tape) * random_power_of_ten(tape, 0.0, 11.9);
+        let (size, duration) = (
+            random_power_of_ten(tape, -3.0, 3.0),
+            random_power_of_ten(tape, -3.0, 3.0),
+        );
         let bodies = [(); 2].map(|()| far_body(tape, 1, size));
         let ends = [(); 2].map(|()| ends(tape, world, size));
         let motions = ends.map(|ends| between(&ends, duration));
@@ -184,7 +187,7 @@ fn worst_places_between_poses() {
 
 #[test]
 fn worst_places_of_accelerating_bodies() {
-    let found = WorstCaseSearch::of("distance_rounding, accelerating", 8_000).search(|tape| {
+    let found = WorstCaseSearch::new("distance_rounding, accelerating", 8_000).search(|tape| {
         let scene = Scene::new(tape).with_accelerations(tape);
         let problem = scene.problem()?;
         let origin = DoubleDouble3::from(scene.motions[1].start().translation());
@@ -206,7 +209,7 @@ fn worst_places_of_accelerating_bodies() {
 /// Searches for the worst rounding of the relative pose of two bodies that bounds of nodes use.
 #[test]
 fn worst_views() {
-    let found = WorstCaseSearch::of("distance_rounding, views", 8_000).search(|tape| {
+    let found = WorstCaseSearch::new("distance_rounding, views", 8_000).search(|tape| {
         let mut scene = Scene::new(tape);
         if tape.index_below(2) == 0 {
             scene = scene.with_accelerations(tape);
@@ -217,11 +220,11 @@ fn worst_views() {
         let sides = [&problem.a, &problem.b];
         let (from, to) = (sides[own], sides[1 - own]);
         let view = RelativePath::new(&from.path, &to.path);
-        let level = Instructions::Baseline.level();
+        let level = Instructions::Baseline.simd_level();
         let [x, y] = [from, to].map(|side| side.body.pieces().points()[0]);
         let arm = y - to.path.centre;
         let found = crate::vectorize!(level, level => {
-            let seen = view.at(level, s);
+            let seen = view.state_at(level, s);
             let arm = crate::math::simd::PackedVector::new(level, arm);
             (seen.rotation * arm + seen.offset).to_dvec3()
         });

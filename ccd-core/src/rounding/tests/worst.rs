@@ -32,16 +32,16 @@ fn axis(tape: &mut RandomCase) -> Option<DVec3> {
     unit(tape.vector(-60..=0).into())
 }
 
-fn size(v: DVec3) -> f64 {
+fn absolute_sum(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
 #[test]
 fn height_f64() {
-    let found = WorstCaseSearch::of("HEIGHT_F64", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("HEIGHT_F64", 40_000).search(|tape| {
         let (n, x) = (axis(tape)?, DVec3::from(tape.vector(COORDINATE_EXPONENTS)));
-        let exact = Exact3::of(n).dot(&Exact3::of(x));
-        let allowed = HEIGHT_ERROR_F64 * size(n) * x.abs().max_element();
+        let exact = Exact3::from_coordinates(n).dot(&Exact3::from_coordinates(x));
+        let allowed = HEIGHT_ERROR_F64 * absolute_sum(n) * x.abs().max_element();
         Some(share(error_of(n.dot(x), &exact), allowed))
     });
     found.assert_tight_bound(3.0);
@@ -50,11 +50,12 @@ fn height_f64() {
 /// Tests the error bound of a corner's position along a ray, by which the sign of the position is decided.
 #[test]
 fn sign_f64_of_a_product() {
-    let found = WorstCaseSearch::of("DETERMINANT_F64, a product", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("DETERMINANT_F64, a product", 40_000).search(|tape| {
         let ([from, corner], n) = (corners(tape), axis(tape)?);
         let way = corner - from;
-        let exact = Exact3::of(n).dot(&Exact3::of(corner).minus(&Exact3::of(from)));
-        let allowed = DETERMINANT_ERROR_F64 * size(way) + f64::MIN_POSITIVE;
+        let exact = Exact3::from_coordinates(n)
+            .dot(&Exact3::from_coordinates(corner).minus(&Exact3::from_coordinates(from)));
+        let allowed = DETERMINANT_ERROR_F64 * absolute_sum(way) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(way), &exact), allowed))
     });
     found.assert_tight_bound(12.0);
@@ -63,12 +64,13 @@ fn sign_f64_of_a_product() {
 /// Tests the error bound of the determinant whose sign decides on which side of an edge a ray passes.
 #[test]
 fn sign_f64_of_a_ray_and_an_edge() {
-    let found = WorstCaseSearch::of("DETERMINANT_F64, a ray and an edge", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("DETERMINANT_F64, a ray and an edge", 40_000).search(|tape| {
         let ([from, p, q], n) = (corners(tape), axis(tape)?);
-        let [a, b, c] = [from, p, q].map(Exact3::of);
-        let exact = Exact3::of(n).dot(&b.minus(&a).cross(&c.minus(&a)));
+        let [a, b, c] = [from, p, q].map(Exact3::from_coordinates);
+        let exact = Exact3::from_coordinates(n).dot(&b.minus(&a).cross(&c.minus(&a)));
         let (p, q) = (p - from, q - from);
-        let allowed = DETERMINANT_ERROR_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
+        let allowed =
+            DETERMINANT_ERROR_F64 * (absolute_sum(p) * absolute_sum(q)) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(p.cross(q)), &exact), allowed))
     });
     found.assert_tight_bound(9.0);
@@ -77,13 +79,14 @@ fn sign_f64_of_a_ray_and_an_edge() {
 /// Tests the error bound of the determinant whose sign decides on which side of a triangle a ray starts.
 #[test]
 fn sign_f64_of_three_corners() {
-    let found = WorstCaseSearch::of("DETERMINANT_F64, three corners", 30_000).search(|tape| {
+    let found = WorstCaseSearch::new("DETERMINANT_F64, three corners", 30_000).search(|tape| {
         let [from, of @ ..]: [DVec3; 4] = corners(tape);
-        let start = Exact3::of(from);
-        let [a, b, c] = of.map(|p| Exact3::of(p).minus(&start));
+        let start = Exact3::from_coordinates(from);
+        let [a, b, c] = of.map(|p| Exact3::from_coordinates(p).minus(&start));
         let exact = a.dot(&b.cross(&c));
         let [a, b, c] = of.map(|p| p - from);
-        let allowed = DETERMINANT_ERROR_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
+        let allowed = DETERMINANT_ERROR_F64 * (absolute_sum(a) * absolute_sum(b) * absolute_sum(c))
+            + f64::MIN_POSITIVE;
         Some(share(error_of(a.dot(b.cross(c)), &exact), allowed))
     });
     found.assert_tight_bound(9.0);
@@ -92,13 +95,13 @@ fn sign_f64_of_three_corners() {
 /// Tests the error bound of a point's height above a plane, as the point tree and hulls compute it.
 #[test]
 fn height_rounding_of_points() {
-    let found = WorstCaseSearch::of("height_rounding, a point", 30_000).search(|tape| {
+    let found = WorstCaseSearch::new("height_rounding, a point", 30_000).search(|tape| {
         let [a, b, c, x, base] = corners(tape);
         let [u, v] = [b - a, c - a];
         let normal = u.cross(v);
         let (point, foot) = (x - base, a - base);
         let reach = greater(point.abs().max_element(), foot.abs().max_element());
-        let [a, b, c, x] = [a, b, c, x].map(Exact3::of);
+        let [a, b, c, x] = [a, b, c, x].map(Exact3::from_coordinates);
         let exact = b.minus(&a).cross(&c.minus(&a)).dot(&x.minus(&a));
         let height = normal.dot(point) - normal.dot(foot);
         Some(share(
@@ -112,7 +115,7 @@ fn height_rounding_of_points() {
 /// Tests that the computed height of a box falls below the exact height of a point in it by at most the error bound.
 #[test]
 fn height_rounding_of_boxes() {
-    let found = WorstCaseSearch::of("height_rounding, a box", 30_000).search(|tape| {
+    let found = WorstCaseSearch::new("height_rounding, a box", 30_000).search(|tape| {
         let [a, b, c, x, y, base] = corners(tape);
         let [u, v] = [b - a, c - a];
         let normal = u.cross(v);
@@ -125,11 +128,11 @@ fn height_rounding_of_boxes() {
             foot.abs().max_element(),
         );
         let height = normal.dot(middle) + normal.abs().dot(half) - normal.dot(foot);
-        let [a, b, c] = [a, b, c].map(Exact3::of);
+        let [a, b, c] = [a, b, c].map(Exact3::from_coordinates);
         let exact = b.minus(&a).cross(&c.minus(&a));
         let lacks = |p: DVec3| {
-            let truth = exact.dot(&Exact3::of(p).minus(&a));
-            (truth - crate::tests::rational::exact(height))
+            let truth = exact.dot(&Exact3::from_coordinates(p).minus(&a));
+            (truth - crate::tests::rational::exact_fraction(height))
                 .to_f64()
                 .value()
         };
@@ -144,7 +147,7 @@ fn height_rounding_of_boxes() {
 /// Tests that computed principal axes deviate from unit length and right angles by at most the error bound.
 #[test]
 fn frame_f64() {
-    let found = WorstCaseSearch::of("FRAME_F64", 20_000).search(|tape| {
+    let found = WorstCaseSearch::new("FRAME_F64", 20_000).search(|tape| {
         let points: [DVec3; 4] = [(); 4].map(|()| tape.vector(-40..=0).into());
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         Some(share(orthonormality_error(&frame), FRAME_ERROR_F64))
@@ -172,7 +175,7 @@ fn units_and_lengths() {
             3.0,
         ),
     ] {
-        let found = WorstCaseSearch::of(name, 40_000).search(|tape| {
+        let found = WorstCaseSearch::new(name, 40_000).search(|tape| {
             let v = DVec3::from(tape.vector(exponents.clone()));
             let n = unit(v)?;
             // The vector is scaled by a power of two: the digits of double-double do not reach below 1e-290.
@@ -192,18 +195,18 @@ fn units_and_lengths() {
 /// constant would vanish too.
 #[test]
 fn least_rounding() {
-    let found = WorstCaseSearch::of("LEAST_ROUNDING", 10_000).search(|tape| {
+    let found = WorstCaseSearch::new("LEAST_ROUNDING", 10_000).search(|tape| {
         let v = DVec3::from(tape.vector(-1074..=-1000));
         let bound = distance_rounding([length(v), 0.0], [0.0; 2], 0.0);
         assert!(bound >= LEAST_ROUNDING && length(v).powi(2) < *SQUARED_LENGTH_RANGE.start());
         // A third of a vector occurs in a mean of corners.
         let third = v / 3.0;
-        let exact = Exact3::of(v);
+        let exact = Exact3::from_coordinates(v);
         let off = [0, 1, 2].map(|k| {
             let truth = &exact.0[k] / dashu_ratio::Relaxed::from(3);
             // The unit is 2⁻¹⁰⁰⁰, so that a part of the least number is representable.
-            let error = crate::tests::rational::exact(third[k]) - truth;
-            let unit = crate::tests::rational::exact(2f64.powi(-500));
+            let error = crate::tests::rational::exact_fraction(third[k]) - truth;
+            let unit = crate::tests::rational::exact_fraction(2f64.powi(-500));
             (error / &unit / &unit).to_f64().value().abs()
         });
         let worst = off.into_iter().fold(0.0, greater);
@@ -221,7 +224,7 @@ fn turns_f64() {
         let rough = DoubleDouble::from(std::f64::consts::TAU);
         rough - rough.sin_cos().0
     };
-    let found = WorstCaseSearch::of("TURN_COUNT_WIDENING", 20_000).search(|tape| {
+    let found = WorstCaseSearch::new("TURN_COUNT_WIDENING", 20_000).search(|tape| {
         let [from, width, ahead] = [0; 3].map(|_| tape.any_number(-20..=20));
         let turns = (from - width - ahead) / std::f64::consts::TAU;
         let exact =

@@ -8,8 +8,8 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::tests::scene::{
-    MotionThroughPose, RngExt, SoupKind, body, direction, distance, magnitude, point_in_ball, rng,
-    rotation, soup,
+    MotionThroughPose, RngExt, SoupKind, body, distance, random_direction, random_point_in_ball,
+    random_power_of_ten, random_rotation, rng, soup,
 };
 use glam::DVec3;
 
@@ -27,25 +27,28 @@ fn assert_bodies_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
     let mut rng = rng(1);
     let (mut told, mut near) = (0, 0);
     for _ in 0..2_000 {
-        let (count, size) = (rng.random_range(1..6), magnitude(&mut rng, -2.0, 1.0));
+        let (count, size) = (
+            rng.random_range(1..6),
+            random_power_of_ten(&mut rng, -2.0, 1.0),
+        );
         let bodies = [0, 1].map(|_| body(&soup(&mut rng, SoupKind::WellShaped, count, size)));
-        let turn = magnitude(&mut rng, -3.0, 1.5);
+        let turn = random_power_of_ten(&mut rng, -3.0, 1.5);
         let motions = [0, 1].map(|_| {
             let passage = MotionThroughPose {
                 clock: rng.random_range(0.0..1.0),
-                rotation: rotation(&mut rng),
-                place: point_in_ball(&mut rng, 6.0 * size),
-                middle: point_in_ball(&mut rng, size),
-                velocity: point_in_ball(&mut rng, 3.0),
-                spin: direction(&mut rng) * if rng.random_bool(0.3) { 0.0 } else { turn },
-                centre: point_in_ball(&mut rng, 2.0 * size),
+                rotation: random_rotation(&mut rng),
+                place: random_point_in_ball(&mut rng, 6.0 * size),
+                middle: random_point_in_ball(&mut rng, size),
+                velocity: random_point_in_ball(&mut rng, 3.0),
+                spin: random_direction(&mut rng) * if rng.random_bool(0.3) { 0.0 } else { turn },
+                centre: random_point_in_ball(&mut rng, 2.0 * size),
             };
             passage.motion()
         });
         let [a, b] = [(&bodies[0], motions[0]), (&bodies[1], motions[1])];
         let pulls = [0, 1].map(|_| {
             if rng.random_bool(0.5) {
-                point_in_ball(&mut rng, 20.0)
+                random_point_in_ball(&mut rng, 20.0)
             } else {
                 DVec3::ZERO
             }
@@ -70,15 +73,15 @@ fn assert_bodies_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
 fn balls_are_told_apart_up_to_the_gap() {
     let mut rng = rng(2);
     for _ in 0..1_000 {
-        let radii = [0, 1].map(|_| magnitude(&mut rng, -3.0, 1.0));
+        let radii = [0, 1].map(|_| random_power_of_ten(&mut rng, -3.0, 1.0));
         let balls = radii.map(|radius| Body::sphere(radius).unwrap());
         let config = Settings {
-            margin: magnitude(&mut rng, -6.0, 0.0),
+            margin: random_power_of_ten(&mut rng, -6.0, 0.0),
             tolerance: 1e-6,
             ..Settings::DEFAULT
         };
-        let nearest = direction(&mut rng);
-        let along = nearest.any_orthonormal_vector() * magnitude(&mut rng, -3.0, 2.0);
+        let nearest = random_direction(&mut rng);
+        let along = nearest.any_orthonormal_vector() * random_power_of_ten(&mut rng, -3.0, 2.0);
         // The balls are nearest at the start, within the duration, at its end, or always.
         let (before, after) =
             [(0.0, 1.0), (0.3, 0.7), (1.0, 0.0), (0.0, 0.0)][rng.random_range(0..4)];

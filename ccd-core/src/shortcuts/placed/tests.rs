@@ -9,7 +9,7 @@ use crate::problem::Problem;
 use crate::rounding::BOX_EXTENT_ERROR_F32;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{direction, random_box_corners};
+use crate::tests::scene::{random_box_corners, random_direction};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ use glam::DVec3;
 fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);
     let ball = Body::sphere(0.1).unwrap();
-    let found = WorstCaseSearch::of("BOX_AXES_F32", 20_000).search(|tape| {
+    let found = WorstCaseSearch::new("BOX_AXES_F32", 20_000).search(|tape| {
         let points = random_box_corners(tape);
         let of = Polytope {
             points: points.clone(),
@@ -30,7 +30,8 @@ fn worst_reach_of_a_box() {
             Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
         let node = PlacedNode::new(&problem.a, 0, 0.0);
         let along = points[tape.index_below(8)] - points[tape.index_below(8)];
-        let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
+        let n =
+            (along.normalize_or_zero() + random_direction(tape) * tape.size(-30..=4)).normalize();
         let height = |&p: &DVec3| {
             let way = DoubleDouble3::from(p) - DoubleDouble3::from(node.centre);
             DoubleDouble3::from(n).dot(way)

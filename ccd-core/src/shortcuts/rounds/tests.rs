@@ -12,8 +12,8 @@ use crate::schedule::{BestFirst, DepthFirst, FirstContact, Naive, Progress};
 use crate::settings::Settings;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{
-    Pcg64, RngExt, SoupKind, body, direction, distance, magnitude, point_in_ball, rng, rotation,
-    soup,
+    Pcg64, RngExt, SoupKind, body, distance, random_direction, random_point_in_ball,
+    random_power_of_ten, random_rotation, rng, soup,
 };
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
@@ -106,20 +106,20 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
 fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let count = rng.random_range(1..4);
     let bodies = [0; 2].map(|_| body(&soup(rng, SoupKind::WellShaped, count, 0.7)));
-    let turns = magnitude(rng, 0.5, 2.0);
+    let turns = random_power_of_ten(rng, 0.5, 2.0);
     let ratio = [0.0, 1.0, -0.5, 2.0 / 3.0, 0.61803, 0.5002][number % 6];
-    let axis = direction(rng);
-    let other = [axis, direction(rng)][rng.random_range(0..2)];
+    let axis = random_direction(rng);
+    let other = [axis, random_direction(rng)][rng.random_range(0..2)];
     let spins = [axis * turns * TAU, other * ratio * turns * TAU];
     // One soup passes the other on its path about the axis, at a distance from nothing to well apart.
     let (x, y) = axis.any_orthonormal_pair();
     let arm = rng.random_range(0.0..2.0);
     let apart = y * (arm + rng.random_range(0.3..1.3));
-    let toward = [-y, direction(rng)][rng.random_range(0..2)];
-    let drift = toward * [0.0, magnitude(rng, -4.0, 0.0)][rng.random_range(0..2)];
-    let velocity = point_in_ball(rng, 1.0) * [0.0, 1.0][rng.random_range(0..2)];
+    let toward = [-y, random_direction(rng)][rng.random_range(0..2)];
+    let drift = toward * [0.0, random_power_of_ten(rng, -4.0, 0.0)][rng.random_range(0..2)];
+    let velocity = random_point_in_ball(rng, 1.0) * [0.0, 1.0][rng.random_range(0..2)];
     let motion = |rng: &mut Pcg64, centre: DVec3, arm: DVec3, velocity: DVec3, spin: DVec3| {
-        let turned = rotation(rng);
+        let turned = random_rotation(rng);
         let start = Pose::new(centre + arm, turned).unwrap();
         Motion::about(start, velocity, spin, turned.inverse() * -arm).unwrap()
     };
@@ -128,7 +128,7 @@ fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
         motion(rng, apart, DVec3::ZERO, velocity + drift, spins[1]),
     ];
     let config = Settings {
-        tolerance: magnitude(rng, -4.0, -2.0),
+        tolerance: random_power_of_ten(rng, -4.0, -2.0),
         margin: [0.0, 0.05][rng.random_range(0..2)],
         ..Settings::DEFAULT
     };

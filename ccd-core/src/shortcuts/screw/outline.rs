@@ -20,7 +20,7 @@ pub(crate) struct Outline {
     /// over the triangle.
     inner_corners: [DVec2; 3],
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
-    zeta_nonlinearity: f64,
+    zeta_nonlinearity_bound: f64,
     /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
     /// to them.
     rounding_lengths: [f64; 2],
@@ -30,12 +30,12 @@ pub(crate) struct Outline {
 /// The linear approximation of `ζ` near a node, with bounds of its deviation from `ζ`.
 pub(crate) struct ZetaApproximation {
     /// A point on the axis, and the direction of the axis.
-    pub(crate) axis: [DVec3; 2],
+    pub(crate) axis_point_and_direction: [DVec3; 2],
     /// The value of `ζ` at the node's centre.
     pub(crate) zeta: f64,
     /// The gradient of `ζ` at the node's centre.
     pub(crate) zeta_gradient: DVec3,
-    pub(crate) zeta_nonlinearity: f64,
+    pub(crate) zeta_nonlinearity_bound: f64,
     pub(crate) rounding_lengths: [f64; 2],
     pub(crate) tilt: f64,
 }
@@ -44,7 +44,7 @@ impl Outline {
     /// Projects a triangle along the screw; `None` if the node is not a single triangle.
     pub(crate) fn new(node: &PlacedNode, linear: &ZetaApproximation) -> Option<Self> {
         let corners = node.corners()?;
-        let [origin, along] = linear.axis;
+        let [origin, along] = linear.axis_point_and_direction;
         let across = |x: DVec3| {
             let x = x - x.dot(along) * along;
             x - x.dot(along) * along
@@ -62,7 +62,7 @@ impl Outline {
         Some(Outline {
             outer_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
             inner_corners: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
-            zeta_nonlinearity: linear.zeta_nonlinearity,
+            zeta_nonlinearity_bound: linear.zeta_nonlinearity_bound,
             rounding_lengths: linear.rounding_lengths,
             tilt: linear.tilt,
         })
@@ -75,7 +75,7 @@ impl Outline {
         } else {
             (&self.inner_corners, &self.outer_corners)
         };
-        let slack = n.y.abs() * self.zeta_nonlinearity
+        let slack = n.y.abs() * self.zeta_nonlinearity_bound
             + profile_rounding(n.abs().to_array(), self.rounding_lengths, self.tilt);
         let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
         let high = most

@@ -12,7 +12,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::track::sin_cos;
 use crate::rounding::{RATE_ERROR_F64, TURN_COUNT_WIDENING, profile_rounding};
-use crate::tuning::MIN_PROFILE_RADIUS;
+use crate::tuning::MIN_PROFILE_DISTANCE_SHARE;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -42,7 +42,7 @@ pub(crate) struct Profile {
     high: [f64; SURFACE_COUNT],
     /// The azimuth of the node's centre.
     azimuth: f64,
-    width: f64,
+    azimuth_half_width: f64,
     /// Half of a lower bound of the node's distance from the axis: a path from the node of at most this length stays at
     /// least this length away from the axis.
     safe_length: f64,
@@ -91,7 +91,7 @@ impl Profile {
                 all.high[k] = greater(all.high[k], part.high[k]);
             }
             let off = (part.azimuth - all.azimuth).abs();
-            all.width = greater(all.width, off + part.width);
+            all.azimuth_half_width = greater(all.azimuth_half_width, off + part.azimuth_half_width);
             all.safe_length = lesser(all.safe_length, part.safe_length);
             all.steepest_change = greater(all.steepest_change, part.steepest_change);
         }
@@ -111,7 +111,7 @@ impl Profile {
         let onward = axis.direction.cross(outward);
         let inner = distance - node.extent_along(-outward);
         // Written so that NaN is not far.
-        if !(inner > MIN_PROFILE_RADIUS * distance) {
+        if !(inner > MIN_PROFILE_DISTANCE_SHARE * distance) {
             return None;
         }
         let [x, y] = axis.azimuth_axes;
@@ -125,7 +125,7 @@ impl Profile {
             low: [0.0; SURFACE_COUNT],
             high: [0.0; SURFACE_COUNT],
             azimuth,
-            width: aside / inner,
+            azimuth_half_width: aside / inner,
             safe_length: 0.5 * inner,
             steepest_change: (1.0 + steep * steep).sqrt() * (1.0 + RATE_ERROR_F64),
             outline: None,
@@ -145,10 +145,10 @@ impl Profile {
             profile.high[k] = at + reach(1.0);
         }
         let linear = ZetaApproximation {
-            axis: [axis.origin, axis.direction],
+            axis_point_and_direction: [axis.origin, axis.direction],
             zeta,
             zeta_gradient: ahead,
-            zeta_nonlinearity: twist,
+            zeta_nonlinearity_bound: twist,
             rounding_lengths: [arm, node.radius],
             tilt: axis.advance / distance,
         };
@@ -201,8 +201,8 @@ impl Profile {
     /// the still node.
     fn turn_range(&self, still: &Profile, way: &ScrewPath) -> [f64; 2] {
         let ahead = still.azimuth - self.azimuth;
-        let width = self.width
-            + still.width
+        let width = self.azimuth_half_width
+            + still.azimuth_half_width
             + way.needed_gap / greater(self.safe_length, still.safe_length);
         let [from, to] = way.angles;
         whole_numbers_in([from - width - ahead, to + width - ahead].map(|angle| angle / TAU))

@@ -8,16 +8,17 @@ use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
-use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::scene::{
-    Pcg64, RngExt, body, direction, magnitude, point_in_ball, rng, rotation,
+    Pcg64, RngExt, body, random_direction, random_point_in_ball, random_power_of_ten,
+    random_rotation, rng,
 };
 use glam::{DQuat, DVec3};
 
 /// Draws a few random triangles that are all near one point.
 fn random_triangle_cluster(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     let count = rng.random_range(1..6);
-    let mut corner = || at + point_in_ball(rng, size);
+    let mut corner = || at + random_point_in_ball(rng, size);
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
 }
 
@@ -32,20 +33,23 @@ struct ScrewPassage {
 }
 
 fn random_screw_passage(rng: &mut Pcg64) -> ScrewPassage {
-    let (size, distance) = (magnitude(rng, -2.0, -0.5), rng.random_range(0.8..1.5));
-    let axis = direction(rng);
+    let (size, distance) = (
+        random_power_of_ten(rng, -2.0, -0.5),
+        rng.random_range(0.8..1.5),
+    );
+    let axis = random_direction(rng);
     let out = axis.any_orthonormal_vector();
     let turn = if rng.random_bool(0.75) {
         rng.random_range(0.1..20.0)
     } else {
-        magnitude(rng, 1.0, 5.0)
+        random_power_of_ten(rng, 1.0, 5.0)
     };
     let advance = [0.0, rng.random_range(-0.3..0.3)][rng.random_range(0..2)];
     let near = rng.random_range(0.0..1.0);
     let at = distance * out;
     let there = DQuat::from_axis_angle(axis, near * turn) * at + near * turn * advance * axis;
-    let beside = there + point_in_ball(rng, 2.0 * size);
-    let (place, own) = (point_in_ball(rng, 3.0), rotation(rng));
+    let beside = there + random_point_in_ball(rng, 2.0 * size);
+    let (place, own) = (random_point_in_ball(rng, 3.0), random_rotation(rng));
     let moving = random_triangle_cluster(rng, at, size);
     // The body's own frame is turned about its origin, which is on the axis.
     let moving = moving.map_corners(|x| own.inverse() * x);
@@ -80,7 +84,7 @@ fn all_node_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
 }
 
 /// Returns the least distance of two nodes at sampled times from `s` on, most of them near the time `near`.
-fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64) -> f64 {
+fn sampled_least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64) -> f64 {
     let triangles = |side: &BodyWithPath<'_>, id: NodeId, s: f64| -> Vec<Triangle> {
         let (frame, pieces) = (side.path.frame(s), side.body.pieces());
         let all = 0..pieces.len();
@@ -93,7 +97,7 @@ fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64)
         let (a, b) = (triangles(&problem.a, a, s), triangles(&problem.b, b, s));
         let pairs = a
             .iter()
-            .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
+            .flat_map(|x| b.iter().map(move |y| nearest_points(x, y).distance));
         pairs.fold(f64::INFINITY, lesser)
     };
     let even = (0..200).map(|k| f64::from(k) / 199.0);
@@ -116,7 +120,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         let passage = random_screw_passage(&mut rng);
         let [a, b] = &passage.bodies;
         let config = Settings {
-            tolerance: magnitude(&mut rng, -6.0, -2.0),
+            tolerance: random_power_of_ten(&mut rng, -6.0, -2.0),
             ..Settings::DEFAULT
         };
         let (mut first, mut second) = ((a, passage.screw_motion), (b, passage.still));
@@ -124,13 +128,13 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
             std::mem::swap(&mut first, &mut second);
         }
         // Both bodies have the same acceleration, or nearly.
-        let pull = direction(&mut rng) * [0.0, 3.0][number / 2 % 2];
+        let pull = random_direction(&mut rng) * [0.0, 3.0][number / 2 % 2];
         let pulls = [pull, pull * (1.0 + [0.0, 1e-3][number / 4 % 2])];
         let bodies = [first, second];
         let problem =
             Problem::with_accelerations(bodies, pulls, 1.0, &config.to_query_settings()).unwrap();
         // The axis may move too fast for small bodies.
-        let mut profiles = Profiles::default();
+        let mut profiles = ProfileCache::default();
         let Some(screw) = Screw::for_problem(&problem, &mut profiles) else {
             continue;
         };
@@ -139,8 +143,11 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
             match screw.keeps_apart(&problem, &mut profiles, ids, s) {
                 Some(true) => {
                     proven += 1;
-                    let least = least_distance(&problem, ids, s, passage.passage_clock);
-                    assert!(least > problem.node_gap(), "{number} {ids:?}: {least:e}");
+                    let least = sampled_least_distance(&problem, ids, s, passage.passage_clock);
+                    assert!(
+                        least > problem.kept_node_gap(),
+                        "{number} {ids:?}: {least:e}"
+                    );
                 }
                 _ => missed += 1,
             }
@@ -172,7 +179,7 @@ fn later_turns_count() {
         let config = Settings::DEFAULT;
         let moving = (&moving, turn(turns));
         let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
-        let mut profiles = Profiles::default();
+        let mut profiles = ProfileCache::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
             screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
@@ -214,7 +221,7 @@ fn any_number_of_turns_is_one_look() {
         );
         let moving = (&moving, spin.unwrap());
         let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
-        let mut profiles = Profiles::default();
+        let mut profiles = ProfileCache::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
             screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
@@ -233,7 +240,7 @@ fn what_is_no_screw_has_no_profiles() {
     let config = Settings::DEFAULT;
     let is_screw = |a: Motion, b: Motion| {
         let problem = Problem::about((&cube, a), (&cube, b), 1.0, &config).unwrap();
-        Screw::for_problem(&problem, &mut Profiles::default()).is_some()
+        Screw::for_problem(&problem, &mut ProfileCache::default()).is_some()
     };
     let still = Motion::STILL;
     assert!(is_screw(motion(DVec3::Z, DVec3::Z), still));
@@ -248,7 +255,7 @@ fn what_is_no_screw_has_no_profiles() {
         let bodies = [(&cube, motion(DVec3::Z, DVec3::Z)), (&cube, still)];
         let problem =
             Problem::with_accelerations(bodies, pulls, 1.0, &config.to_query_settings()).unwrap();
-        Screw::for_problem(&problem, &mut Profiles::default()).is_some()
+        Screw::for_problem(&problem, &mut ProfileCache::default()).is_some()
     };
     assert!(falls([9.8 * DVec3::X; 2]));
     assert!(!falls([9.8 * DVec3::X, DVec3::ZERO]));
@@ -258,17 +265,20 @@ fn what_is_no_screw_has_no_profiles() {
 /// Tests that tall nodes far along an oblique axis are not proven apart from bodies at their tips, despite rounding.
 #[test]
 fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
-    const COUNT: usize = 8;
+    const TRIANGLE_COUNT: usize = 8;
     let mut rng = rng(5);
     let mut pairs = 0;
     for _ in 0..60 {
-        let axis = direction(&mut rng);
+        let axis = random_direction(&mut rng);
         let (x, y) = axis.any_orthonormal_pair();
-        let (length, high) = (magnitude(&mut rng, 4.0, 6.0), magnitude(&mut rng, 4.0, 7.0));
+        let (length, high) = (
+            random_power_of_ten(&mut rng, 4.0, 6.0),
+            random_power_of_ten(&mut rng, 4.0, 7.0),
+        );
         let at = |angle: f64, r: f64, z: f64| {
             r * (angle.cos() * x + angle.sin() * y) + (high + z * length) * axis
         };
-        let azimuth = |k: usize| 0.3 * k as f64 / COUNT as f64;
+        let azimuth = |k: usize| 0.3 * k as f64 / TRIANGLE_COUNT as f64;
         // Their tips are at a distance of 1 from the axis, and the others' bases at a little less.
         let tall = |k: usize| {
             let angle = -azimuth(k);
@@ -285,8 +295,8 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
             ]
         };
         let bodies = [
-            (0..COUNT).map(tall).collect::<Vec<_>>(),
-            (0..COUNT).map(beside).collect(),
+            (0..TRIANGLE_COUNT).map(tall).collect::<Vec<_>>(),
+            (0..TRIANGLE_COUNT).map(beside).collect(),
         ];
         let [moving, still] = bodies.map(|triangles| body(&triangles));
         let turning = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1.7 * axis).unwrap();
@@ -297,7 +307,7 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
             &Settings::DEFAULT,
         );
         let problem = problem.unwrap();
-        let mut profiles = Profiles::default();
+        let mut profiles = ProfileCache::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         // Each of the tall nodes passes each of the others on its path.
         for pair in all_node_pairs(&problem) {

@@ -17,7 +17,8 @@ use crate::query::MovingBody;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::scene::{
-    Pcg64, RngExt, Scene, SceneKind, direction, magnitude, point_in_ball, rng, scene,
+    Pcg64, RngExt, Scene, SceneKind, random_direction, random_point_in_ball, random_power_of_ten,
+    rng, scene,
 };
 
 const SAMPLES: u32 = 48;
@@ -25,14 +26,14 @@ const SAMPLES: u32 = 48;
 /// Counts of the kinds of cases that the test has met.
 #[derive(Debug, Default)]
 struct CaseCounts {
-    bounded_times: usize,
-    unbounded_times: usize,
+    bounded_time_count: usize,
+    unbounded_time_count: usize,
     /// The number of free times that are nearly as long as possible: at their end most of the slack is used up.
-    exhausted_slacks: usize,
+    exhausted_slack_count: usize,
     /// The number of samples in which both bodies turn.
     samples_with_both_turning: usize,
-    fast_bodies: usize,
-    many_point_pieces: usize,
+    fast_body_count: usize,
+    many_point_piece_count: usize,
 }
 
 #[test]
@@ -41,7 +42,8 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
     let mut seen = CaseCounts::default();
     for number in 0..12_000 {
         let kind = [SceneKind::RandomMotion, SceneKind::NearRim][number % 2];
-        let scene = scene_of_large_pieces(&mut rng, kind).with_occasional_accelerations(&mut rng);
+        let scene =
+            scene_of_random_polytopes(&mut rng, kind).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
         for holder in [0, 1] {
@@ -49,30 +51,33 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
         }
     }
     assert!(
-        seen.bounded_times > 10_000 && seen.unbounded_times > 1_000,
+        seen.bounded_time_count > 10_000 && seen.unbounded_time_count > 1_000,
         "{seen:?}"
     );
     assert!(
-        seen.samples_with_both_turning > 3_000 && seen.fast_bodies > 1_000,
+        seen.samples_with_both_turning > 3_000 && seen.fast_body_count > 1_000,
         "{seen:?}"
     );
-    assert!(seen.many_point_pieces > 3_000, "{seen:?}");
-    assert!(4 * seen.exhausted_slacks > seen.bounded_times, "{seen:?}");
+    assert!(seen.many_point_piece_count > 3_000, "{seen:?}");
+    assert!(
+        4 * seen.exhausted_slack_count > seen.bounded_time_count,
+        "{seen:?}"
+    );
 }
 
 /// Draws a scene with pieces of 1 to 300 points, some of them rounded, with rotations of up to a thousand radians.
-fn scene_of_large_pieces(rng: &mut Pcg64, kind: SceneKind) -> Scene {
+fn scene_of_random_polytopes(rng: &mut Pcg64, kind: SceneKind) -> Scene {
     let mut scene = scene(rng, kind, 2);
     for (body, motion) in scene.bodies.iter_mut().zip(&mut scene.motions) {
         let [a, b, c] = body.pieces().triangle(0);
-        let spread = b.distance(c) * magnitude(rng, -3.0, 0.0);
+        let spread = b.distance(c) * random_power_of_ten(rng, -3.0, 0.0);
         let mut points = vec![a, b, c];
         points.truncate(rng.random_range(1..=3));
         if rng.random_bool(0.4) {
-            let more = magnitude(rng, 0.0, 2.5) as usize;
+            let more = random_power_of_ten(rng, 0.0, 2.5) as usize;
             points.extend((0..more).map(|_| {
                 let at = a.lerp(b, rng.random_range(0.0..1.0));
-                at.lerp(c, rng.random_range(0.0..1.0)) + point_in_ball(rng, spread)
+                at.lerp(c, rng.random_range(0.0..1.0)) + random_point_in_ball(rng, spread)
             }));
         }
         *body = Body::polytope(Polytope {
@@ -82,7 +87,7 @@ fn scene_of_large_pieces(rng: &mut Pcg64, kind: SceneKind) -> Scene {
         })
         .unwrap();
         if rng.random_bool(0.2) {
-            let faster = motion.spin() * magnitude(rng, 0.0, 2.0);
+            let faster = motion.spin() * random_power_of_ten(rng, 0.0, 2.0);
             let (start, centre) = (motion.start(), motion.centre());
             *motion = Motion::about(start, motion.velocity(), faster, centre).unwrap();
         }
@@ -99,7 +104,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     }
     // The axis is constant in its body's frame.
     let towards = if rng.random_bool(0.5) {
-        direction(rng)
+        random_direction(rng)
     } else {
         (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
             .normalize()
@@ -114,7 +119,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
         support_gap(&PiecePair { a, b, b_to_a }, in_a, a.points[0])
     };
     let gap = gap_at(clock);
-    let slack = gap.abs() * magnitude(rng, -3.0, 0.0);
+    let slack = gap.abs() * random_power_of_ten(rng, -3.0, 0.0);
     let free = PiecePastTurningPlane::new(own, other, towards, problem.rounding)
         .free_time(slack, 1.0 - clock);
     let until = free.map_or(1.0, |free| clock + free);
@@ -130,16 +135,16 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     }
     let turns = own.side.path.rate + other.side.path.rate;
     match free {
-        None => seen.unbounded_times += 1,
+        None => seen.unbounded_time_count += 1,
         Some(free) if free > 0.0 => {
-            seen.bounded_times += 1;
-            seen.exhausted_slacks += usize::from(gap_at(until) < gap - 0.5 * slack);
+            seen.bounded_time_count += 1;
+            seen.exhausted_slack_count += usize::from(gap_at(until) < gap - 0.5 * slack);
         }
         Some(_) => {}
     }
     seen.samples_with_both_turning += usize::from(other.side.path.is_turning());
-    seen.fast_bodies += usize::from(turns > 50.0);
-    seen.many_point_pieces += usize::from(other.piece.points.len() > 3);
+    seen.fast_body_count += usize::from(turns > 50.0);
+    seen.many_point_piece_count += usize::from(other.piece.points.len() > 3);
 }
 
 #[test]
@@ -147,7 +152,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     let mut rng = rng(2);
     let (mut height, mut rate) = (0.0f64, 0.0f64);
     for number in 0..3_000 {
-        let scene = scene_of_large_pieces(
+        let scene = scene_of_random_polytopes(
             &mut rng,
             [SceneKind::RandomMotion, SceneKind::NearRim][number % 2],
         );
@@ -163,17 +168,17 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
             if !own.side.path.is_turning() {
                 continue;
             }
-            let normal = direction(&mut rng);
+            let normal = random_direction(&mut rng);
             let sweep = PiecePastTurningPlane::new(own, other, normal, problem.rounding);
             let motions = [&scene.motions[holder], &scene.motions[1 - holder]];
             let point = other.piece.points[rng.random_range(0..other.piece.points.len())];
             let rises = |tau: f64| {
-                let turned = sweep.turned(tau);
+                let turned = sweep.height_terms_after(tau);
                 let arm = point - sweep.reference_point;
                 let height = turned.height + turned.axis.dot(arm);
                 (height, turned.rate + turned.rate_axis.dot(arm))
             };
-            let exact = |tau: f64| exact(motions, normal, point, clock, tau);
+            let exact = |tau: f64| exact_height_and_rate(motions, normal, point, clock, tau);
             let (first, second) = (rises(0.0), rises(tau));
             let (start, end) = (exact(0.0), exact(tau));
             let off =
@@ -191,7 +196,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
 
 /// Returns the exact height of a point of the second body along an axis that turns with the first body, and the rate of
 /// this height. The height is measured from the first body's centre.
-fn exact(
+fn exact_height_and_rate(
     motions: [&Motion; 2],
     normal: DVec3,
     point: DVec3,
@@ -265,13 +270,14 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
 fn no_slack_is_no_time() {
     let mut rng = rng(3);
     for _ in 0..500 {
-        let scene = scene_of_large_pieces(&mut rng, SceneKind::NearRim);
+        let scene = scene_of_random_polytopes(&mut rng, SceneKind::NearRim);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         let [a, b] = snapshot.moving_pieces();
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free = PiecePastTurningPlane::new(&a, &b, direction(&mut rng), problem.rounding)
-                .free_time(slack, 0.5);
+            let free =
+                PiecePastTurningPlane::new(&a, &b, random_direction(&mut rng), problem.rounding)
+                    .free_time(slack, 0.5);
             assert_eq!(free, Some(0.0), "{slack}");
         }
         let free =

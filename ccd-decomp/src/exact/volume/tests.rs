@@ -1,5 +1,5 @@
 use super::*;
-use crate::rational::{Exact3, error_of, exact};
+use crate::rational::{Exact3, error_of, exact_fraction};
 use crate::worst::{WorstCaseSearch, share};
 use ccd_core::glam::dvec3;
 
@@ -54,22 +54,25 @@ fn the_sign_of_a_long_solids_volume_is_certain() {
 /// bound is dominated up to ten million volumes, and is not tested here.
 #[test]
 fn worst_volume() {
-    let found = WorstCaseSearch::of("volume_rounding", 6_000).search(|tape| {
+    let found = WorstCaseSearch::new("volume_rounding", 6_000).search(|tape| {
         let scale = tape.size(-200..=39);
         let mut point = |range| DVec3::from(tape.vector(range)) * scale;
         let (near, far) = (point(-8..=0), point(-8..=0));
         let corners: [DVec3; 5] = std::array::from_fn(|_| far + point(-30..=0));
         let mut volume = SignedVolume::default();
-        let mut truth = exact(0.0);
+        let mut truth = exact_fraction(0.0);
         for face in [[0, 1, 2], [2, 1, 3], [0, 2, 3], [4, 1, 0]] {
             let [p, q, r] = face.map(|k| corners[k]);
             volume.add([p, q, r], near);
-            let [near, p, q, r] = [near, p, q, r].map(Exact3::of);
+            let [near, p, q, r] = [near, p, q, r].map(Exact3::from_coordinates);
             truth += p.minus(&near).dot(&q.minus(&p).cross(&r.minus(&p)));
         }
         // The last sum is rounded as well.
         let error = error_of(volume.sum + volume.addition_errors, &truth);
-        Some(share(error, volume_rounding(volume.size, volume.terms)))
+        Some(share(
+            error,
+            volume_rounding(volume.term_bound_sum, volume.term_count),
+        ))
     });
     found.assert_tight_bound(40.0);
 }

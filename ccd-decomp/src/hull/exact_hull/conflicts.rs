@@ -59,8 +59,8 @@ struct HullBuilder<'a> {
 /// An edge between a facet that the inserted point sees and a facet that it does not see.
 struct HorizonEdge {
     ends: [u32; 2],
-    beyond: u32,
-    seen: u32,
+    unseen_facet: u32,
+    seen_facet: u32,
 }
 
 impl<'a> HullBuilder<'a> {
@@ -133,13 +133,17 @@ impl<'a> HullBuilder<'a> {
         for (k, edge) in (base..).zip(&rim) {
             let [a, b] = edge.ends;
             candidates.clear();
-            for facet in [edge.seen, edge.beyond] {
+            for facet in [edge.seen_facet, edge.unseen_facet] {
                 candidates.extend_from_slice(&self.facets[facet as usize].conflict_points);
             }
             // The previous facet is set once all are added.
-            let adjacent = [edge.beyond, self.facet_at_horizon_start[b as usize], NONE];
+            let adjacent = [
+                edge.unseen_facet,
+                self.facet_at_horizon_start[b as usize],
+                NONE,
+            ];
             self.push([a, b, v], adjacent, &candidates);
-            let beyond = &mut self.facets[edge.beyond as usize];
+            let beyond = &mut self.facets[edge.unseen_facet as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
                 beyond.adjacent_facets[place] = k;
             }
@@ -181,7 +185,11 @@ impl<'a> HullBuilder<'a> {
                     removed.push(beyond);
                 } else {
                     let ends = [corners[k], corners[(k + 1) % 3]];
-                    rim.push(HorizonEdge { ends, beyond, seen });
+                    rim.push(HorizonEdge {
+                        ends,
+                        unseen_facet: beyond,
+                        seen_facet: seen,
+                    });
                 }
             }
         }

@@ -9,9 +9,9 @@ use std::cmp::Ordering;
 /// A list of points, and their positions relative to the first one.
 pub(super) struct LocalPoints<'a> {
     points: &'a [DVec3],
-    relative: Vec<DVec3>,
+    relative_positions: Vec<DVec3>,
     /// The largest absolute coordinate of a relative position.
-    reach: f64,
+    max_abs_coordinate: f64,
 }
 
 /// The plane through three of the points, with rounded coefficients.
@@ -30,8 +30,8 @@ impl<'a> LocalPoints<'a> {
         let coordinates = relative.iter().map(|p| p.abs().max_element());
         LocalPoints {
             points,
-            reach: coordinates.fold(0.0, greater),
-            relative,
+            max_abs_coordinate: coordinates.fold(0.0, greater),
+            relative_positions: relative,
         }
     }
 
@@ -41,15 +41,15 @@ impl<'a> LocalPoints<'a> {
         let normal = sides[0].cross(sides[1]);
         Plane {
             normal,
-            height: normal.dot(self.relative[corners[0] as usize]),
-            rounding: height_rounding(sides, self.reach),
+            height: normal.dot(self.relative_positions[corners[0] as usize]),
+            rounding: height_rounding(sides, self.max_abs_coordinate),
         }
     }
 
     /// Returns whether a point is in front of the plane through three corners; the result is exact.
     #[inline]
     pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
-        let height = plane.normal.dot(self.relative[v as usize]) - plane.height;
+        let height = plane.normal.dot(self.relative_positions[v as usize]) - plane.height;
         // Written so that NaN is decided exactly.
         if height.abs() > plane.rounding {
             height > 0.0

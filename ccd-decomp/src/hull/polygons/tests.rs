@@ -24,7 +24,7 @@ proptest! {
         let points: Vec<DVec3> = cells.iter().map(|c| DVec3::from_array(c.map(f64::from))).collect();
         let Some(triangles) = ExactHull::facets_of(&points) else { return Ok(()) };
         let (mut polygons, mut all) = (Vec::new(), Vec::new());
-        for_each_polygon(&points, &triangles, |corners, group| {
+        for_each_merged_polygon(&points, &triangles, |corners, group| {
             polygons.push(corners.to_vec());
             all.extend(group.to_vec());
         });

@@ -9,7 +9,7 @@ use crate::tolerance::{
 /// The budget of vertices and face corners that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExpansionBudget {
-    remaining: u64,
+    remaining_cost: u64,
     limit: u64,
 }
 
@@ -30,16 +30,16 @@ impl ExpansionBudget {
             BASE_EXPANSION_LIMIT.saturating_add(bytes.saturating_mul(EXPANSION_LIMIT_PER_BYTE));
         let limit = once.saturating_add(repeated.min(MAX_EXPANSION_LIMIT));
         ExpansionBudget {
-            remaining: limit,
+            remaining_cost: limit,
             limit,
         }
     }
 
     /// Spends a cost from the budget; returns an error if too little is left.
     pub(crate) fn spend(&mut self, cost: u64) -> Result<(), MeshFault> {
-        match self.remaining.checked_sub(cost) {
+        match self.remaining_cost.checked_sub(cost) {
             Some(left) => {
-                self.remaining = left;
+                self.remaining_cost = left;
                 Ok(())
             }
             None => Err(MeshFault::TooManyRepeats { limit: self.limit }),

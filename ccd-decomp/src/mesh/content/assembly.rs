@@ -23,7 +23,7 @@ pub(crate) struct Assembly {
 pub(crate) struct Part {
     pub(crate) name: Option<String>,
     pub(crate) shape: usize,
-    pub(crate) map: AffineMap,
+    pub(crate) placement: AffineMap,
 }
 
 impl Assembly {
@@ -42,11 +42,11 @@ impl Assembly {
     }
 
     /// Returns the placed triangles of some parts as one list, part by part.
-    pub(super) fn expand(&self, parts: Range<usize>) -> Result<Polygons, MeshFault> {
+    pub(super) fn placed_triangles(&self, parts: Range<usize>) -> Result<Polygons, MeshFault> {
         self.check_expansion_cost(parts.clone())?;
         let mut all = Polygons::default();
         for part in &self.parts[parts] {
-            append_image(&mut all, &self.shapes[part.shape], &part.map);
+            append_placed_shape(&mut all, &self.shapes[part.shape], &part.placement);
         }
         Ok(all)
     }
@@ -64,7 +64,7 @@ impl Assembly {
 
 /// Appends the image of a shape under an affine map to a list of faces. A mirroring map reverses the triangles, so that
 /// a solid stays one.
-fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap) {
+fn append_placed_shape(all: &mut Polygons, shape: &Polygons, map: &AffineMap) {
     let first = all.vertices.len() as i64;
     let image = |&point| map.apply(point);
     all.vertices.extend(shape.vertices.iter().map(image));

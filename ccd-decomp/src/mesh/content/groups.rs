@@ -49,7 +49,8 @@ fn copy_faces(list: &Polygons, faces: &[usize], numbers: &mut [i64]) -> Polygons
     let mut part = Polygons::default();
     for &face in faces {
         part.push_face(list.face_corners(face).iter().copied());
-        part.face_lines.extend(list.face_lines.get(face));
+        part.face_line_numbers
+            .extend(list.face_line_numbers.get(face));
     }
     let mut used: Vec<usize> = part.corners.iter().map(|&v| v as usize).collect();
     used.sort_unstable();
@@ -57,7 +58,8 @@ fn copy_faces(list: &Polygons, faces: &[usize], numbers: &mut [i64]) -> Polygons
     for vertex in used {
         numbers[vertex] = part.vertices.len() as i64;
         part.vertices.push(list.vertices[vertex]);
-        part.vertex_lines.extend(list.vertex_lines.get(vertex));
+        part.vertex_line_numbers
+            .extend(list.vertex_line_numbers.get(vertex));
     }
     for corner in &mut part.corners {
         *corner = numbers[*corner as usize];

@@ -46,7 +46,7 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
         shapes,
         parts,
         remarks,
-    } = nodes::scene(&root, accessors)?;
+    } = nodes::read_scene(&root, accessors)?;
     Ok(Content {
         unit: Some(Unit::Metre),
         layout: Layout::Assembly(Assembly::new(shapes, parts, allowance)),

@@ -37,7 +37,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
             "g" => file.groups.set_current_name(name_after_keyword(line)),
             "" => {}
             word if may_continue && word.parse::<f64>().is_ok() => {}
-            other => skip_statement(other, number, &mut file.polygons.remarks)
+            other => remark_on_skipped_statement(other, number, &mut file.polygons.remarks)
                 .map_err(|fault| fault.at_element(format!("line {number}")))?,
         }
     }
@@ -99,7 +99,7 @@ impl ObjReader {
             _ => {}
         }
         self.polygons.vertices.push(point);
-        self.polygons.vertex_lines.push(line);
+        self.polygons.vertex_line_numbers.push(line);
         Ok(())
     }
 
@@ -123,7 +123,7 @@ impl ObjReader {
             polygons.corners.push(place);
         }
         polygons.corner_ends.push(polygons.corners.len());
-        polygons.face_lines.push(line);
+        polygons.face_line_numbers.push(line);
         self.objects.add_face();
         self.groups.add_face();
         Ok(())
@@ -145,7 +145,7 @@ impl ObjReader {
             Some((face, vertex)) => {
                 return Err(MeshFault::NoSuchVertex {
                     face,
-                    line: polygons.face_lines.get(face).copied(),
+                    line: polygons.face_line_numbers.get(face).copied(),
                     vertex,
                     vertices,
                     base: 1,
@@ -238,7 +238,11 @@ const HARMLESS_KEYWORDS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel
 ///
 /// # Errors
 /// The statement may define faces.
-fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
+fn remark_on_skipped_statement(
+    keyword: &str,
+    line: usize,
+    remarks: &mut Remarks,
+) -> Result<(), MeshFault> {
     match keyword {
         "surf" | "bsp" | "bzp" | "cdp" => {
             return Err(MeshFault::unsupported("a free-form surface", "polygons"));

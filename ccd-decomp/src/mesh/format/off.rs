@@ -20,20 +20,20 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     for vertex in 0..vertices {
         let mut line = lines.next_line(|| format!("vertex {vertex} of {vertices}"))?;
         let what = "the three coordinates of a vertex";
-        let mut coordinate = || line.number::<f64>(what);
+        let mut coordinate = || line.next_number::<f64>(what);
         let point = DVec3::new(coordinate()?, coordinate()?, coordinate()?);
         polygons.vertices.push(point);
-        polygons.vertex_lines.push(line.number);
+        polygons.vertex_line_numbers.push(line.line_number);
     }
     for face in 0..faces {
         let mut line = lines.next_line(|| format!("face {face} of {faces}"))?;
-        let corners: u32 = line.number("the number of corners of a face")?;
+        let corners: u32 = line.next_number("the number of corners of a face")?;
         for _ in 0..corners {
-            let corner = line.number("the number of a vertex for each corner of a face")?;
+            let corner = line.next_number("the number of a vertex for each corner of a face")?;
             polygons.corners.push(corner);
         }
         polygons.corner_ends.push(polygons.corners.len());
-        polygons.face_lines.push(line.number);
+        polygons.face_line_numbers.push(line.line_number);
     }
     match lines.next() {
         None => Ok(polygons),
@@ -69,7 +69,7 @@ fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u6
         }
     }
     let what = "the numbers of vertices and faces";
-    Ok((line.number(what)?, line.number(what)?))
+    Ok((line.next_number(what)?, line.next_number(what)?))
 }
 
 /// An iterator over the lines of a text, except blank lines and comments.
@@ -80,7 +80,7 @@ struct Lines<'a> {
 
 struct Line<'a> {
     words: std::str::SplitWhitespace<'a>,
-    number: usize,
+    line_number: usize,
 }
 
 impl<'a> Lines<'a> {
@@ -101,7 +101,7 @@ impl<'a> Iterator for Lines<'a> {
             if !text.trim().is_empty() {
                 return Some(Line {
                     words: text.split_whitespace(),
-                    number: self.line_number,
+                    line_number: self.line_number,
                 });
             }
         }
@@ -110,7 +110,7 @@ impl<'a> Iterator for Lines<'a> {
 }
 
 impl Line<'_> {
-    fn number<T: FromStr>(&mut self, expected: &str) -> Result<T, MeshFault> {
+    fn next_number<T: FromStr>(&mut self, expected: &str) -> Result<T, MeshFault> {
         let word = self.words.next();
         word.and_then(|word| word.parse().ok())
             .ok_or_else(|| match word {
@@ -120,6 +120,6 @@ impl Line<'_> {
     }
 
     fn problem(&self, problem: &str) -> MeshFault {
-        MeshFault::syntax(Some(self.number), problem.into())
+        MeshFault::syntax(Some(self.line_number), problem.into())
     }
 }

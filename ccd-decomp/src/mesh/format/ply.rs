@@ -18,7 +18,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let bytes = &normalized_line_ends(bytes);
+    let bytes = &without_lone_text_returns(bytes);
     check_unique_names(bytes)?;
     let mut reader = Reader::new(&bytes[..]);
     let header = Parser::<PlyElement>::new()
@@ -69,17 +69,17 @@ fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
 }
 
 /// Converts lone carriage returns to line feeds, except in a binary payload.
-fn normalized_line_ends(bytes: &[u8]) -> Cow<'_, [u8]> {
+fn without_lone_text_returns(bytes: &[u8]) -> Cow<'_, [u8]> {
     const END_HEADER: &[u8] = b"end_header\r";
     let end = bytes
         .windows(END_HEADER.len())
         .position(|window| window == END_HEADER);
     match (bytes, end.map(|end| end + END_HEADER.len())) {
         ([b'p', b'l', b'y', b'\r', next, ..], Some(end)) if *next != b'\n' => {
-            let mut header = text::with_line_feeds(bytes[..end].into()).into_owned();
+            let mut header = text::without_lone_returns(bytes[..end].into()).into_owned();
             let is_text = header.windows(12).any(|window| window == b"format ascii");
             if is_text {
-                header.extend_from_slice(&text::with_line_feeds(bytes[end..].into()));
+                header.extend_from_slice(&text::without_lone_returns(bytes[end..].into()));
             } else {
                 header.extend_from_slice(&bytes[end..]);
             }

@@ -23,7 +23,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if has_announced_length(bytes) {
         return parse_binary(bytes);
     }
-    let plain = text::utf8_with_line_feeds(bytes);
+    let plain = text::utf8_without_lone_returns(bytes);
     if is_text(&plain) {
         parse_text(&String::from_utf8_lossy(&plain).to_ascii_lowercase())
     } else {
@@ -126,14 +126,14 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
             }
             facets.add_corner(corner);
         } else if done == 0 {
-            facets.polygons.face_lines.push(number);
+            facets.polygons.face_line_numbers.push(number);
         }
         done = (done + 1) % FACET_KEYWORDS.len();
     }
     let missing = match (done, is_closed) {
         (0, true) => return Ok(facets.polygons),
         (0, false) => "the last solid".into(),
-        _ => format!("facet {}", facets.polygons.face_lines.len() - 1),
+        _ => format!("facet {}", facets.polygons.face_line_numbers.len() - 1),
     };
     Err(MeshFault::Truncated {
         missing_element: missing,

@@ -32,14 +32,14 @@ const TETRAHEDRON_OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0
     3 0 2 1\n3 0 1 3  0.5 0.5 0.5\n3 1 2 3\n3 2 0 3\n";
 
 const TETRAHEDRON_POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
-const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+const TETRAHEDRON_FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
 /// Returns a binary STL of a tetrahedron whose header begins with `solid`, like a text STL.
 fn binary_stl() -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes[..10].copy_from_slice(b"solid bin\n");
     bytes.extend(4_u32.to_le_bytes());
-    for face in FACES {
+    for face in TETRAHEDRON_FACES {
         let corners = face.map(|v| TETRAHEDRON_POINTS[v as usize]);
         let numbers = [[0.0; 3]].into_iter().chain(corners).flatten();
         bytes.extend(numbers.flat_map(f32::to_le_bytes));
@@ -56,7 +56,7 @@ fn binary_ply(endian: &str) -> Vec<u8> {
     )
     .into_bytes();
     let little = endian == "little";
-    for face in FACES {
+    for face in TETRAHEDRON_FACES {
         bytes.push(3);
         bytes.extend(face.iter().flat_map(|v| {
             if little {
@@ -81,8 +81,8 @@ fn binary_ply(endian: &str) -> Vec<u8> {
 fn tetrahedron_gltf() -> crate::test_files::Gltf {
     let mut gltf = crate::test_files::Gltf::new();
     let position = gltf.add_vec3_accessor(&TETRAHEDRON_POINTS);
-    let indices = gltf.indices(
-        FACES
+    let indices = gltf.add_index_accessor(
+        TETRAHEDRON_FACES
             .as_flattened()
             .iter()
             .map(|&v| v as u16)
@@ -124,7 +124,7 @@ fn corners(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
 
 #[test]
 fn all_formats_read_the_same_tetrahedron() {
-    let expected: Vec<[DVec3; 3]> = FACES
+    let expected: Vec<[DVec3; 3]> = TETRAHEDRON_FACES
         .iter()
         .map(|face| {
             face.map(|v| {

@@ -31,7 +31,7 @@ fn lengths_are_those_of_the_units() {
 }
 
 /// Returns a coordinate in another unit as an exact fraction.
-fn exact(x: f64, from: Unit, to: Unit) -> RBig {
+fn exact_in_unit(x: f64, from: Unit, to: Unit) -> RBig {
     let ratio =
         RBig::from(from.symbol_and_micrometres().1) / RBig::from(to.symbol_and_micrometres().1);
     RBig::try_from(x).unwrap() * ratio
@@ -39,7 +39,7 @@ fn exact(x: f64, from: Unit, to: Unit) -> RBig {
 
 fn error(x: f64, from: Unit, to: Unit) -> RBig {
     let converted = UnitConversion::new(from, to).apply(DVec3::splat(x)).y;
-    let difference = RBig::try_from(converted).unwrap() - exact(x, from, to);
+    let difference = RBig::try_from(converted).unwrap() - exact_in_unit(x, from, to);
     if difference < RBig::ZERO {
         -difference
     } else {

@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
 use crate::test_meshes::{
-    block_cells, cubes, merged_meshes, mesh_with_reversed_faces, placed, tetrahedron,
+    block_cells, cubes, merged_meshes, mesh_with_reversed_faces, scaled_and_moved, tetrahedron,
 };
 use ccd_core::FacetOrigin;
 use ccd_core::glam::dvec3;
@@ -46,7 +46,7 @@ fn reflex_edges_are_named() {
     assert!(ends.contains(&dvec3(1.0, 0.0, 1.0)) && ends.contains(&dvec3(1.0, 1.0, 1.0)));
 
     let one = tetrahedron();
-    let two = merged_meshes(&[&one, &placed(&one, 1.0, dvec3(5.0, 0.0, 0.0))]);
+    let two = merged_meshes(&[&one, &scaled_and_moved(&one, 1.0, dvec3(5.0, 0.0, 0.0))]);
     assert_eq!(
         polytope(&two),
         Err(DecomposeError::NotConnected { parts: 2 })

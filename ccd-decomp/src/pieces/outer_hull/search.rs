@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
     let floor = EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal();
     let mut search = Search {
-        enclosed: target,
+        enclosed_mesh: target,
         hull: FacetPlanes::new(hull, target),
         steps_spent: 0,
         largest_distance: 0.0,
@@ -40,7 +40,7 @@ pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
 const BOXES_PER_BATCH: usize = 16;
 
 struct Search<'a> {
-    enclosed: &'a Target<'a>,
+    enclosed_mesh: &'a Target<'a>,
     hull: FacetPlanes,
     /// The number of steps of the work budget that the search has spent.
     steps_spent: u64,
@@ -65,7 +65,7 @@ struct BoundedBox {
 #[derive(Default)]
 struct BoxExamination {
     /// The distance from the solid to the box's centre; 0 if the centre is in the solid or outside the hull.
-    distance: f64,
+    centre_distance_bound: f64,
     /// The box with its bound; `None` if no point of the hull in the box is farther from the solid than
     /// `largest_distance`.
     bounded_box: Option<BoundedBox>,
@@ -76,7 +76,7 @@ impl Search<'_> {
     fn examine_bounding_box(&mut self) {
         let whole = BoundedBox {
             bound: f64::INFINITY,
-            bounds: self.enclosed.bounds(),
+            bounds: self.enclosed_mesh.bounds(),
             planes: (0..self.hull.planes.len() as u32).collect(),
         };
         let examined = self.examine(&whole, whole.bounds);
@@ -114,7 +114,7 @@ impl Search<'_> {
 
     fn record(&mut self, examined: BoxExamination) {
         self.steps_spent += examined.steps_spent;
-        self.largest_distance = greater(self.largest_distance, examined.distance);
+        self.largest_distance = greater(self.largest_distance, examined.centre_distance_bound);
         self.examined_box_count += 1;
         let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined_box_count);
         self.waiting_boxes
@@ -124,7 +124,7 @@ impl Search<'_> {
     /// Bounds the distance from the solid to the hull in the box `bounds`, a part of the examined box `within`.
     fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
         let planes = &within.planes;
-        let (target, hull, work) = (self.enclosed, &self.hull, &Work::unbounded());
+        let (target, hull, work) = (self.enclosed_mesh, &self.hull, &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.slack();
@@ -132,10 +132,12 @@ impl Search<'_> {
         let mut examined = BoxExamination::default();
         if let Some(meeting) = hull.box_position(centre, half, planes) {
             let near = match target.locate(centre, work) {
-                Location::Inside { depth } => reach - depth,
-                Location::Outside { distance } => {
+                Location::Inside { least_depth: depth } => reach - depth,
+                Location::Outside {
+                    distance_bound: distance,
+                } => {
                     if meeting.is_centre_inside {
-                        examined.distance = distance;
+                        examined.centre_distance_bound = distance;
                     }
                     distance + reach
                 }

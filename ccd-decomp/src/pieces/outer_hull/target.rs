@@ -19,7 +19,7 @@ use std::cmp::Ordering;
 pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
     search: BoxTree,
-    is_closed: bool,
+    is_solid: bool,
     is_inside_out: bool,
     bounds: [DVec3; 2],
     /// A bound on the rounding error of distances to the mesh.
@@ -29,10 +29,10 @@ pub(super) struct Target<'a> {
 /// Whether a point is in the solid, with a bound on its distance to the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Location {
-    /// The point is in the solid, at least `depth` below the surface.
-    Inside { depth: f64 },
+    /// The point is in the solid, at least `least_depth` below the surface.
+    Inside { least_depth: f64 },
     /// The point is not in the solid, or the surface is open; the target is at most `distance` away.
-    Outside { distance: f64 },
+    Outside { distance_bound: f64 },
 }
 
 impl<'a> Target<'a> {
@@ -47,7 +47,7 @@ impl<'a> Target<'a> {
                 mesh.faces(),
                 0..mesh.faces().len() as u32,
             ),
-            is_closed: topology.is_solid(),
+            is_solid: topology.is_solid(),
             is_inside_out: topology.orientation() == Orientation::Inward,
             bounds,
             slack: excess_rounding(half_diagonal(bounds), farthest),
@@ -59,12 +59,12 @@ impl<'a> Target<'a> {
     }
 
     /// Returns 1 if the mesh's normals point out of the solid, −1 if they point into it.
-    pub(super) fn orientation(&self) -> f64 {
+    pub(super) fn orientation_sign(&self) -> f64 {
         if self.is_inside_out { -1.0 } else { 1.0 }
     }
 
     /// Returns the triangles whose bounding boxes meet a given box; `None` if there are more than `most`.
-    pub(super) fn triangles_in_box(
+    pub(super) fn triangles_meeting_box(
         &self,
         [lo, hi]: [DVec3; 2],
         most: usize,
@@ -100,11 +100,11 @@ impl<'a> Target<'a> {
         let (found, reached) = self.distance_bounds(point, work);
         if self.has_nonzero_winding_number(point, work) {
             Location::Inside {
-                depth: greater(0.0, lesser(found, reached) - self.slack()),
+                least_depth: greater(0.0, lesser(found, reached) - self.slack()),
             }
         } else {
             Location::Outside {
-                distance: reached + self.slack(),
+                distance_bound: reached + self.slack(),
             }
         }
     }
@@ -124,7 +124,7 @@ impl<'a> Target<'a> {
                 DVec3::from_array(found.point.to_array()).distance(point)
             })
         };
-        let Some((face, found)) = self.search.nearest(point, work, distance) else {
+        let Some((face, found)) = self.search.nearest_face(point, work, distance) else {
             return (0.0, f64::INFINITY);
         };
         let corners = self.mesh.triangle(face);
@@ -143,13 +143,13 @@ impl<'a> Target<'a> {
     /// Returns whether the winding number of the mesh about a point is not 0, by exact predicates. A point on the
     /// surface counts as a point next to it. An open mesh winds about no point.
     pub(super) fn has_nonzero_winding_number(&self, point: DVec3, work: &Work) -> bool {
-        if !self.is_closed {
+        if !self.is_solid {
             return false;
         }
         let top = DVec3::new(point.x, point.y, greater(point.z, self.bounds[1].z));
         let above = Region::segment([point, top]);
         let mut winding = 0;
-        self.search.all_meeting_faces_satisfy(&above, work, |face| {
+        self.search.all_near_faces_satisfy(&above, work, |face| {
             winding += ray_crossing_sign(self.mesh.triangle(face), point);
             true
         });

@@ -87,7 +87,7 @@ fn sheet() -> TriangleMesh {
 }
 
 /// Returns a generator of pseudo-random numbers in 0..1, by a linear congruence.
-fn noise() -> impl FnMut() -> f64 {
+fn noise_generator() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
         state = state
@@ -177,7 +177,7 @@ fn excess_bounds_hold_for_samples(#[case] mesh: TriangleMesh) {
     for point in triangles(&mesh).into_iter().flatten() {
         assert!(is_inside(&found.polytope, point), "{point} is outside");
     }
-    let mut next = noise();
+    let mut next = noise_generator();
     let closed = Topology::of(&mesh).is_closed();
     let mut farthest = 0.0_f64;
     for _ in 0..600 {
@@ -329,11 +329,16 @@ fn lattice_points_are_located(#[case] mesh: TriangleMesh) {
             "{point}"
         );
         match target.locate(point, &Work::unbounded()) {
-            Location::Inside { depth } => {
-                assert!(depth <= distance_to_surface && depth > distance_to_surface - 1e-6);
+            Location::Inside { least_depth } => {
+                assert!(
+                    least_depth <= distance_to_surface && least_depth > distance_to_surface - 1e-6
+                );
             }
-            Location::Outside { distance } => {
-                assert!(distance >= distance_to_surface && distance < distance_to_surface + 1e-6);
+            Location::Outside { distance_bound } => {
+                assert!(
+                    distance_bound >= distance_to_surface
+                        && distance_bound < distance_to_surface + 1e-6
+                );
             }
         }
     }

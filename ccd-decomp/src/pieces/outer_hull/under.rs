@@ -21,9 +21,9 @@ pub(super) fn excess_bound_above_surface(
     work: &Work,
 ) -> Option<f64> {
     let bounds = [centre - 3.0 * half, centre + 3.0 * half];
-    let near = target.triangles_in_box(bounds, MAX_NEARBY_TRIANGLES, work)?;
+    let near = target.triangles_meeting_box(bounds, MAX_NEARBY_TRIANGLES, work)?;
     let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
-    let up = unit(target.orientation() * normals.sum::<DVec3>())?;
+    let up = unit(target.orientation_sign() * normals.sum::<DVec3>())?;
     let height = |p: DVec3| up.dot(p - centre);
     let mut part = Vec::new();
     let mut lowest = f64::INFINITY;

@@ -109,7 +109,7 @@ impl GrowingPatch {
             let near = Region::inside_box_and_hull(corners.collect(), facets.collect(), changed);
             if !manifold
                 .boxes()
-                .all_meeting_faces_satisfy(&near, work, is_apart)
+                .all_near_faces_satisfy(&near, work, is_apart)
             {
                 return JoinResult::Refused;
             }

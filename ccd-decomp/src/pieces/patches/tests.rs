@@ -2,8 +2,8 @@ use super::*;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block_cells, cubes, merged_meshes, mesh_with_reversed_faces, placed, prism, prism_under_prism,
-    star_bipyramid, tetrahedron, toothed_disc_outline,
+    block_cells, cubes, merged_meshes, mesh_with_reversed_faces, prism, prism_under_prism,
+    scaled_and_moved, star_bipyramid, tetrahedron, toothed_disc_outline,
 };
 use ccd_core::FacetOrigin;
 use ccd_core::glam::DVec3;
@@ -37,7 +37,7 @@ fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
     assert!(seen.iter().all(|&count| count == 1), "{seen:?}");
 }
 
-fn patches(mesh: &TriangleMesh) -> Vec<usize> {
+fn patch_counts(mesh: &TriangleMesh) -> Vec<usize> {
     let count = |&order: &PatchOrder| {
         let decomposition = decompose(mesh, order).unwrap();
         check(mesh, &decomposition);
@@ -51,7 +51,7 @@ fn patches(mesh: &TriangleMesh) -> Vec<usize> {
 #[case::cube(cubes(&block_cells([1, 1, 1])))]
 #[case::fine_block(cubes(&block_cells([4, 3, 5])))]
 fn convex_solids_are_one_patch(#[case] mesh: TriangleMesh) {
-    assert_eq!(patches(&mesh), [1, 1, 1]);
+    assert_eq!(patch_counts(&mesh), [1, 1, 1]);
     assert_eq!(
         decompose(&mesh, PatchOrder::Cresting).unwrap().patches[0].virtual_facet_count(),
         0
@@ -62,16 +62,16 @@ fn convex_solids_are_one_patch(#[case] mesh: TriangleMesh) {
 fn a_step_is_a_few_patches() {
     let step = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
     assert!(
-        patches(&step).iter().all(|&n| (2..=6).contains(&n)),
+        patch_counts(&step).iter().all(|&n| (2..=6).contains(&n)),
         "{:?}",
-        patches(&step)
+        patch_counts(&step)
     );
 }
 
 #[test]
 fn the_walls_of_a_cavity_are_flat_patches() {
-    let outer = placed(&cubes(&block_cells([1, 1, 1])), 4.0, DVec3::ZERO);
-    let inner = placed(&cubes(&block_cells([1, 1, 1])), 2.0, DVec3::ONE);
+    let outer = scaled_and_moved(&cubes(&block_cells([1, 1, 1])), 4.0, DVec3::ZERO);
+    let inner = scaled_and_moved(&cubes(&block_cells([1, 1, 1])), 2.0, DVec3::ONE);
     let hollow = merged_meshes(&[&outer, &mesh_with_reversed_faces(&inner)]);
     for order in ORDERS {
         let decomposition = decompose(&hollow, order).unwrap();
@@ -136,7 +136,7 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
 #[case::ring(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]]), 4)]
 #[case::wide_and_narrow(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [1, 0, 1], [2, 0, 1], [2, 0, 2], [2, 1, 2]]), 3)]
 fn patches_are_few_and_within_the_solid(#[case] mesh: TriangleMesh, #[case] count: usize) {
-    assert_eq!(patches(&mesh), [count; 3]);
+    assert_eq!(patch_counts(&mesh), [count; 3]);
     let mut thick = 0;
     for order in ORDERS {
         let decomposition = decompose(&mesh, order).unwrap();
@@ -209,7 +209,7 @@ fn patches_of_slivers_take_linear_work() {
         let flats = ConvexPolygons::new(&manifold);
         let work = Work::with_steps(1_000 * u64::from(corners));
         let decomposition =
-            decompose_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();
+            patches_from_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();
         check(&mesh, &decomposition);
         assert_eq!(decomposition.patches.len(), corners as usize / 2);
     }
@@ -228,7 +228,7 @@ fn steps_per_face_stay_bounded() {
             let work = Work::unbounded();
             let flats = ConvexPolygons::new(&manifold);
             let found =
-                decompose_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();
+                patches_from_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();
             check(&mesh, &found);
             let steps = work.steps_spent() / mesh.faces().len() as u64;
             assert!(steps < 8_000, "{count}: {steps}");

@@ -1,7 +1,7 @@
 use super::*;
 use crate::solid::manifold::Dihedral;
 use crate::solid::solid_surface;
-use crate::test_meshes::{block_cells, cubes, merged_meshes, placed, tetrahedron};
+use crate::test_meshes::{block_cells, cubes, merged_meshes, scaled_and_moved, tetrahedron};
 use crate::tolerance::AUTO_WORK_BUDGET;
 use ccd_core::glam::DVec3;
 
@@ -112,7 +112,7 @@ fn the_largest_plane_is_that_of_a_walk() {
 #[test]
 fn meshes_without_a_solid_stay_triangles() {
     let one = tetrahedron();
-    let pierced = merged_meshes(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
+    let pierced = merged_meshes(&[&one, &scaled_and_moved(&one, 1.0, DVec3::splat(0.2))]);
     assert!(matches!(
         chosen_reason(&pierced),
         PieceReason::TrianglesFaster(_) | PieceReason::OnlyTrianglesExact(_)
@@ -145,7 +145,7 @@ fn folded_meshes_stay_triangles() {
     let faces = [[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]];
     let flat = crate::test_meshes::mesh(corners.clone(), &faces);
     let two = crate::test_meshes::mesh(corners[..3].to_vec(), &[[0, 1, 2], [0, 2, 1]]);
-    let solid = placed(&cubes(&block_cells([9, 9, 1])), 1.0, DVec3::splat(5.0));
+    let solid = scaled_and_moved(&cubes(&block_cells([9, 9, 1])), 1.0, DVec3::splat(5.0));
     for mesh in [
         &flat,
         &two,

@@ -1,7 +1,7 @@
 //! Tests oriented boxes against exact fractions. A random search looks for the largest rounding error.
 
 use super::OrientedBox;
-use crate::rational::{Exact3, exact};
+use crate::rational::{Exact3, exact_fraction};
 use crate::search::element::Element;
 use crate::tolerance::box_rounding;
 use crate::worst::{RandomCase, WorstCaseSearch, share};
@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 /// Draws a box around a triangle, and a point; all may be far from the origin.
-fn setting(tape: &mut RandomCase) -> (OrientedBox, DVec3) {
+fn random_box_and_point(tape: &mut RandomCase) -> (OrientedBox, DVec3) {
     let scale = tape.size(-300..=39);
     let middle = DVec3::from(tape.vector(-8..=0));
     let small = tape.size(-50..=0);
@@ -24,14 +24,15 @@ fn setting(tape: &mut RandomCase) -> (OrientedBox, DVec3) {
 /// Tests that the offset of a point along an axis of a box has a rounding error of at most `box_rounding`.
 #[test]
 fn worst_beside() {
-    let found = WorstCaseSearch::of("box_rounding, beside a box", 10_000).search(|tape| {
-        let (of, point) = setting(tape);
+    let found = WorstCaseSearch::new("box_rounding, beside a box", 10_000).search(|tape| {
+        let (of, point) = random_box_and_point(tape);
         let k = tape.index_below(3);
         let axis = of.axes[k];
         let way = axis.dot(point - of.centre);
-        let truth = Exact3::of(axis).dot(&Exact3::of(point).minus(&Exact3::of(of.centre)));
-        let error = (exact(way) - truth).to_f64().value();
-        let reach = greater(of.reach, point.abs().max_element());
+        let truth = Exact3::from_coordinates(axis)
+            .dot(&Exact3::from_coordinates(point).minus(&Exact3::from_coordinates(of.centre)));
+        let error = (exact_fraction(way) - truth).to_f64().value();
+        let reach = greater(of.max_abs_coordinate, point.abs().max_element());
         Some(share(error.abs(), box_rounding(axis, reach)))
     });
     found.assert_tight_bound(120.0);

@@ -100,7 +100,7 @@ impl<'a, 'm> Plates<'a, 'm> {
 
     /// Calls `holds` for the faces that may intersect the given face, until `holds` returns false or the work is spent.
     /// Each pair is reported for at least one of its faces: faces of lower number may be omitted.
-    pub(super) fn all_meeting_faces_satisfy(
+    pub(super) fn all_near_faces_satisfy(
         &self,
         face: u32,
         region: &Region,
@@ -115,7 +115,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             if !self
                 .faces_outside_plates
                 .boxes
-                .all_meeting_faces_satisfy(region, work, later)
+                .all_near_faces_satisfy(region, work, later)
             {
                 return false;
             }
@@ -135,13 +135,11 @@ impl<'a, 'm> Plates<'a, 'm> {
                 let group = plate
                     .group
                     .get_or_init(|| FaceGroup::new(self.manifold, plate.faces.clone()));
-                group
-                    .boxes
-                    .all_meeting_faces_satisfy(region, work, |other| {
-                        let other = group.faces[other as usize];
-                        // Pairs of faces of two plates are found twice.
-                        own != NO_PLATE && other < face || holds(other)
-                    })
+                group.boxes.all_near_faces_satisfy(region, work, |other| {
+                    let other = group.faces[other as usize];
+                    // Pairs of faces of two plates are found twice.
+                    own != NO_PLATE && other < face || holds(other)
+                })
             })
     }
 

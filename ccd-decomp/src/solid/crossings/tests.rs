@@ -5,7 +5,7 @@ use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
 use crate::solid::{check_solid, solid_surface};
 use crate::test_meshes::{
-    comb, cubes, merged_meshes, mesh, placed, prism, prism_under_prism, tetrahedron,
+    comb, cubes, merged_meshes, mesh, prism, prism_under_prism, scaled_and_moved, tetrahedron,
     toothed_disc_outline,
 };
 use crate::tolerance::MAX_CROSSINGS;
@@ -17,9 +17,9 @@ use proptest::test_runner::TestRunner;
 use rstest::rstest;
 
 /// Returns whether a tetrahedron and its copy moved by `offset` are reported to intersect.
-fn meet_outside_shared_corners(offset: DVec3) -> bool {
+fn moved_tetrahedra_meet(offset: DVec3) -> bool {
     let solid = tetrahedron();
-    let both = merged_meshes(&[&solid, &placed(&solid, 1.0, offset)]);
+    let both = merged_meshes(&[&solid, &scaled_and_moved(&solid, 1.0, offset)]);
     match solid_surface(&both).map(|_| ()) {
         Ok(()) => false,
         Err(DecomposeError::SelfIntersecting { pairs }) => {
@@ -42,15 +42,15 @@ fn meet_outside_shared_corners(offset: DVec3) -> bool {
 #[case::in_one_plane_apart(dvec3(1.5, 1.5, 0.0), false)]
 #[case::almost_a_corner_on_a_face(dvec3(0.25, 0.25, 0.5 + 1e-16), false)]
 fn meeting_tetrahedra_are_found(#[case] offset: DVec3, #[case] expected: bool) {
-    assert_eq!(meet_outside_shared_corners(offset), expected);
+    assert_eq!(moved_tetrahedra_meet(offset), expected);
 }
 
 /// Tests that two tetrahedra that share only a corner do not intersect.
 #[test]
 fn a_shared_corner_is_no_intersection() {
-    assert!(!meet_outside_shared_corners(DVec3::X));
+    assert!(!moved_tetrahedra_meet(DVec3::X));
     let solid = tetrahedron();
-    let inside = placed(&solid, 0.5, DVec3::ZERO);
+    let inside = scaled_and_moved(&solid, 0.5, DVec3::ZERO);
     let nested = merged_meshes(&[&solid, &inside]);
     assert!(matches!(
         solid_surface(&nested).err(),

@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::topology::Topology;
 use crate::solid::{check_solid, solid_surface};
-use crate::test_meshes::{block_cells, cubes, merged_meshes, mesh, placed, tetrahedron};
+use crate::test_meshes::{block_cells, cubes, merged_meshes, mesh, scaled_and_moved, tetrahedron};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -90,8 +90,9 @@ fn folds_are_no_polygons() {
     );
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
     let flat = mesh(corners, &[[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]]);
-    let beside =
-        |part: &TriangleMesh| merged_meshes(&[&placed(&tetrahedron(), 1.0, 5.0 * DVec3::X), part]);
+    let beside = |part: &TriangleMesh| {
+        merged_meshes(&[&scaled_and_moved(&tetrahedron(), 1.0, 5.0 * DVec3::X), part])
+    };
     let cases = [
         (back_to_back.clone(), 2),
         (flat.clone(), 2),

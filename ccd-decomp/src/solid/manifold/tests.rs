@@ -1,7 +1,8 @@
 use super::*;
 use crate::solid::solid_surface;
 use crate::test_meshes::{
-    block_cells, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, tetrahedron,
+    block_cells, cubes, merged_meshes, mesh, mesh_with_reversed_faces, scaled_and_moved,
+    tetrahedron,
 };
 
 fn error_message(mesh: &TriangleMesh) -> String {
@@ -70,14 +71,14 @@ fn faults_name_the_elements() {
     let along_an_edge = merged_meshes(&[&solid, &other]);
     assert!(error_message(&along_an_edge).contains("shared by closed parts: 1 (e0-1)"));
 
-    let pierced = merged_meshes(&[&solid, &placed(&solid, 1.0, DVec3::splat(0.2))]);
+    let pierced = merged_meshes(&[&solid, &scaled_and_moved(&solid, 1.0, DVec3::splat(0.2))]);
     assert!(
         error_message(&pierced).contains("faces that intersect: "),
         "{}",
         error_message(&pierced)
     );
 
-    let tiny = placed(&solid, 1e-95, DVec3::ZERO);
+    let tiny = scaled_and_moved(&solid, 1e-95, DVec3::ZERO);
     assert!(
         error_message(&tiny).contains("vertex 1 has a coordinate nearer to 0"),
         "{}",

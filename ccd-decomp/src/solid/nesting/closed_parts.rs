@@ -22,24 +22,24 @@ pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32
     }
     if !is_manifold {
         for (ends, uses) in edges.iter().filter(|(_, uses)| uses.len() > 2) {
-            let open = open_half_edges(uses, &mut parts);
+            let open = half_edges_of_open_parts(uses, &mut parts);
             for (one, other) in face_pairs_of_wedges(mesh, ends, &open) {
                 parts.join(one, other);
             }
         }
     }
-    parts.numbers()
+    parts.set_numbers()
 }
 
 /// Returns those half-edges of an edge that belong to parts that are open at the edge. An open part has more half-edges
 /// in one direction than in the other.
-fn open_half_edges(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
+fn half_edges_of_open_parts(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
     let mut of_parts: Vec<(u32, EdgeUse)> =
         edge.iter().map(|&u| (parts.root(u.face()), u)).collect();
     of_parts.sort_by_key(|of| of.0);
     of_parts
         .chunk_by(|one, next| one.0 == next.0)
-        .filter(|part| part.iter().map(|of| of.1.direction()).sum::<i32>() != 0)
+        .filter(|part| part.iter().map(|of| of.1.direction_sign()).sum::<i32>() != 0)
         .flatten()
         .map(|of| of.1)
         .collect()
@@ -57,12 +57,12 @@ fn face_pairs_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -
     order.sort_by(|one, other| {
         around
             .order(*one, *other)
-            .then(other.direction().cmp(&one.direction()))
+            .then(other.direction_sign().cmp(&one.direction_sign()))
     });
     let (mut begun, mut pairs) = (Vec::new(), Vec::new());
     // A wedge that begins before the first face ends in the second round; paired faces are removed.
     for _ in 0..2 {
-        order.retain(|one| match one.direction() {
+        order.retain(|one| match one.direction_sign() {
             1 => match begun.pop() {
                 Some(other) => {
                     pairs.push((one.face(), other));
@@ -85,7 +85,7 @@ struct AngularOrder<'m> {
     mesh: &'m TriangleMesh,
     /// The welded end vertices of the edge, the smaller first.
     ends: [u32; 2],
-    first: DVec3,
+    first_apex: DVec3,
     /// The projection of the first face's plane to a coordinate plane.
     projection: Projection,
 }
@@ -107,7 +107,7 @@ impl<'m> AngularOrder<'m> {
         Some(AngularOrder {
             mesh,
             ends,
-            first,
+            first_apex: first,
             projection: Projection::new([v, w, first])?,
         })
     }
@@ -130,7 +130,7 @@ impl<'m> AngularOrder<'m> {
     fn angle_class(&self, point: DVec3) -> u32 {
         let [v, w] = self.points();
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
-        match side([v, w, self.first], point) {
+        match side([v, w, self.first_apex], point) {
             Ordering::Equal if is_near() => 0,
             Ordering::Greater => 1,
             Ordering::Equal => 2,

@@ -1,6 +1,6 @@
 //! Tests which shells of nested, crossing and touching cubes are found to be wrongly oriented or unclear.
 
-use super::centre_and_sides;
+use super::centre_and_points_beside;
 use crate::rational::Exact3;
 use crate::test_meshes::CUBE_FACES;
 use crate::tolerance::FACE_CENTRE_ROUNDING;
@@ -162,21 +162,29 @@ fn shells_that_share_faces_are_distinguished() {
 /// needles of an aspect of up to a million, and far from the origin.
 #[test]
 fn worst_middle() {
-    let found = WorstCaseSearch::of("FACE_ROUNDING", 10_000).search(|tape| {
+    let found = WorstCaseSearch::new("FACE_ROUNDING", 10_000).search(|tape| {
         let (scale, far) = (tape.size(-60..=20), DVec3::from(tape.vector(-8..=20)));
         let [u, v] = [(); 2].map(|()| DVec3::from(tape.vector(-4..=0)));
         let narrow = tape.size(-20..=0);
-        let face = [DVec3::ZERO, u, u * tape.fraction() + v * narrow].map(|p| (p + far) * scale);
+        let face =
+            [DVec3::ZERO, u, u * tape.next_fraction() + v * narrow].map(|p| (p + far) * scale);
         let [a, b, c] = face;
         let size = a.distance(b) + a.distance(c);
         let area = (b - a).cross(c - a).length();
         let (middle, across) =
-            centre_and_sides(face, size).filter(|_| area > 1e-6 * size * size)?;
-        let [a, b, c] = face.map(Exact3::of);
+            centre_and_points_beside(face, size).filter(|_| area > 1e-6 * size * size)?;
+        let [a, b, c] = face.map(Exact3::from_coordinates);
         let normal = b.minus(&a).cross(&c.minus(&a));
         // The rounding here is far below the tested error.
         let unit = normal.dot(&normal).to_f64().value().sqrt();
-        let height = |p: DVec3| Exact3::of(p).minus(&a).dot(&normal).to_f64().value() / unit;
+        let height = |p: DVec3| {
+            Exact3::from_coordinates(p)
+                .minus(&a)
+                .dot(&normal)
+                .to_f64()
+                .value()
+                / unit
+        };
         let [behind, ahead] = across.map(height);
         let meant = FACE_CENTRE_ROUNDING * (size + middle.abs().max_element());
         Some(share(meant - lesser(ahead, -behind), meant))

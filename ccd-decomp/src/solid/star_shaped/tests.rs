@@ -3,8 +3,8 @@ use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block_cells, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, star_bipyramid,
-    tetrahedron,
+    block_cells, cubes, merged_meshes, mesh, mesh_with_reversed_faces, scaled_and_moved,
+    star_bipyramid, tetrahedron,
 };
 
 fn is_star_shaped(mesh: &TriangleMesh) -> bool {
@@ -25,7 +25,7 @@ fn convex_and_star_shaped_solids_are_recognised() {
 #[test]
 fn others_are_not() {
     let one = tetrahedron();
-    let around = merged_meshes(&[&one, &placed(&one, 3.0, DVec3::splat(-0.3))]);
+    let around = merged_meshes(&[&one, &scaled_and_moved(&one, 3.0, DVec3::splat(-0.3))]);
     assert!(
         !is_star_shaped(&around),
         "a surface seen through another one"

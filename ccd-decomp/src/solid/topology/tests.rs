@@ -2,7 +2,7 @@ use crate::test_meshes::CUBE_FACES;
 use crate::{Edge, Orientation, Topology, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
 
-const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+const TETRAHEDRON_FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
 fn cube_points() -> Vec<DVec3> {
     let bit = |k: u32, b: u32| f64::from(k >> b & 1);
@@ -84,8 +84,8 @@ fn two_shells_that_share_an_edge_are_closed_but_no_manifold() {
         -DVec3::Y,
         -DVec3::Z,
     ];
-    let other = TETRAHEDRON.map(|face| face.map(|v| [0, 1, 4, 5][v as usize]));
-    let both = topology(points, &[TETRAHEDRON, other].concat());
+    let other = TETRAHEDRON_FACES.map(|face| face.map(|v| [0, 1, 4, 5][v as usize]));
+    let both = topology(points, &[TETRAHEDRON_FACES, other].concat());
     assert!(both.is_closed() && !both.is_manifold(), "{both}");
     assert_eq!(both.shared_edges.first(), [Edge(0, 1)]);
 }
@@ -93,7 +93,7 @@ fn two_shells_that_share_an_edge_are_closed_but_no_manifold() {
 #[test]
 fn a_fin_on_an_edge_opens_a_shell() {
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, -DVec3::Y];
-    let fin = [TETRAHEDRON.as_slice(), &[[0, 1, 4]]].concat();
+    let fin = [TETRAHEDRON_FACES.as_slice(), &[[0, 1, 4]]].concat();
     let topology = topology(points, &fin);
     assert!(!topology.is_closed());
     assert_eq!(topology.branching_edges.first(), [Edge(0, 1)]);
@@ -152,7 +152,7 @@ fn faces_without_area_close_the_mesh() {
         [2, 0, 3],
     ];
     assert!(topology(points.clone(), &seam).is_manifold());
-    let collapsed = [TETRAHEDRON.as_slice(), &[[0, 0, 1], [2, 2, 2]]].concat();
+    let collapsed = [TETRAHEDRON_FACES.as_slice(), &[[0, 0, 1], [2, 2, 2]]].concat();
     assert!(topology(points, &collapsed).is_manifold());
 }
 

@@ -82,7 +82,7 @@ impl<'a> Tree<'a> {
                 for node in changed {
                     self.is_changed[node] = true;
                 }
-                self.apply(from, to);
+                self.move_beside(from, to);
             }
         }
     }
@@ -140,7 +140,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Makes a subtree the sibling of the node `to`. Its old sibling replaces its old parent.
-    fn apply(&mut self, from: u32, to: u32) {
+    fn move_beside(&mut self, from: u32, to: u32) {
         let (beside, parent) = (sibling(from), self.parents[from as usize]);
         // A sibling is never chosen: it gains nothing, because a box is exactly the union of its children's.
         debug_assert_ne!(to, beside);

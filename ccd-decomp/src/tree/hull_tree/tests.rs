@@ -50,12 +50,12 @@ fn polytope(points: &[DVec3]) -> Polytope {
 }
 
 /// Returns the numbers of the leaf nodes below the node `at`.
-fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
+fn leaf_indices_below(tree: &HullTree, at: usize) -> Vec<usize> {
     match tree.hierarchy().nodes()[at] {
         HierarchyNode::Leaf(_) => vec![at],
         HierarchyNode::Inner(left, right) => [left, right]
             .iter()
-            .flat_map(|&child| leaves(tree, child as usize))
+            .flat_map(|&child| leaf_indices_below(tree, child as usize))
             .collect(),
     }
 }
@@ -105,7 +105,7 @@ proptest! {
         prop_assert_eq!(tree.hierarchy().nodes().len(), 2 * count - 1);
         for at in 0..tree.hulls().len() {
             let hull = tree.hulls().get(at);
-            for leaf in leaves(&tree, at) {
+            for leaf in leaf_indices_below(&tree, at) {
                 for &point in tree.hulls().get(leaf).points {
                     prop_assert!(is_exactly_inside(&hull, point));
                     // A facet of a hull with volume may be so thin that rounding turns its normal; a
@@ -125,13 +125,13 @@ proptest! {
         let tree = build_hull_tree(&Pieces::polytopes(&pieces).unwrap()).unwrap();
         for at in 0..tree.hulls().len() {
             let hull = tree.hulls().get(at);
-            let below = leaves(&tree, at);
+            let below = leaf_indices_below(&tree, at);
             let real = |combination: &ConvexCombination| {
                 let point = combination.position(hull.points).unwrap();
                 let near = |&leaf: &usize| contains_within_slack(&tree.hulls().get(leaf), point, 1e-9);
                 tree.facet_class_at(at as u32, combination) == FacetClass::Free
                     || below.iter().any(near)
-                    || between(&tree, &below, point)
+                    || is_near_two_pieces(&tree, &below, point)
             };
             for corners in hull.facets.iter() {
                 for k in 0..corners.len() {
@@ -148,7 +148,7 @@ proptest! {
 }
 
 /// Returns whether a point is within 1e-6 of two pieces, so that rounding may decide which piece contains it.
-fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
+fn is_near_two_pieces(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
     let near = |&&leaf: &&usize| contains_within_slack(&tree.hulls().get(leaf), point, 1e-6);
     below.iter().filter(near).count() > 1
 }
@@ -191,7 +191,7 @@ fn a_row_splits_in_the_middle_along_itself() {
     let HierarchyNode::Inner(left, _) = tree.hierarchy().nodes()[0] else {
         panic!("16 pieces in one leaf");
     };
-    let mut below: Vec<u32> = leaves(&tree, left as usize)
+    let mut below: Vec<u32> = leaf_indices_below(&tree, left as usize)
         .into_iter()
         .map(|leaf| match tree.hierarchy().nodes()[leaf] {
             HierarchyNode::Leaf(piece) => piece,

@@ -1,5 +1,5 @@
 use super::{TOUCHING_ULPS, VOLUME_ULPS};
-use crate::rational::{Exact3, error_of, exact};
+use crate::rational::{Exact3, error_of, exact_fraction};
 use crate::worst::{RandomCase, WorstCaseSearch, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -14,12 +14,12 @@ fn corners(tape: &mut RandomCase) -> [DVec3; 4] {
 /// `VOLUME_ULPS`.
 #[test]
 fn worst_volume() {
-    let found = WorstCaseSearch::of("VOLUME_ULPS", 10_000).search(|tape| {
+    let found = WorstCaseSearch::new("VOLUME_ULPS", 10_000).search(|tape| {
         let [a, b, c, apex] = corners(tape);
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);
         let allowed = VOLUME_ULPS * f64::EPSILON * ab.length() * ac.length();
-        let [a3, b, c, apex] = [a, b, c, apex].map(Exact3::of);
+        let [a3, b, c, apex] = [a, b, c, apex].map(Exact3::from_coordinates);
         let exact_normal = b.minus(&a3).cross(&c.minus(&a3));
         let origin = error_of(a.dot(normal), &a3.dot(&exact_normal));
         let height = error_of(up.dot(normal), &apex.minus(&a3).dot(&exact_normal));
@@ -34,9 +34,9 @@ fn worst_volume() {
 /// Tests that a weighted sum of four corners is accurate to `TOUCHING_ULPS`.
 #[test]
 fn worst_combination() {
-    let found = WorstCaseSearch::of("TOUCHING_ULPS", 10_000).search(|tape| {
+    let found = WorstCaseSearch::new("TOUCHING_ULPS", 10_000).search(|tape| {
         let corners = corners(tape);
-        let weights = [(); 4].map(|()| tape.fraction());
+        let weights = [(); 4].map(|()| tape.next_fraction());
         let total: f64 = weights.iter().sum();
         if !(total > 0.0) {
             return None;
@@ -46,8 +46,8 @@ fn worst_combination() {
         let sum = terms.fold(DVec3::ZERO, |sum, (&corner, weight)| sum + corner * weight);
         let truth = |axis: usize| {
             let terms = corners.iter().zip(weights);
-            terms.fold(exact(0.0), |sum, (corner, weight)| {
-                sum + exact(corner[axis]) * exact(weight)
+            terms.fold(exact_fraction(0.0), |sum, (corner, weight)| {
+                sum + exact_fraction(corner[axis]) * exact_fraction(weight)
             })
         };
         let off = DVec3::from([0, 1, 2].map(|k| error_of(sum[k], &truth(k)))).length();

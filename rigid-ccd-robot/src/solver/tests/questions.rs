@@ -10,7 +10,7 @@ fn random_path(random: &mut Pcg64, robot: &Robot) -> Vec<Vec<f64>> {
     for _ in 0..random.random_range(0..9) {
         let next = random_configuration(random, robot);
         let step = [0.01, 0.2, 0.7][random.random_range(0..3)];
-        path.push(between(path.last().unwrap(), &next, step));
+        path.push(configuration_between(path.last().unwrap(), &next, step));
     }
     path
 }
@@ -18,7 +18,7 @@ fn random_path(random: &mut Pcg64, robot: &Robot) -> Vec<Vec<f64>> {
 /// Returns the configuration at a point of a path.
 fn configuration_at(path: &[Vec<f64>], at: PathPoint) -> Vec<f64> {
     match path.get(at.segment + 1) {
-        Some(next) => between(&path[at.segment], next, at.share),
+        Some(next) => configuration_between(&path[at.segment], next, at.share),
         None => path[at.segment].clone(),
     }
 }
@@ -127,7 +127,7 @@ fn a_cut_edge_is_the_same_edge() {
         let mut solver = cell.solver();
         let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
         let cut: Vec<Vec<f64>> = (0..=64)
-            .map(|k| between(&ends[0], &ends[1], f64::from(k) / 64.0))
+            .map(|k| configuration_between(&ends[0], &ends[1], f64::from(k) / 64.0))
             .collect();
         let whole = solver.closest_approach(&ends).unwrap();
         let parts = solver.closest_approach(&cut).unwrap();

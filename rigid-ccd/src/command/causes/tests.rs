@@ -9,7 +9,10 @@ fn every_cause_is_reported_once() {
     let words = without_error_numbers(&source.to_string());
     assert!(!words.contains("os error"), "{words}");
     let place = "out.csv".to_owned();
-    let error = anyhow::Error::from(OutputError { place, source });
+    let error = anyhow::Error::from(OutputError {
+        file_or_stream: place,
+        source,
+    });
     assert_eq!(
         message_with_causes(&error),
         format!("cannot write out.csv: {words}")

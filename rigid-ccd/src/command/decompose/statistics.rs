@@ -68,23 +68,27 @@ impl fmt::Display for Statistics {
             "" => Ok(()),
             value => writeln!(f, "{name:<14}{}", PrintableText(value)),
         };
-        let triangles = count(self.triangles);
+        let triangles = human_count(self.triangles);
         line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;
         line(f, "unit", self.unit.unwrap_or_default())?;
         line(f, "remarks", &self.remarks)?;
         line(f, "pieces", &self.pieces_text())?;
         line(f, "why", &self.why)?;
-        line(f, "virtual faces", &count(self.virtual_faces).to_string())?;
+        line(
+            f,
+            "virtual faces",
+            &human_count(self.virtual_faces).to_string(),
+        )?;
         line(f, "tree nodes", &self.tree_text())?;
         line(f, "build", &format!("{:.1} ms", self.build_ms))?;
         line(f, "memory", &format!("{:.1} MB", self.bytes as f64 / 1e6))?;
-        write!(f, "{:<14}{}", "error", self.error_text())
+        write!(f, "{:<14}{}", "error", self.excess_text())
     }
 }
 
 impl Statistics {
     fn pieces_text(&self) -> String {
-        let pieces = format!("{} {}", count(self.pieces), self.pieces_kind);
+        let pieces = format!("{} {}", human_count(self.pieces), self.pieces_kind);
         if self.exact {
             format!("{pieces}, {}", self.volume)
         } else {
@@ -93,14 +97,14 @@ impl Statistics {
     }
 
     fn tree_text(&self) -> String {
-        let nodes = count(self.tree_nodes);
+        let nodes = human_count(self.tree_nodes);
         match self.hulls {
             0 => nodes.to_string(),
-            hulls => format!("{nodes}, {} hulls", count(hulls)),
+            hulls => format!("{nodes}, {} hulls", human_count(hulls)),
         }
     }
 
-    fn error_text(&self) -> String {
+    fn excess_text(&self) -> String {
         if self.exact {
             "none: the pieces are exact".to_owned()
         } else {
@@ -109,6 +113,6 @@ impl Statistics {
     }
 }
 
-fn count(count: usize) -> HumanCount {
+fn human_count(count: usize) -> HumanCount {
     HumanCount(count as u64)
 }

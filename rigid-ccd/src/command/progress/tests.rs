@@ -1,7 +1,7 @@
 use super::*;
 
 fn progress_line(progress: &Progress) -> String {
-    line(&progress.bar, progress.total, &progress.steps)
+    line(&progress.bar, progress.total_work, &progress.steps)
 }
 
 /// Tests that progress counts the rows that are answered, not those that a batch has only read.
@@ -30,7 +30,8 @@ fn rows_that_were_skipped_count_as_answered() {
 
 #[test]
 fn slow_rows_have_a_time_and_fast_ones_a_rate() {
-    let after = |steps, seconds| rate(&AtomicU64::new(steps), Duration::from_secs(seconds));
+    let after =
+        |steps, seconds| count_and_rate_text(&AtomicU64::new(steps), Duration::from_secs(seconds));
     assert_eq!(after(0, 5), "0 rows answered");
     assert_eq!(after(1, 5), "1 row answered");
     assert_eq!(after(2, 10), "2 rows answered, 5 s/row");

@@ -1,7 +1,9 @@
 //! Answers the rows of a table batch by batch, on all cores.
 
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, TimedQuestion, parallel_solver, time};
+use crate::batch::{
+    BatchSize, Bodies, Solve, TimedAnswer, TimedQuestion, answer_timed, parallel_solver,
+};
 use crate::command::bad_rows::BadRowCounter;
 use crate::command::files::{Rows, input_name};
 use crate::command::progress::Progress;
@@ -62,16 +64,17 @@ impl<'a> BatchRun<'a> {
 
     /// Reads and answers the next batch of at most `most` rows; `None` at the end of the table.
     pub(super) fn next(&mut self, rows: &mut Rows, most: usize) -> Option<Batch> {
-        let (batch, broken) = read_rows(rows, self.batch.items().min(most));
+        let (batch, broken) = read_rows(rows, self.batch.row_count().min(most));
         if batch.is_empty() && broken.is_none() {
             return None;
         }
-        self.progress.begin_batch(batch.len(), rows.bytes());
+        self.progress
+            .begin_batch(batch.len(), rows.consumed_bytes());
         let (bodies, timing, progress) = (self.bodies, &self.timed_question, &self.progress);
         let start = Instant::now();
         let answers = self.solver.map(&batch, |solver, row| {
             let answer = match row {
-                Ok((_, course)) => time(bodies, course, timing, solver.as_mut()),
+                Ok((_, course)) => answer_timed(bodies, course, timing, solver.as_mut()),
                 Err(error) => Err(error.problem.clone()),
             };
             progress.step();
@@ -86,7 +89,7 @@ impl<'a> BatchRun<'a> {
     }
 
     /// Returns the row of results for a row of motions, and reports the row if it is bad.
-    pub(super) fn answered_row<'b>(
+    pub(super) fn report_and_convert_row<'b>(
         &mut self,
         (asked, answer): &'b (CourseRow, Result<TimedAnswer, RowProblem>),
     ) -> AnsweredRow<'b> {

@@ -2,7 +2,7 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
-use crate::command::named::{INSTRUCTIONS, SHORTCUTS, START_POLICIES, named_value_parser};
+use crate::command::named::{SHORTCUTS, START_POLICIES, VECTOR_INSTRUCTIONS, named_value_parser};
 use crate::command::numbers::{parse_nonnegative, parse_seconds, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::table::results::{self, Column};
@@ -62,7 +62,7 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     /// Vector instructions to compute with; they change the speed, not the answers
-    #[arg(long, value_parser = named_value_parser(INSTRUCTIONS), default_value = "best")]
+    #[arg(long, value_parser = named_value_parser(VECTOR_INSTRUCTIONS), default_value = "best")]
     pub(super) instructions: Instructions,
     /// Search without these shortcuts, to see what they save; times stay certified
     #[arg(long, value_name = "SHORTCUT,...", value_delimiter = ',', value_parser = named_value_parser(SHORTCUTS))]

@@ -5,7 +5,7 @@
 
 use crate::command::counts::StatusCounts;
 use crate::command::output::OutputError;
-use crate::command::table::WrittenSize;
+use crate::command::table::LengthAndChecksum;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
@@ -25,9 +25,9 @@ pub(super) struct Checkpoint {
     /// The number of finished rows with each status.
     pub(super) counts: StatusCounts,
     /// The length and checksum of the table of results, set when it is flushed.
-    pub(super) results: WrittenSize,
+    pub(super) results: LengthAndChecksum,
     /// The length and checksum of the table of contacts, set when it is flushed.
-    pub(super) contacts: WrittenSize,
+    pub(super) contacts: LengthAndChecksum,
     /// Whether the run has answered all selected rows.
     #[serde(rename = "whole")]
     pub(super) finished: bool,
@@ -45,7 +45,7 @@ pub(super) struct Journal {
     path: PathBuf,
     file: File,
     /// The checksum of what has been written to the journal.
-    sum: Hasher,
+    checksum_hasher: Hasher,
 }
 
 /// The line between the options and the checkpoints in the journal.
@@ -105,16 +105,20 @@ impl Journal {
             File::options().append(true).open(&path)
         };
         match open() {
-            Ok(file) => Ok(Journal { path, file, sum }),
-            Err(source) => Err(OutputError::at(&path, source)),
+            Ok(file) => Ok(Journal {
+                path,
+                file,
+                checksum_hasher: sum,
+            }),
+            Err(source) => Err(OutputError::for_path(&path, source)),
         }
     }
 
     /// Appends a checkpoint to the journal.
     pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
-        line(&checkpoint, &mut self.sum)
+        line(&checkpoint, &mut self.checksum_hasher)
             .and_then(|line| self.file.write_all(line.as_bytes()))
-            .map_err(|source| OutputError::at(&self.path, source))
+            .map_err(|source| OutputError::for_path(&self.path, source))
     }
 }
 

@@ -3,7 +3,7 @@
 use ccd_core::Limit;
 
 /// The limits that may end a query, each with advice for a user whose query reached the limit.
-pub(super) const LIMITS: [(Limit, &str); 5] = [
+pub(super) const LIMIT_ADVICE: [(Limit, &str); 5] = [
     (
         Limit::Budget,
         "the budget was spent; a larger --tolerance, or --ask is-free with a --margin, often decides at once; a larger \

@@ -6,7 +6,7 @@
 use super::args::QueryArgs;
 use super::journal::{Checkpoint, EarlierRun, Journal, JournalError, RecordedOptions};
 use crate::command::output::{JOURNAL_EXTENSION, Output, OutputError};
-use crate::command::table::{TableWriter, WrittenSize, measure};
+use crate::command::table::{LengthAndChecksum, TableWriter, measure_beginning};
 use crate::table::contacts;
 use crate::table::results::names;
 use anyhow::{Context, Result, bail};
@@ -67,7 +67,7 @@ impl OpenedTables {
         let journal = results.sibling(JOURNAL_EXTENSION);
         let earlier = match EarlierRun::read(&journal) {
             Ok(earlier) => earlier,
-            Err(JournalError) if results.left() > 0 => bail!(
+            Err(JournalError) if results.left_length() > 0 => bail!(
                 "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
                  first to start over",
                 results.partial_path().display(),
@@ -98,7 +98,7 @@ impl ClaimedFiles {
         (earlier, journal): (Option<EarlierRun>, PathBuf),
     ) -> Result<OpenedTables> {
         let left = match &self.results {
-            Output::File(results, _) if results.left() > 0 => {
+            Output::File(results, _) if results.left_length() > 0 => {
                 earlier.map(|earlier| (earlier, results))
             }
             _ => None,
@@ -111,11 +111,11 @@ impl ClaimedFiles {
                 let outputs = Outputs::resume(self, &earlier.checkpoint, recorded, journal)?;
                 Ok(OpenedTables::Resumed(outputs, earlier.checkpoint))
             }
-            Some((earlier, results)) if earlier.checkpoint.counts.rows() > 0 => bail!(
+            Some((earlier, results)) if earlier.checkpoint.counts.row_count() > 0 => bail!(
                 "{} has {} rows of an interrupted run; add --resume to continue it, or delete the file \
                  to start over",
                 results.partial_path().display(),
-                earlier.checkpoint.counts.rows()
+                earlier.checkpoint.counts.row_count()
             ),
             _ => Ok(OpenedTables::New(Outputs::create(
                 args,
@@ -142,22 +142,24 @@ impl ClaimedFiles {
 
 /// Renames a complete table to its final name, unless the table already has that name. Returns whether a file of that
 /// name exists.
-fn rename_complete_table(table: Output, written: WrittenSize) -> Result<bool> {
+fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bool> {
     let Output::File(mut claim, _) = table else {
         return Ok(true);
     };
     let target = claim.target().to_owned();
     let name_it = || {
-        if claim.left() == written.bytes && measure(claim.file(), u64::MAX)?.0 == written {
+        if claim.left_length() == written.bytes
+            && measure_beginning(claim.file(), u64::MAX)?.0 == written
+        {
             claim.place()?;
         }
         if !target.exists() {
             return Ok(None);
         }
-        let (found, _) = measure(File::open(&target)?, u64::MAX)?;
+        let (found, _) = measure_beginning(File::open(&target)?, u64::MAX)?;
         Ok(Some(found == written))
     };
-    match name_it().map_err(|source| OutputError::at(&target, source))? {
+    match name_it().map_err(|source| OutputError::for_path(&target, source))? {
         Some(false) => bail!(
             "--resume: {} has changed since the run finished; omit --resume to start over and \
              overwrite it",
@@ -248,7 +250,7 @@ impl Outputs {
 }
 
 /// Opens a table of an interrupted run, to append to it.
-fn resume_table(table: Output, written: WrittenSize) -> Result<TableWriter> {
+fn resume_table(table: Output, written: LengthAndChecksum) -> Result<TableWriter> {
     let Output::File(claim, _) = table else {
         bail!("--resume needs files");
     };

@@ -3,7 +3,7 @@
 use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::summary::Summary;
-use super::{print_summary, run_outcome};
+use super::{print_summary, report_run_outcome};
 use crate::command::files::{Rows, input_name};
 use crate::command::{RunOutcome, print_error};
 use anyhow::{Context, Result, bail};
@@ -60,7 +60,7 @@ fn warn_of_partial_page(args: &QueryArgs) {
 
 /// Reports that a finished run has nothing left to do, and returns its exit status. Refuses motions that are not those
 /// of the finished run.
-pub(super) fn report_finished(
+pub(super) fn verify_and_report_finished(
     args: &QueryArgs,
     rows: &mut Rows,
     end: Checkpoint,
@@ -85,5 +85,5 @@ pub(super) fn report_finished(
             &Summary::new(args.tolerance).with_earlier_counts(end.counts),
         );
     }
-    Ok(run_outcome(args, end))
+    Ok(report_run_outcome(args, end))
 }

@@ -29,7 +29,9 @@ impl QueryRun<'_> {
     /// Answers the selected rows from `start` on, and returns the last checkpoint.
     pub(super) fn answer_rows(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
         let mut done = start;
-        self.batch_run.progress.begin_batch(0, rows.bytes());
+        self.batch_run
+            .progress
+            .begin_batch(0, rows.consumed_bytes());
         loop {
             let end = self.args.rows.end;
             let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
@@ -60,7 +62,7 @@ impl QueryRun<'_> {
                 movements: course,
                 mut row,
                 timed_answer: timed,
-            } = self.batch_run.answered_row(row);
+            } = self.batch_run.report_and_convert_row(row);
             match timed {
                 Some(timed) => self.summary.add(row.status, timed),
                 None => self.summary.add_error(),
@@ -76,11 +78,11 @@ impl QueryRun<'_> {
                     .map(|(course, timed)| (position, course, timed)),
             );
         }
-        self.write_contacts(&all)
+        self.find_and_write_contacts(&all)
     }
 
     /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
-    fn write_contacts(
+    fn find_and_write_contacts(
         &mut self,
         answered: &[(RowPosition, &Movements, &TimedAnswer)],
     ) -> Result<(), OutputError> {
@@ -103,7 +105,7 @@ impl QueryRun<'_> {
         // A row may have very many contacts.
         for few in answered.chunks(CONTACT_BATCH_ROWS) {
             let all = solver.map(few, |_, (_, course, timed)| {
-                contacts::rows(bodies, course, settings, (question, &timed.answer))
+                contacts::contact_rows(bodies, course, settings, (question, &timed.answer))
             });
             for ((position, ..), rows) in few.iter().zip(all) {
                 match rows {

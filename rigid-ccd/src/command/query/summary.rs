@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::limits::LIMITS;
+use super::limits::LIMIT_ADVICE;
 use crate::batch::TimedAnswer;
 use crate::command::counts::StatusCounts;
 use crate::table::results::Status;
@@ -19,7 +19,7 @@ pub(super) struct Summary {
     pub(super) counts: StatusCounts,
     /// The number of rows that an earlier run answered; only their status is known.
     earlier_row_count: usize,
-    times: TimeHistogram,
+    time_histogram: TimeHistogram,
     /// The number of pairs of nodes visited in all queries.
     pub(super) iterations: u64,
     /// The number of calls of the distance backend in all queries.
@@ -30,8 +30,8 @@ pub(super) struct Summary {
     pub(super) oracle_steps: u64,
     /// The tolerance given for the queries, in the scene's unit of length.
     tolerance: f64,
-    /// For each of the [`LIMITS`], the number of queries that the limit ended.
-    limits: [usize; LIMITS.len()],
+    /// For each of the [`LIMIT_ADVICE`], the number of queries that the limit ended.
+    limit_counts: [usize; LIMIT_ADVICE.len()],
     /// The number of answers with a larger tolerance than the given one, because of rounding.
     pub(super) raised_tolerance_count: usize,
     /// The largest tolerance of any answer, in the scene's unit of length.
@@ -52,7 +52,7 @@ impl Summary {
     pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
         Summary {
             counts,
-            earlier_row_count: counts.rows(),
+            earlier_row_count: counts.row_count(),
             ..self
         }
     }
@@ -61,7 +61,7 @@ impl Summary {
     pub(super) fn add(&mut self, status: Status, timed: &TimedAnswer) {
         let answer = &timed.answer;
         self.counts.add(status);
-        for (count, (limit, _)) in self.limits.iter_mut().zip(LIMITS) {
+        for (count, (limit, _)) in self.limit_counts.iter_mut().zip(LIMIT_ADVICE) {
             *count += usize::from(answer.outcome.limit() == Some(limit));
         }
         self.iterations += answer.stats.iterations;
@@ -70,7 +70,7 @@ impl Summary {
         self.oracle_steps += answer.stats.effort.steps;
         self.raised_tolerance_count += usize::from(answer.tolerance > self.tolerance);
         self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
-        self.times.add(timed.micros);
+        self.time_histogram.add(timed.micros);
     }
 
     /// Counts a row of status `error`.
@@ -80,17 +80,17 @@ impl Summary {
 
     /// Returns the number of rows answered in this run.
     fn answered_row_count(&self) -> u64 {
-        self.times.count
+        self.time_histogram.count
     }
 
     /// Returns the median time of a query in microseconds, rounded to a thousandth; NaN without queries.
     pub(super) fn median_micros(&self) -> f64 {
-        self.times.median()
+        self.time_histogram.median()
     }
 
     /// Returns the mean time of a query in microseconds; NaN without queries.
     pub(super) fn mean_micros(&self) -> f64 {
-        self.times.total / self.times.count as f64
+        self.time_histogram.total / self.time_histogram.count as f64
     }
 
     /// Returns the means of the counters as one line; `None` without answers.
@@ -149,7 +149,7 @@ impl TimeHistogram {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (rows, counts) = (self.counts.rows(), self.counts.nonzero_counts());
+        let (rows, counts) = (self.counts.row_count(), self.counts.nonzero_counts());
         let counts = counts.map(|(status, count)| format!("{count} {}", status.name()));
         let counts: Vec<String> = counts.collect();
         let plural = if rows == 1 { "" } else { "s" };
@@ -174,7 +174,7 @@ impl fmt::Display for Summary {
             self.iterations,
             self.oracle_calls
         )?;
-        for (count, (_, advice)) in self.limits.iter().zip(LIMITS) {
+        for (count, (_, advice)) in self.limit_counts.iter().zip(LIMIT_ADVICE) {
             if *count > 0 {
                 write!(f, "\n{count} unresolved: {advice}")?;
             }

@@ -54,13 +54,13 @@ impl ChosenRows {
                 let reason = row.reason.as_deref().unwrap_or("not answered");
                 self.count_omitted(format!("row {}: {reason}", row.id));
             }
-        } else if wanted && !self.is_full() {
+        } else if wanted && !self.needs_no_more_rows() {
             self.rows.push((course.clone(), row.clone()));
         }
     }
 
     /// Returns whether no further row is needed: the page is full, or every given id has a row.
-    pub(super) fn is_full(&self) -> bool {
+    pub(super) fn needs_no_more_rows(&self) -> bool {
         self.rows.len() >= MAX_ROWS
             || (!self.ids.is_empty() && self.ids_without_row().next().is_none())
     }

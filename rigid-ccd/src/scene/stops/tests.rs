@@ -24,7 +24,11 @@ fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
 }
 
 /// Returns the pairs of bodies that overlap at the given poses.
-fn overlapping(scene: &Scene<'_>, poses: &[Pose], solver: &mut Solver) -> HashSet<[usize; 2]> {
+fn find_overlapping_pairs(
+    scene: &Scene<'_>,
+    poses: &[Pose],
+    solver: &mut Solver,
+) -> HashSet<[usize; 2]> {
     let mut pairs = HashSet::new();
     for b in 0..poses.len() {
         for a in 0..b {
@@ -67,16 +71,16 @@ fn bodies_that_stop_never_overlap() {
             };
             scene.len()
         ];
-        let at_start = overlapping(&scene, &poses(&scene, &free, 0.0), &mut solver);
+        let at_start = find_overlapping_pairs(&scene, &poses(&scene, &free, 0.0), &mut solver);
         let mut through = HashSet::new();
         for step in 0..=40 {
             let time = f64::from(step) / 40.0;
-            let now = overlapping(&scene, &poses(&scene, &stops, time), &mut solver);
+            let now = find_overlapping_pairs(&scene, &poses(&scene, &stops, time), &mut solver);
             assert!(
                 now.is_subset(&at_start),
                 "{round} {time} {now:?} {at_start:?}"
             );
-            through.extend(overlapping(
+            through.extend(find_overlapping_pairs(
                 &scene,
                 &poses(&scene, &free, time),
                 &mut solver,
@@ -364,16 +368,16 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
             contact: None,
         };
         let free = vec![goes_on; scene.len()];
-        let at_start = overlapping(&scene, &poses(&scene, &free, 0.0), &mut solver);
+        let at_start = find_overlapping_pairs(&scene, &poses(&scene, &free, 0.0), &mut solver);
         let mut through = HashSet::new();
         for step in 0..=40 {
             let time = f64::from(step) / 40.0;
-            let now = overlapping(&scene, &poses(&scene, &stops, time), &mut solver);
+            let now = find_overlapping_pairs(&scene, &poses(&scene, &stops, time), &mut solver);
             assert!(
                 now.is_subset(&at_start),
                 "{round} {time} {now:?} {at_start:?}"
             );
-            through.extend(overlapping(
+            through.extend(find_overlapping_pairs(
                 &scene,
                 &poses(&scene, &free, time),
                 &mut solver,

@@ -8,38 +8,38 @@ use ccd_core::glam::DQuat;
 use ccd_core::{Answer, SolidOfRevolution};
 
 /// The radius of both cylinders.
-const RADIUS: f64 = 1.0;
+const CYLINDER_RADIUS: f64 = 1.0;
 
 /// The allowed excess of the polytope that encloses a cylinder; its polygons have some twenty corners.
-const EXCESS: f64 = 0.01;
+const MAX_EXCESS: f64 = 0.01;
 
 /// A test scene of two cylinders side by side, each rotated about its axis; the first moves past the second. The
 /// surfaces of the true cylinders are never nearer than `least`.
-struct Pair {
+struct CylinderScene {
     body: Body,
     /// The poses of the first cylinder at times 0 and 1, and that of the second.
     poses: [Pose; 3],
     least: f64,
 }
 
-impl Pair {
+impl CylinderScene {
     /// Creates the scene; `number` determines the rotations of the cylinders and the distance of their axes.
     fn new(number: u32) -> Self {
-        let round = SolidOfRevolution::cylinder(RADIUS, 2.0).unwrap();
+        let round = SolidOfRevolution::cylinder(CYLINDER_RADIUS, 2.0).unwrap();
         let apart = 2.05 + 0.03 * f64::from(number % 9);
         let turned = |angle: f64, place: [f64; 3]| {
             let rotation = DQuat::from_rotation_z(angle);
             Pose::new(place, rotation).unwrap()
         };
         let angle = 0.037 * f64::from(number);
-        Pair {
-            body: round.enclose(EXCESS).unwrap().body().unwrap(),
+        CylinderScene {
+            body: round.enclose(MAX_EXCESS).unwrap().body().unwrap(),
             poses: [
                 turned(angle, [0.0, -1.0, 0.0]),
                 turned(angle, [0.0, 1.0, 0.0]),
                 turned(1.7 * angle + 0.1, [apart, 0.0, 0.5]),
             ],
-            least: apart - 2.0 * RADIUS,
+            least: apart - 2.0 * CYLINDER_RADIUS,
         }
     }
 
@@ -51,7 +51,7 @@ impl Pair {
 
     /// Returns the least distance of the cylinders for motions, for an accelerated trajectory along the same line, and
     /// at rest where their axes are nearest.
-    fn least_distances(&self, solver: &mut Solver) -> [Answer; 3] {
+    fn closest_approach_answers(&self, solver: &mut Solver) -> [Answer; 3] {
         let [passes, stands] = self.motions();
         let (a, b) = (&self.body, &self.body);
         let rotation = self.poses[0].rotation();
@@ -76,9 +76,9 @@ fn bounds_hold_the_distance_of_cylinders() {
     });
     let mut false_of_bodies = 0;
     for number in 0..60 {
-        let pair = Pair::new(number);
+        let pair = CylinderScene::new(number);
         let excess = 2.0 * pair.body.excess();
-        for answer in pair.least_distances(&mut solver) {
+        for answer in pair.closest_approach_answers(&mut solver) {
             let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
             assert!(
                 lower <= pair.least + 1e-12 && pair.least <= upper,
@@ -96,9 +96,11 @@ fn bounds_hold_the_distance_of_cylinders() {
 fn a_clearance_that_cylinders_keep_is_never_violated() {
     let mut between = 0;
     for number in 0..60 {
-        let pair = Pair::new(number);
+        let pair = CylinderScene::new(number);
         // The polygons may be nearest before or after the axes are.
-        let bodies = pair.least_distances(&mut Solver::new())[0].outcome.lower();
+        let bodies = pair.closest_approach_answers(&mut Solver::new())[0]
+            .outcome
+            .lower();
         let most = pair.least + 2.0 * pair.body.excess();
         for (required, expected) in [
             (bodies - 1e-3, Some(Clearance::Kept)),
@@ -112,7 +114,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
                 clearance: Some(required),
                 ..Settings::DEFAULT
             });
-            for answer in pair.least_distances(&mut solver) {
+            for answer in pair.closest_approach_answers(&mut solver) {
                 let found = answer.outcome.clearance(required);
                 let is_right = match expected {
                     Some(expected) => found == expected,
@@ -141,8 +143,8 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
 /// Tests that for overlapping enclosures a clearance up to their excess is unverified, and a larger one is violated.
 #[test]
 fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
-    let pair = Pair::new(0);
-    let beside = Pose::at([2.0 * RADIUS - 1e-3, 0.0, 0.0]).unwrap();
+    let pair = CylinderScene::new(0);
+    let beside = Pose::at([2.0 * CYLINDER_RADIUS - 1e-3, 0.0, 0.0]).unwrap();
     for (required, expected) in [
         (0.0, Clearance::Unverified),
         (pair.body.excess(), Clearance::Unverified),

@@ -66,7 +66,7 @@ fn outcomes_without_a_contact_have_no_rows() {
             tolerance: 1e-3,
             stats: Stats::default(),
         };
-        let rows = rows(
+        let rows = contact_rows(
             bodies,
             &course,
             &Settings::DEFAULT,

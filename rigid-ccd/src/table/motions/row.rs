@@ -50,7 +50,7 @@ pub fn query<R: Record>(
 pub(crate) struct BodyRow {
     /// The id of the row; its index by default.
     pub(crate) id: String,
-    /// The description of the body in the column `body`.
+    /// The description of the body in the column `body_row`.
     pub(crate) text: String,
     /// The motion of the body, from time 0.
     pub(crate) motion: Motion,
@@ -58,7 +58,7 @@ pub(crate) struct BodyRow {
 
 /// Parses a row of the table of a scene, in which all motions end at `duration`; `index` is the default id.
 #[cfg(feature = "command")]
-pub(crate) fn body<R: Record>(
+pub(crate) fn body_row<R: Record>(
     columns: &Columns,
     record: &R,
     index: usize,
@@ -105,7 +105,7 @@ pub(in crate::table) fn poses<R: Record>(
     Ok(PosePair {
         time: row
             .number(TIME_COLUMN)?
-            .ok_or_else(|| row.empty(TIME_COLUMN))?,
+            .ok_or_else(|| row.empty_cell_problem(TIME_COLUMN))?,
         a: row.body_pose(Side::A)?,
         b: row.body_pose(Side::B)?,
     })
@@ -260,7 +260,7 @@ impl<'a, R: Record> Row<'a, R> {
         };
         match self.record.number(cell) {
             Ok(Some(number)) => Ok(Some(number)),
-            Ok(None) => Err(self.empty(slot)),
+            Ok(None) => Err(self.empty_cell_problem(slot)),
             Err(value) => Err(RowProblem::NotANumber {
                 column: self.columns.name(slot).to_owned(),
                 value,
@@ -268,7 +268,7 @@ impl<'a, R: Record> Row<'a, R> {
         }
     }
 
-    fn empty(&self, slot: usize) -> RowProblem {
+    fn empty_cell_problem(&self, slot: usize) -> RowProblem {
         let column = self.columns.name(slot).to_owned();
         RowProblem::EmptyCell { column }
     }

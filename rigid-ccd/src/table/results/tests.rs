@@ -31,7 +31,7 @@ fn contact() -> Contact {
 }
 
 /// Returns a query of two bodies at rest with the given duration.
-fn course(duration: f64) -> Movements {
+fn movements_at_rest(duration: f64) -> Movements {
     Movements::Motions(Motions {
         id: "a,b".into(),
         a: Motion::STILL,
@@ -57,7 +57,7 @@ fn written_cells(outcome: Outcome) -> Vec<(&'static str, String)> {
 
 /// Returns the names of the columns, and the cells that are written for the outcome of any question.
 fn cells_of(asked: (Question, Outcome), clearance: Option<f64>) -> Vec<(&'static str, String)> {
-    let compared = ClearanceComparison {
+    let compared = ClearanceAndExcess {
         clearance,
         excess: 0.0,
     };
@@ -66,9 +66,14 @@ fn cells_of(asked: (Question, Outcome), clearance: Option<f64>) -> Vec<(&'static
 
 fn cells_with_comparison(
     (question, outcome): (Question, Outcome),
-    compared: ClearanceComparison,
+    compared: ClearanceAndExcess,
 ) -> Vec<(&'static str, String)> {
-    let row = ResultRow::new(&course(2.5), (question, &answer(outcome)), 12.75, compared);
+    let row = ResultRow::new(
+        &movements_at_rest(2.5),
+        (question, &answer(outcome)),
+        12.75,
+        compared,
+    );
     let columns = columns_with_counters(question);
     let text = table_text(&columns, &row);
     let mut reader = csv::Reader::from_reader(text.as_bytes());
@@ -196,10 +201,10 @@ fn counters_follow_the_other_columns() {
         ..answer(Outcome::Free { proven_gap: 0.25 })
     };
     let row = ResultRow::new(
-        &course(2.5),
+        &movements_at_rest(2.5),
         (Question::FirstContact, &answer),
         12.75,
-        ClearanceComparison::default(),
+        ClearanceAndExcess::default(),
     );
     let plain = table_text(&COLUMNS, &row);
     let counted = table_text(&columns_with_counters(Question::FirstContact), &row);
@@ -314,7 +319,7 @@ fn the_excess_of_bodies_is_reported() {
         (inside, Some(0.005), "unverified", "0.01"),
         (pieces, Some(0.005), "unverified", upper.as_str()),
     ] {
-        let compared = ClearanceComparison {
+        let compared = ClearanceAndExcess {
             clearance,
             excess: 0.01,
         };

@@ -9,25 +9,25 @@ use ccd_core::vector::length;
 /// Bounds on the derivatives of a link's pose, accumulated joint by joint.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LinkBounds {
-    speeds: SpeedBounds,
-    pub(super) accelerations: AccelerationBounds,
+    speed_bounds: SpeedBounds,
+    pub(super) acceleration_bounds: AccelerationBounds,
     /// The bounds on the derivatives of the accelerations.
-    pub(super) jerks: AccelerationBounds,
+    pub(super) jerk_bounds: AccelerationBounds,
     /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
     axis: Option<DVec3>,
     /// The number of joints so far; a reversed joint counts twice, because its pose is rounded once more.
-    pub(super) joints: f64,
+    pub(super) joint_count: f64,
     /// The sum of the lengths of the arms from joint to joint; those of a reversed joint count twice.
-    pub(super) arms: f64,
+    pub(super) arm_length_sum: f64,
     /// The sum of the joints' largest angles, in radians.
-    pub(super) angles: f64,
+    pub(super) max_angle_sum: f64,
 }
 
 /// Upper bounds on the linear and the angular speed of a link, per unit of time; angles are in radians.
 #[derive(Clone, Copy, Debug, Default)]
 struct SpeedBounds {
-    linear_speed: f64,
-    angular_speed: f64,
+    max_linear_speed: f64,
+    max_angular_speed: f64,
 }
 
 /// Bounds on a joint's position and rate over an interval of time, in radians or as a length.
@@ -60,16 +60,16 @@ impl LinkBounds {
         let frame = joint.origin().rotation();
         match joint.direction() {
             Direction::Forward => {
-                self.joints += 1.0;
-                self.arms += arm + positions.max_slide_distance(joint);
+                self.joint_count += 1.0;
+                self.arm_length_sum += arm + positions.max_slide_distance(joint);
                 self.add_arm_motion(arm);
                 self.axis = self.axis.map(|axis| frame.conjugate() * axis);
                 self.add_joint_motion(joint, positions);
             }
             Direction::Backward => {
                 // The inverse of a pose is rounded once more, at most as the product with another one.
-                self.joints += 2.0;
-                self.arms += 2.0 * (arm + positions.max_slide_distance(joint));
+                self.joint_count += 2.0;
+                self.arm_length_sum += 2.0 * (arm + positions.max_slide_distance(joint));
                 self.add_joint_motion(joint, positions);
                 self.add_arm_motion(arm);
                 self.axis = self.axis.map(|axis| frame * axis);
@@ -86,15 +86,15 @@ impl LinkBounds {
             JointKind::Prismatic(_) => {
                 self.add_arm_motion(positions.max_position);
                 let (turn, turning) = (
-                    self.speeds.angular_speed,
-                    self.accelerations.angular_acceleration,
+                    self.speed_bounds.max_angular_speed,
+                    self.acceleration_bounds.angular_acceleration,
                 );
-                self.jerks.linear_acceleration += 3.0 * rate * (turning + turn * turn);
-                self.accelerations.linear_acceleration += 2.0 * turn * rate;
-                self.speeds.linear_speed += rate;
+                self.jerk_bounds.linear_acceleration += 3.0 * rate * (turning + turn * turn);
+                self.acceleration_bounds.linear_acceleration += 2.0 * turn * rate;
+                self.speed_bounds.max_linear_speed += rate;
             }
             JointKind::Revolute(axis) => {
-                self.angles += positions.max_position_with_start;
+                self.max_angle_sum += positions.max_position_with_start;
                 if rate > 0.0 {
                     self.add_rotation(axis, rate);
                 } else {
@@ -112,34 +112,35 @@ impl LinkBounds {
     /// Adds the bounds due to the rotation of an arm of a given length that is fixed to the link.
     fn add_arm_motion(&mut self, length: f64) {
         let SpeedBounds {
-            angular_speed: angular,
+            max_angular_speed: angular,
             ..
-        } = self.speeds;
-        let turning = self.accelerations.angular_acceleration;
-        self.jerks.linear_acceleration += (self.jerks.angular_acceleration
+        } = self.speed_bounds;
+        let turning = self.acceleration_bounds.angular_acceleration;
+        self.jerk_bounds.linear_acceleration += (self.jerk_bounds.angular_acceleration
             + (3.0 * turning + angular * angular) * angular)
             * length;
-        self.accelerations.linear_acceleration += (turning + angular * angular) * length;
-        self.speeds.linear_speed += angular * length;
+        self.acceleration_bounds.linear_acceleration += (turning + angular * angular) * length;
+        self.speed_bounds.max_linear_speed += angular * length;
     }
 
     /// Adds the bounds due to a rotation at a nonzero rate about an axis, which is given in the joint's frame.
     fn add_rotation(&mut self, axis: DVec3, rate: f64) {
-        let (across, common) = match (self.speeds.angular_speed > 0.0, self.axis) {
+        let (across, common) = match (self.speed_bounds.max_angular_speed > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),
             (true, Some(common)) => {
                 let across = length(common.cross(axis));
                 // Axes that count as parallel may differ by as much each.
-                let most = across + MAX_SINE_OF_PARALLEL_AXES * self.joints;
+                let most = across + MAX_SINE_OF_PARALLEL_AXES * self.joint_count;
                 (most, (across < MAX_SINE_OF_PARALLEL_AXES).then_some(common))
             }
             (true, None) => (1.0, None),
         };
-        let swept = self.speeds.angular_speed * lesser(across, 1.0);
-        self.jerks.angular_acceleration +=
-            rate * (self.accelerations.angular_acceleration + self.speeds.angular_speed * swept);
-        self.accelerations.angular_acceleration += rate * swept;
-        self.speeds.angular_speed += rate;
+        let swept = self.speed_bounds.max_angular_speed * lesser(across, 1.0);
+        self.jerk_bounds.angular_acceleration += rate
+            * (self.acceleration_bounds.angular_acceleration
+                + self.speed_bounds.max_angular_speed * swept);
+        self.acceleration_bounds.angular_acceleration += rate * swept;
+        self.speed_bounds.max_angular_speed += rate;
         self.axis = common;
     }
 }

@@ -44,7 +44,7 @@ impl Segment {
     }
 
     /// Returns the motion with the segment's pose and velocities at `time`, which is counted from the first pose.
-    pub(super) fn at(&self, time: f64) -> Result<Motion, InputError> {
+    pub(super) fn motion_at(&self, time: f64) -> Result<Motion, InputError> {
         let Segment {
             motion,
             residual_angular_velocity: leftover_spin,

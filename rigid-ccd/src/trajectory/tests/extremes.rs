@@ -39,9 +39,9 @@ fn times_may_be_far_from_0() {
     let mut rng = Rng::seed_from_u64(5);
     let epoch = 1.7e9;
     for _ in 0..20 {
-        let mut at = orientation(&mut rng);
+        let mut at = random_orientation(&mut rng);
         let mut key = |k: usize| {
-            at = DQuat::from_scaled_axis(vector(&mut rng, 0.5)) * at;
+            at = DQuat::from_scaled_axis(random_vector(&mut rng, 0.5)) * at;
             (epoch + 0.01 * k as f64, at.to_array())
         };
         let keys: Vec<_> = (0..50).map(&mut key).collect();
@@ -74,7 +74,7 @@ fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
     let curve = Curve::bezier(&points(&mut rng, 4), 1.0).unwrap();
     let spline = Spline::new(curve, OrientationCurve::slerp(&keys(&mut rng, 3)).unwrap());
-    let stops = [0.0, 1.0].map(|time| (time, motion(&mut rng).unwrap().start()));
+    let stops = [0.0, 1.0].map(|time| (time, random_motion(&mut rng).unwrap().start()));
     let poses = Poses::new(stops.to_vec()).unwrap();
     for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
         let strays = [

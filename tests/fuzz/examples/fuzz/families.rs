@@ -72,7 +72,7 @@ fn passing_case(draw: &mut RandomSource, shapes: [Shape; 2], turn: f64, config: 
     let course = |draw: &mut RandomSource, side: f64, at: [f64; 3]| {
         let start = draw.pose(add_arrays(scale_array(half, -side), at));
         let moved = add_arrays(scale_array(half, 2.0 * side), common);
-        RawMotion::velocities(start, moved, spin(draw))
+        RawMotion::from_velocities(start, moved, spin(draw))
     };
     let courses = [course(draw, 1.0, miss), course(draw, -1.0, [0.0; 3])];
     Case {
@@ -86,7 +86,7 @@ fn passing_case(draw: &mut RandomSource, shapes: [Shape; 2], turn: f64, config: 
 
 /// Returns the motion of a body at rest at the origin.
 fn motion_at_rest() -> RawMotion {
-    RawMotion::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
+    RawMotion::from_velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
 fn settings_with_random_tolerance(draw: &mut RandomSource) -> Settings {

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, MeshClass};
 use crate::draw::RandomSource;
-use crate::engine::{Kind, Method};
+use crate::engine::{Method, PieceKind};
 use crate::families::Family;
 use crate::judge::Fault;
 pub use ccd_fuzz::trial::{Failure, Trial, run_methods, shrink};
@@ -26,19 +26,22 @@ pub fn run(family: Family, seed: u64, number: u64, watch: &Watchdog) -> Trial {
 }
 
 /// Chooses the kinds of pieces and the methods for a case: always the default, and some others.
-fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
-    let mut asked = vec![(Kind::Triangles, Method::Direct)];
+fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(PieceKind, Method)> {
+    let mut asked = vec![(PieceKind::Triangles, Method::Direct)];
     let form = |form: MeshClass| case.shapes.iter().any(|s| s.mesh_class == form);
     let small = case.shapes.iter().all(|s| s.faces.len() < 200);
     if draw.bool_with_probability(0.4) {
-        asked.push((Kind::Triangles, draw.pick(&[Method::Gjk, Method::Vmarch])));
+        asked.push((
+            PieceKind::Triangles,
+            draw.pick(&[Method::Gjk, Method::Vmarch]),
+        ));
     }
     let pieces = match (form(MeshClass::Convex), form(MeshClass::Solid)) {
-        (true, _) => draw.pick(&[Kind::Hull, Kind::Patches]),
-        (false, true) => Kind::Patches,
-        _ => Kind::Triangles,
+        (true, _) => draw.pick(&[PieceKind::Hull, PieceKind::Patches]),
+        (false, true) => PieceKind::Patches,
+        _ => PieceKind::Triangles,
     };
-    if pieces != Kind::Triangles && draw.bool_with_probability(0.6) {
+    if pieces != PieceKind::Triangles && draw.bool_with_probability(0.6) {
         asked.push((
             pieces,
             draw.pick(&[Method::Direct, Method::Gjk, Method::Vmarch]),
@@ -50,7 +53,7 @@ fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
         .map(|c| c.max_rotation_angle(case.duration))
         .sum();
     if small && turn < 20.0 && draw.bool_with_probability(0.15) {
-        asked.push((draw.pick(&[Kind::Triangles, pieces]), Method::Naive));
+        asked.push((draw.pick(&[PieceKind::Triangles, pieces]), Method::Naive));
     }
     // Trees need exact predicates, which the finest coordinates do not allow.
     if small && turn < 20.0 && draw.bool_with_probability(0.1) {

@@ -11,7 +11,7 @@ pub(super) struct StartState {
     pub(super) distance: f64,
     /// Whether the bodies certainly overlap: triangles penetrate by more than rounding, or one body is inside the
     /// other.
-    pub(super) overlaps: bool,
+    pub(super) certainly_overlaps: bool,
     /// Whether an answer may report one body inside the other.
     pub(super) may_contain: bool,
 }
@@ -34,7 +34,7 @@ impl StartState {
         };
         StartState {
             distance,
-            overlaps: deep || inside == PointLocation::Inside,
+            certainly_overlaps: deep || inside == PointLocation::Inside,
             may_contain: touching || inside != PointLocation::Outside,
         }
     }
@@ -44,7 +44,7 @@ impl StartState {
 fn containment_if_apart(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
     let mut doubtful = PointLocation::Outside;
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
-        for corner in placed[1 - outer].corners() {
+        for corner in placed[1 - outer].part_corners() {
             match placed[outer].locate(corner) {
                 PointLocation::Inside => return PointLocation::Inside,
                 PointLocation::Outside => {}

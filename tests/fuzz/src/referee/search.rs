@@ -27,7 +27,7 @@ pub(super) struct Search<'a> {
 /// A gap beyond the threshold, a bound on its closing rate, and a bound on the change of the rate per unit of time.
 struct GapBounds {
     gap: f64,
-    rate: f64,
+    rate_bound: f64,
     rate_change_bound: f64,
 }
 
@@ -101,9 +101,9 @@ impl<'a> Search<'a> {
             }
             let GapBounds {
                 gap,
-                rate,
+                rate_bound: rate,
                 rate_change_bound: bend,
-            } = self.triangle_gap(i, j, t);
+            } = self.triangle_gap_bounds(i, j, t);
             if !(gap > RELATIVE_RECHECK_DISTANCE * self.scene.scale) {
                 if self.stop_if_below_threshold(i, j, t) {
                     return;
@@ -119,7 +119,7 @@ impl<'a> Search<'a> {
         let left = self.until - t;
         for k in 0..=SAMPLE_COUNT {
             let t = t + left * (k as f64 / SAMPLE_COUNT as f64);
-            let gap = self.triangle_gap(i, j, t).gap;
+            let gap = self.triangle_gap_bounds(i, j, t).gap;
             if !(gap > RELATIVE_RECHECK_DISTANCE * self.scene.scale)
                 && self.stop_if_below_threshold(i, j, t)
             {
@@ -140,10 +140,10 @@ impl<'a> Search<'a> {
                 .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
             let GapBounds {
-                rate,
+                rate_bound: rate,
                 rate_change_bound: bend,
                 ..
-            } = self.ball_gap(whole, &self.scene.snapshots(t));
+            } = self.ball_gap_bounds(whole, &self.scene.snapshots(t));
             let tau = free_time(least - self.threshold, rate, bend);
             // A hundred more such steps would not reach the end, so it is faster pair by pair.
             if !(tau > 0.003 * (self.until - t)) {
@@ -163,9 +163,9 @@ impl<'a> Search<'a> {
         for _ in 0..MAX_PAIR_STEPS {
             let GapBounds {
                 gap,
-                rate,
+                rate_bound: rate,
                 rate_change_bound: bend,
-            } = self.ball_gap([p, q], &self.scene.snapshots(t));
+            } = self.ball_gap_bounds([p, q], &self.scene.snapshots(t));
             if !(gap > 0.25 * smaller(p.radius, q.radius)
                 && gap > RELATIVE_RECHECK_DISTANCE * self.scene.scale)
             {
@@ -181,7 +181,7 @@ impl<'a> Search<'a> {
 
     /// Returns the gap of two balls beyond the threshold, a bound on its closing rate, and a bound on the change of the
     /// rate.
-    fn ball_gap(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapBounds {
+    fn ball_gap_bounds(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapBounds {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;
         let middles = [snapshots[0].arm_of(p.middle), snapshots[1].arm_of(q.middle)];
@@ -193,15 +193,15 @@ impl<'a> Search<'a> {
         let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
         GapBounds {
             gap: apart - p.radius - q.radius - self.threshold,
-            rate,
+            rate_bound: rate,
             rate_change_bound: bend,
         }
     }
 
-    fn triangle_gap(&self, i: usize, j: usize, t: f64) -> GapBounds {
+    fn triangle_gap_bounds(&self, i: usize, j: usize, t: f64) -> GapBounds {
         let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
         let snapshots = self.scene.snapshots(t);
-        let near = self.ball_gap([p, q], &snapshots);
+        let near = self.ball_gap_bounds([p, q], &snapshots);
         if near.gap > 0.5 * (p.radius + q.radius) {
             return near;
         }
@@ -232,7 +232,10 @@ impl<'a> Search<'a> {
     /// there.
     fn stop_if_below_threshold(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
-        let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
+        let (distance, error) = (
+            distance(&s, &o).rounded(),
+            self.scene.distance_error_bound(),
+        );
         let depth = if distance > error {
             0.0
         } else {

@@ -5,15 +5,15 @@ mod encode;
 mod source;
 
 use crate::case::Case;
-use crate::engine::{Bodies, Kind, Method, Trees};
+use crate::engine::{Bodies, HullTrees, Method, PieceKind};
 use crate::trial::run_methods;
 use ccd_core::{ContactsError, Instructions, Outcome, Settings};
 pub use encode::encode;
 
 /// A query, and the methods that answer it.
-struct Question {
+struct QueryAndMethods {
     case: Case,
-    asked: Vec<(Kind, Method)>,
+    kinds_and_methods: Vec<(PieceKind, Method)>,
     /// Whether to check also that other vector instructions give equal bits, and that contacts can be listed.
     has_extra_checks: bool,
 }
@@ -23,8 +23,8 @@ struct Question {
 /// # Panics
 /// If an answer has a fault.
 pub(super) fn run(bytes: &[u8]) {
-    let question = decode::decode_question(bytes);
-    let trial = run_methods(question.case.clone(), question.asked);
+    let question = decode::decode_query_and_methods(bytes);
+    let trial = run_methods(question.case.clone(), question.kinds_and_methods);
     if let Some(failure) = trial.failures.first() {
         panic!("{}", failure.report("", &trial.case));
     }
@@ -35,7 +35,7 @@ pub(super) fn run(bytes: &[u8]) {
 
 /// Checks that other vector instructions give answers of the same bits, and that contacts can be listed.
 fn check_bits_and_contacts(case: &Case) {
-    let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::NotBuilt) else {
+    let Ok(bodies) = Bodies::new(case, PieceKind::Triangles, HullTrees::NotBuilt) else {
         return;
     };
     let answer = |instructions| {

@@ -70,24 +70,29 @@ impl SweptMeshPair {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
-            turn / max_segment_rotation(body.radius_about_centre(motion), tolerance)
+            turn / max_segment_rotation(body.radius_bound_about_centre(motion), tolerance)
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
-        let travel =
-            speed * query.duration / (MAX_RELATIVE_TRAVEL * lesser(self.a.radius, self.b.radius));
+        let travel = speed * query.duration
+            / (MAX_RELATIVE_TRAVEL * lesser(self.a.aabb_half_diagonal, self.b.aabb_half_diagonal));
         let count = greater(1.0, turns.into_iter().fold(travel, greater).ceil());
         (count <= MAX_SEGMENT_COUNT).then_some(count as u64)
     }
 
     /// Returns the first time in a segment at which triangles meet, as a fraction of the segment; `None` if none meet.
-    fn first_hit(&self, query: &Motions, tolerance: f64, [from, to]: [f64; 2]) -> Option<Real> {
+    fn first_hit_fraction(
+        &self,
+        query: &Motions,
+        tolerance: f64,
+        [from, to]: [f64; 2],
+    ) -> Option<Real> {
         let a = self.a.segment_motion(&query.a, from, to);
         let b = self.b.segment_motion(&query.b, from, to);
         // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
         let still = b.poses[0] == b.poses[1];
-        let slack = a.path_deviation + b.path_deviation + tolerance as Real;
+        let slack = a.path_deviation_bound + b.path_deviation_bound + tolerance as Real;
         let swept_a = |aabb: Aabb| box_around_both_poses(&aabb, &in_frame_a).loosened(slack);
         let swept_b = |aabb: Aabb| {
             if still {
@@ -126,7 +131,7 @@ impl Solver for SweptMeshPair {
         let time = |k: u64| query.duration * (k as f64 / count as f64);
         for k in 0..count {
             let (from, to) = (time(k), time(k + 1));
-            if let Some(share) = self.first_hit(query, tolerance, [from, to]) {
+            if let Some(share) = self.first_hit_fraction(query, tolerance, [from, to]) {
                 let time = from + f64::from(share) * (to - from);
                 let claim = contact_claim_at(time, query.duration);
                 return Reply::new(claim, k + 1);
@@ -142,7 +147,7 @@ struct SweptMesh {
     mesh: TriMesh,
     /// The lowest and the highest corner of the box.
     aabb_corners: [DVec3; 2],
-    radius: f64,
+    aabb_half_diagonal: f64,
 }
 
 /// The motion of a body over a segment of time.
@@ -150,7 +155,7 @@ struct SegmentMotion {
     poses: [Pose; 2],
     sweep: Sweep,
     /// An upper bound of how far any point of the body leaves the straight line from its start to its end position.
-    path_deviation: Real,
+    path_deviation_bound: Real,
 }
 
 impl SweptMesh {
@@ -159,12 +164,12 @@ impl SweptMesh {
         Ok(SweptMesh {
             mesh: to_tri_mesh(mesh)?,
             aabb_corners: corners,
-            radius: 0.5 * (corners[1] - corners[0]).length(),
+            aabb_half_diagonal: 0.5 * (corners[1] - corners[0]).length(),
         })
     }
 
     /// Returns an upper bound of the distance of the mesh's points from the motion's centre of rotation.
-    fn radius_about_centre(&self, motion: &Motion) -> f64 {
+    fn radius_bound_about_centre(&self, motion: &Motion) -> f64 {
         let [low, high] = self.aabb_corners.map(|c| (c - motion.centre()).abs());
         low.max(high).length()
     }
@@ -177,7 +182,8 @@ impl SweptMesh {
             poses,
             // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
             // adds less than that.
-            path_deviation: (0.25 * self.radius_about_centre(motion) * turn * turn) as Real,
+            path_deviation_bound: (0.25 * self.radius_bound_about_centre(motion) * turn * turn)
+                as Real,
         }
     }
 

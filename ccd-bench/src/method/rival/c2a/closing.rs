@@ -6,7 +6,7 @@ use ccd_core::glam::{DMat3, DVec3};
 
 /// The motions of both bodies in the frame of body A at one time, from which the closing speed of nodes is bounded.
 #[derive(Clone, Debug)]
-pub(super) struct ClosingSpeedBounds {
+pub(super) struct ClosingSpeedBounder {
     a: BodyRotation,
     b: BodyRotation,
     /// The velocity of A's centre relative to B's, in the world frame.
@@ -29,12 +29,12 @@ struct BodyRotation {
     /// A cache with one entry per node: the number of the motion, and the greatest distance of the node's points from
     /// that motion's axis.
     axis_distance_cache: Vec<(u64, f64)>,
-    motion: u64,
+    motion_number: u64,
 }
 
-impl ClosingSpeedBounds {
+impl ClosingSpeedBounder {
     pub(super) fn new(trees: &RssTreePair) -> Self {
-        ClosingSpeedBounds {
+        ClosingSpeedBounder {
             a: BodyRotation::new(&trees.a),
             b: BodyRotation::new(&trees.b),
             relative_velocity_world: DVec3::ZERO,
@@ -73,7 +73,7 @@ impl ClosingSpeedBounds {
         pair: &RssNodePair,
         gap: &GapBound,
     ) -> f64 {
-        if !(gap.distance > 0.0) {
+        if !(gap.distance_bound > 0.0) {
             return 0.0;
         }
         let n = gap.direction;
@@ -87,7 +87,7 @@ impl ClosingSpeedBounds {
         if speed <= 0.0 {
             f64::INFINITY
         } else {
-            gap.distance / speed
+            gap.distance_bound / speed
         }
     }
 }
@@ -99,17 +99,17 @@ impl BodyRotation {
             axis: DVec3::Z,
             rate: 0.0,
             axis_distance_cache: vec![(0, 0.0); tree.node_count()],
-            motion: 0,
+            motion_number: 0,
         }
     }
 
     fn set_motion(&mut self, course: &RivalMotion) {
         let axis = course.start_orientation.transpose() * course.axis;
         self.rate = course.rate;
-        if self.motion == 0 || axis != self.axis || course.centre != self.centre {
+        if self.motion_number == 0 || axis != self.axis || course.centre != self.centre {
             self.axis = axis;
             self.centre = course.centre;
-            self.motion += 1;
+            self.motion_number += 1;
         }
     }
 
@@ -121,9 +121,9 @@ impl BodyRotation {
             return 0.0;
         }
         let lever = &mut self.axis_distance_cache[node as usize];
-        if lever.0 != self.motion {
+        if lever.0 != self.motion_number {
             *lever = (
-                self.motion,
+                self.motion_number,
                 tree.axis_distance_bound(node, self.centre, self.axis),
             );
         }

@@ -1,12 +1,13 @@
 use super::C2a;
 use crate::method::rival::tests::trials::{
-    assert_exact_contact_times, assert_shots_are_conservative, assert_stops_at_work_limit, knot_216,
+    assert_contact_times_within_tolerance, assert_shots_are_conservative,
+    assert_stops_at_work_limit, knot_216,
 };
 
 #[test]
 fn exact_times_are_met() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        assert_exact_contact_times(tolerance, C2a::new);
+        assert_contact_times_within_tolerance(tolerance, C2a::new);
     }
 }
 

@@ -17,13 +17,13 @@ pub(super) enum BoxSeparation {
     /// No axis is found that separates the boxes over the whole interval.
     NotSeparated {
         /// The radius of the enclosure of a corner's position over the interval, as a length.
-        spread: f64,
+        motion_spread: f64,
     },
 }
 
 /// Tests whether one of the 15 axes separates the boxes over all of the interval. Both sides of
 /// every inequality are enclosed by interval arithmetic \[CONTACT02\].
-pub(super) fn box_separation(a: &Obb, b: &Obb, enclosure: &MotionEnclosure) -> BoxSeparation {
+pub(super) fn test_box_separation(a: &Obb, b: &Obb, enclosure: &MotionEnclosure) -> BoxSeparation {
     let into = b.axes.transpose();
     let centre = enclosure.rotation * a.centre + enclosure.offset;
     let t = into * (centre.middle - b.centre);
@@ -61,7 +61,7 @@ pub(super) fn box_separation(a: &Obb, b: &Obb, enclosure: &MotionEnclosure) -> B
         return BoxSeparation::Separated;
     }
     BoxSeparation::NotSeparated {
-        spread: (t_radius + cos_radius * ha).max_element(),
+        motion_spread: (t_radius + cos_radius * ha).max_element(),
     }
 }
 

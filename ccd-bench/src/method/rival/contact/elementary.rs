@@ -118,7 +118,7 @@ impl TrianglePair {
     }
 
     /// Encloses the rate of change of a test's contact function over the interval of the given enclosures.
-    pub(super) fn contact_function_rate(
+    pub(super) fn contact_function_rate_enclosure(
         &self,
         test: ElementaryTest,
         now: &MotionEnclosure,
@@ -219,11 +219,11 @@ impl TrianglePair {
             return false;
         }
         let at_s = w.cross_vector(g);
-        if excludes_fractions(at_s, c) {
+        if is_never_fraction_of(at_s, c) {
             return false;
         }
         let at_u = w.cross(e);
-        if excludes_fractions(at_u, c) {
+        if is_never_fraction_of(at_u, c) {
             return false;
         }
         let (along, of_e, of_g) = (w.dot_vector(g), e.dot_vector(g), g.length_squared());
@@ -264,6 +264,6 @@ fn have_same_sign(values: [Interval; 3]) -> bool {
 }
 
 /// Returns true if no vector in `part` can be a vector in `whole` times a factor from 0 to 1.
-fn excludes_fractions(part: IntervalVec, whole: IntervalVec) -> bool {
+fn is_never_fraction_of(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.mignitude() - whole.magnitude()).max_element() > 0.0
 }

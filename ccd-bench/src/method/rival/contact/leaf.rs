@@ -91,11 +91,15 @@ fn find_root(
     clock: &mut MotionEncloser,
 ) -> Root {
     let rates = *clock.rate_enclosure(interval);
-    let rate = triangles.contact_function_rate(test, clock.placement_enclosure(interval), &rates);
+    let rate = triangles.contact_function_rate_enclosure(
+        test,
+        clock.placement_enclosure(interval),
+        &rates,
+    );
     if !rate.excludes_zero() {
         return Root::MaybeSeveral;
     }
-    let Some(found) = root_by_false_position(triangles, test, interval.span, clock) else {
+    let Some(found) = bracket_root_by_false_position(triangles, test, interval.span, clock) else {
         return Root::None;
     };
     // As wide as the resolution: features that meet at their borders do so except for rounding.
@@ -121,7 +125,7 @@ const MAX_BRACKET_STEPS: usize = 110;
 
 /// Returns an interval around the root of a monotone contact function, as wide as the resolution at most; `None`
 /// without a root. Uses false position, and bisection after a step that leaves more than half.
-fn root_by_false_position(
+fn bracket_root_by_false_position(
     triangles: &TrianglePair,
     test: ElementaryTest,
     span: TimeSpan,

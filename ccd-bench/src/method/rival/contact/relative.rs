@@ -103,7 +103,7 @@ impl RelativeMotion {
 
     /// Returns an enclosure of all rates of change of the placements between two times.
     pub(super) fn rate_enclosure_over(&self, span: TimeSpan) -> MotionEnclosure {
-        let (first_rate, position_first_rate) = self.first_motion.rates_over(span);
+        let (first_rate, position_first_rate) = self.first_motion.rate_enclosures_over(span);
         if self.second_motion.rate == 0.0 {
             return MotionEnclosure {
                 rotation: first_rate,
@@ -112,7 +112,7 @@ impl RelativeMotion {
         }
         let (first, position_first) = self.first_motion.enclosure_over(span);
         let (second, position_second) = self.second_motion.enclosure_over(span);
-        let (second_rate, position_second_rate) = self.second_motion.rates_over(span);
+        let (second_rate, position_second_rate) = self.second_motion.rate_enclosures_over(span);
         let (back, back_rate) = (second.transpose(), second_rate.transpose());
         MotionEnclosure {
             rotation: back_rate * first + back * first_rate,
@@ -165,7 +165,7 @@ impl MotionCoefficients {
         let half = 0.5 * span.width();
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * half);
-        let turning = rotation_over_arc(cos, sin, arc);
+        let turning = enclose_rotation_over_arc(cos, sin, arc);
         let rotation = IntervalMat {
             middle: self.constant_term + turning.middle,
             radius: turning.radius,
@@ -173,7 +173,7 @@ impl MotionCoefficients {
         let straight = self.start_centre
             + self.velocity * span.middle()
             + self.constant_term * self.reference_offset;
-        let round = rotated_vector_over_arc(
+        let round = enclose_rotated_vector_over_arc(
             cos * self.reference_offset,
             sin * self.reference_offset,
             arc,
@@ -185,11 +185,11 @@ impl MotionCoefficients {
         (rotation, position)
     }
 
-    fn rates_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
+    fn rate_enclosures_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * 0.5 * span.width());
         let (cos, sin) = (sin * self.rate, cos * -self.rate);
-        let round = rotated_vector_over_arc(
+        let round = enclose_rotated_vector_over_arc(
             cos * self.reference_offset,
             sin * self.reference_offset,
             arc,
@@ -198,7 +198,7 @@ impl MotionCoefficients {
             middle: self.velocity + round.middle,
             radius: round.radius,
         };
-        (rotation_over_arc(cos, sin, arc), velocity)
+        (enclose_rotation_over_arc(cos, sin, arc), velocity)
     }
 
     /// Returns the coefficients of cosine and sine for a rotation angle that is counted from the angle at `time`.
@@ -217,19 +217,19 @@ fn map_columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients `cos` and
 /// `sin`.
-fn rotation_over_arc(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
+fn enclose_rotation_over_arc(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
     let Interval { middle, radius } = arc.cos;
     IntervalMat {
         middle: cos * middle,
-        radius: cos.abs() * radius + sin.abs() * arc.sin,
+        radius: cos.abs() * radius + sin.abs() * arc.sin_radius,
     }
 }
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients as vectors.
-fn rotated_vector_over_arc(cos: DVec3, sin: DVec3, arc: SineCosineRange) -> IntervalVec {
+fn enclose_rotated_vector_over_arc(cos: DVec3, sin: DVec3, arc: SineCosineRange) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {
         middle: cos * middle,
-        radius: cos.abs() * radius + sin.abs() * arc.sin,
+        radius: cos.abs() * radius + sin.abs() * arc.sin_radius,
     }
 }

@@ -1,7 +1,7 @@
 use super::DynamicChecker;
 use crate::method::rival::tests::trials::{
-    assert_exact_contact_times, assert_shots_are_conservative, assert_stops_at_work_limit,
-    boxes_rotating_past_each_other, knot_216,
+    assert_contact_times_within_tolerance, assert_shots_are_conservative,
+    assert_stops_at_work_limit, box_rotating_past_box, knot_216,
 };
 use crate::method::solver::{ContactClaim, Solver};
 use crate::scene::model::cuboid;
@@ -12,7 +12,7 @@ use rigid_ccd::table::motions::Motions;
 #[test]
 fn exact_times_are_met() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        assert_exact_contact_times(tolerance, DynamicChecker::new);
+        assert_contact_times_within_tolerance(tolerance, DynamicChecker::new);
     }
 }
 
@@ -33,7 +33,7 @@ fn work_without_end_is_given_up() {
 
 #[test]
 fn motions_beyond_numbers_are_given_up() {
-    let (a, b, mut query) = boxes_rotating_past_each_other();
+    let (a, b, mut query) = box_rotating_past_box();
     query.a = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1e308 * DVec3::Z).unwrap();
     query.duration = 1e10;
     let reply = DynamicChecker::new(&a, &b).answer(&query, 1e-3);

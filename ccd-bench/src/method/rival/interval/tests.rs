@@ -95,12 +95,13 @@ fn arcs_are_the_ranges_of_cosine_and_sine() {
         let (mut least, mut most) = (f64::INFINITY, 0.0);
         for angle in angles {
             assert!(
-                contains(arc.cos, angle.cos()) && angle.sin().abs() <= arc.sin + ROUNDING_TOLERANCE
+                contains(arc.cos, angle.cos())
+                    && angle.sin().abs() <= arc.sin_radius + ROUNDING_TOLERANCE
             );
             least = lesser(least, angle.cos());
             most = greater(most, angle.sin());
         }
-        assert!((arc.cos.low() - least).abs() < 1e-5 && (arc.sin - most).abs() < 1e-5);
+        assert!((arc.cos.low() - least).abs() < 1e-5 && (arc.sin_radius - most).abs() < 1e-5);
         assert!((arc.cos.high() - 1.0).abs() < ROUNDING_TOLERANCE);
     }
 }

@@ -4,12 +4,12 @@ use crate::method::rival::tests::samples::RandomSource;
 use crate::method::rival::triangles_cross::triangles_cross;
 use crate::scene::model::Model;
 
-fn collect_triangles(tree: &ObbTree, index: u32, into: &mut Vec<u32>) {
+fn collect_triangle_indices(tree: &ObbTree, index: u32, into: &mut Vec<u32>) {
     match tree.node(index).content {
         NodeContent::Triangle(t) => into.push(t),
         NodeContent::Children(children) => children
             .iter()
-            .for_each(|&child| collect_triangles(tree, child, into)),
+            .for_each(|&child| collect_triangle_indices(tree, child, into)),
     }
 }
 
@@ -20,7 +20,7 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
     assert_eq!(tree.nodes.len(), 2 * mesh.faces().len() - 1);
     for (index, node) in tree.nodes.iter().enumerate() {
         let mut triangles = Vec::new();
-        collect_triangles(&tree, index as u32, &mut triangles);
+        collect_triangle_indices(&tree, index as u32, &mut triangles);
         assert!(!triangles.is_empty());
         for corner in triangles.iter().flat_map(|&t| tree.triangle(t)) {
             let along = node
@@ -32,7 +32,7 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
         }
     }
     let mut leaves = Vec::new();
-    collect_triangles(&tree, 0, &mut leaves);
+    collect_triangle_indices(&tree, 0, &mut leaves);
     leaves.sort_unstable();
     assert!(leaves.into_iter().eq(0..mesh.faces().len() as u32));
 }

@@ -1,6 +1,6 @@
 use super::shortest_vector;
 use crate::method::rival::Placement;
-use crate::method::rival::triangles_apart::nearest;
+use crate::method::rival::triangles_apart::nearest_points;
 use ccd_core::glam::{DMat3, DQuat, DVec2, DVec3};
 use ccd_core::order::{greater, lesser};
 use rand::{RngExt, SeedableRng};
@@ -56,7 +56,9 @@ fn distance_by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
         for half_b in halves(corners(b, placement)) {
             least = lesser(
                 least,
-                nearest(&half_a, &half_b).vector_from_a_to_b().length(),
+                nearest_points(&half_a, &half_b)
+                    .vector_from_a_to_b()
+                    .length(),
             );
         }
     }

@@ -115,14 +115,14 @@ struct GrowingRectangle {
 impl GrowingRectangle {
     /// Returns the greatest distance from a point's foot in the plane at which the rectangle may end and still have the
     /// point within the radius.
-    fn max_foot_distance(&self, point: DVec3) -> f64 {
+    fn reach_in_plane(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;
         greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
     /// Moves each side outwards until a point is within the radius of the line along that side.
     fn extend_sides(&mut self, point: DVec3) {
-        let reach = self.max_foot_distance(point);
+        let reach = self.reach_in_plane(point);
         self.low = self.low.min(point.truncate() + reach);
         self.high = self.high.max(point.truncate() - reach);
     }
@@ -147,7 +147,7 @@ impl GrowingRectangle {
         if out.min_element() > 0.0 {
             let along = 0.5 * (out.x + out.y);
             let aside = out - along;
-            let reach = self.max_foot_distance(point);
+            let reach = self.reach_in_plane(point);
             let spare = greater(0.0, reach * reach - aside.length_squared());
             // The diagonal's direction is (1, 1) / √2.
             let push = along - (0.5 * spare).sqrt();

@@ -20,10 +20,12 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
 }
 
 /// Returns the indices of all triangles in the leaves below a node.
-fn triangles(tree: &RssTree, node: u32) -> Vec<u32> {
+fn triangle_indices_below(tree: &RssTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].content {
         NodeContent::Triangle(k) => vec![k],
-        NodeContent::Children(below) => below.map(|node| triangles(tree, node)).concat(),
+        NodeContent::Children(below) => below
+            .map(|node| triangle_indices_below(tree, node))
+            .concat(),
     }
 }
 
@@ -35,11 +37,11 @@ fn nodes_hold_their_triangles_and_are_tight() {
         Model::Bunny26k.generate().unwrap(),
     ] {
         let tree = RssTree::new(&mesh);
-        let mut all = triangles(&tree, 0);
+        let mut all = triangle_indices_below(&tree, 0);
         all.sort_unstable();
         assert_eq!(all, (0..mesh.faces().len() as u32).collect::<Vec<_>>());
         for (k, node) in tree.nodes.iter().enumerate().take(500) {
-            let below = triangles(&tree, k as u32);
+            let below = triangle_indices_below(&tree, k as u32);
             let inside = tree.frames[k];
             let mut farthest = 0.0_f64;
             for point in below.iter().flat_map(|&t| tree.triangles[t as usize]) {
@@ -73,9 +75,9 @@ fn no_split_is_lopsided() {
         let NodeContent::Children([left, right]) = node.content else {
             continue;
         };
-        let all = triangles(&tree, k as u32).len();
-        let few = triangles(&tree, left).len();
-        let few = few.min(triangles(&tree, right).len());
+        let all = triangle_indices_below(&tree, k as u32).len();
+        let few = triangle_indices_below(&tree, left).len();
+        let few = few.min(triangle_indices_below(&tree, right).len());
         assert!(16 * few + 15 >= all, "{few} of {all}");
     }
 }
@@ -93,7 +95,10 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
         let mut pair: RssNodePair = trees.root_pair(&placement).unwrap();
         while let PairChildren::Pairs(pairs) = trees.children(&pair) {
             pair = pairs[rng.random_range(0..2)];
-            let (a, b) = (triangles(&trees.a, pair.a), triangles(&trees.b, pair.b));
+            let (a, b) = (
+                triangle_indices_below(&trees.a, pair.a),
+                triangle_indices_below(&trees.b, pair.b),
+            );
             if a.len() * b.len() > 3_000 {
                 continue;
             }
@@ -106,10 +111,12 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
                 }
             }
             let gap = trees.gap_bound(&pair);
-            assert_eq!(gap.distance, trees.distance(&pair));
-            assert!(gap.distance <= true_distance + 1e-12);
-            assert!(true_distance <= gap.distance + trees.distance_excess_bound(&pair) + 1e-12);
-            if gap.distance > 0.0 {
+            assert_eq!(gap.distance_bound, trees.distance_bound(&pair));
+            assert!(gap.distance_bound <= true_distance + 1e-12);
+            assert!(
+                true_distance <= gap.distance_bound + trees.distance_excess_bound(&pair) + 1e-12
+            );
+            if gap.distance_bound > 0.0 {
                 let along = |points: &[DVec3; 3]| points.map(|p| gap.direction.dot(p));
                 let high = a
                     .iter()
@@ -119,7 +126,11 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
                 });
                 let parted =
                     low.fold(f64::INFINITY, lesser) - high.fold(f64::NEG_INFINITY, greater);
-                assert!(parted >= gap.distance - 1e-12, "{parted} {}", gap.distance);
+                assert!(
+                    parted >= gap.distance_bound - 1e-12,
+                    "{parted} {}",
+                    gap.distance_bound
+                );
                 apart += 1;
             }
             checked += 1;
@@ -139,7 +150,7 @@ fn levers_reach_all_points() {
         DVec3::new(1.0, 2.0, 3.0).normalize(),
     );
     for node in 0..tree.node_count() as u32 {
-        let farthest = triangles(&tree, node)
+        let farthest = triangle_indices_below(&tree, node)
             .iter()
             .flat_map(|&t| tree.triangles[t as usize])
             .map(|p| (p - centre).cross(axis).length())

@@ -80,8 +80,8 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
     let mut least = f64::INFINITY;
     for i in 0..3 {
         least = lesser(
-            lesser(least, interior_plane_distance(a[i], b)),
-            interior_plane_distance(b[i], a),
+            lesser(least, plane_distance_if_foot_inside(a[i], b)),
+            plane_distance_if_foot_inside(b[i], a),
         );
         for j in 0..3 {
             least = lesser(least, segment_distance(edge(a, i), edge(b, j)));
@@ -92,7 +92,7 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
 
 /// Returns the distance of a point from a triangle's plane if the point's foot lies in the triangle, and infinity
 /// otherwise.
-fn interior_plane_distance(p: DVec3, t: &[DVec3; 3]) -> f64 {
+fn plane_distance_if_foot_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;
     if (0..3).all(inside) {

@@ -1,7 +1,7 @@
 //! Tests that all rivals share: scenes with exact answers, and shots checked by brute force.
 
 use crate::method::rival::patience::WorkLimit;
-use crate::method::rival::triangles_apart::{Triangle, nearest};
+use crate::method::rival::triangles_apart::{Triangle, nearest_points};
 use crate::method::rival::{Placement, RivalMotion};
 use crate::method::solver::{ContactClaim, Solver};
 use crate::scene::model::Model;
@@ -187,7 +187,7 @@ fn rod_on_post() -> ExactCase {
 
 /// Asserts that a rival's contact times are never late, and early by at most the time to close the tolerance at half
 /// the closing speed.
-pub(in crate::method::rival) fn assert_exact_contact_times<C: Solver>(
+pub(in crate::method::rival) fn assert_contact_times_within_tolerance<C: Solver>(
     tolerance: f64,
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
 ) {
@@ -253,7 +253,7 @@ impl BruteForceDistance {
         for (a, (p, r)) in self.triangles.iter().zip(&self.bounding_balls) {
             for (b, (q, s)) in moved.iter().zip(&balls) {
                 if p.distance(*q) - r - s < least {
-                    least = lesser(least, nearest(a, b).vector_from_a_to_b().length());
+                    least = lesser(least, nearest_points(a, b).vector_from_a_to_b().length());
                 }
             }
         }
@@ -324,7 +324,7 @@ pub(in crate::method::rival) fn assert_stops_at_work_limit<C: Solver>(
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
     give: impl Fn(&mut C, WorkLimit),
 ) {
-    let (a, b, query) = boxes_rotating_past_each_other();
+    let (a, b, query) = box_rotating_past_box();
     let mut rival = rival(&a, &b);
     assert_eq!(rival.answer(&query, 1e-6).claim, ContactClaim::NoContact);
     let short = [
@@ -348,8 +348,7 @@ pub(in crate::method::rival) fn assert_stops_at_work_limit<C: Solver>(
 }
 
 /// Returns two boxes that rotate past each other without contact, so close that the decision takes many steps.
-pub(in crate::method::rival) fn boxes_rotating_past_each_other()
--> (TriangleMesh, TriangleMesh, Motions) {
+pub(in crate::method::rival) fn box_rotating_past_box() -> (TriangleMesh, TriangleMesh, Motions) {
     // Its upright edges are at a distance of 1 from its axis.
     let turning = box_mesh(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(

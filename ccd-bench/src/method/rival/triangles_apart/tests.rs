@@ -1,4 +1,4 @@
-use super::{Triangle, nearest};
+use super::{Triangle, nearest_points};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use rand::{RngExt, SeedableRng};
@@ -50,10 +50,12 @@ fn the_points_are_nearest() {
     let (mut apart, mut meeting) = (0, 0);
     for _ in 0..50_000 {
         let (a, b) = random_triangle_pair(&mut rng);
-        let found = nearest(&a, &b);
+        let found = nearest_points(&a, &b);
         let distance = found.vector_from_a_to_b().length();
         for (point, triangle) in [(found.on_a, &a), (found.on_b, &b)] {
-            let off = nearest(&[point; 3], triangle).vector_from_a_to_b().length();
+            let off = nearest_points(&[point; 3], triangle)
+                .vector_from_a_to_b()
+                .length();
             assert!(off < 1e-9, "{off} off: {a:?} {b:?}");
         }
         if distance > 1e-6 {
@@ -86,7 +88,7 @@ fn samples_agree() {
     let mut rng = Pcg64::seed_from_u64(3);
     for _ in 0..100 {
         let (a, b) = random_triangle_pair(&mut rng);
-        let distance = nearest(&a, &b).vector_from_a_to_b().length();
+        let distance = nearest_points(&a, &b).vector_from_a_to_b().length();
         let mut least = f64::INFINITY;
         let [p, q, r] = a;
         for i in 0..=GRID_STEPS {
@@ -114,7 +116,7 @@ fn a_piercing_edge_is_a_meeting() {
     let [low, high] = [-1.0, 1.0].map(|z| DVec3::new(0.25, 0.25, z));
     let upright = [low, high, DVec3::new(5.0, 5.0, 0.5)];
     for (a, b) in [(flat, upright), (upright, flat)] {
-        let found = nearest(&a, &b);
+        let found = nearest_points(&a, &b);
         assert_eq!(found.on_a, found.on_b);
         assert!(found.on_a.z.abs() < 1e-15);
     }

@@ -13,7 +13,7 @@ fn draw_map(kind: &'static HeatMapTexts, cells: Vec<Option<HeatCell>>) -> String
     map.draw().unwrap()
 }
 
-fn count(svg: &str, colour: &str) -> usize {
+fn count_fills(svg: &str, colour: &str) -> usize {
     svg.matches(&format!("fill=\"{colour}\"")).count()
 }
 
@@ -38,7 +38,7 @@ fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
     }
     // The counts include the legend: a right cell and two bars; a missed cell.
     assert_eq!(
-        (count(&svg, "#0072B2"), count(&svg, "#D55E00")),
+        (count_fills(&svg, "#0072B2"), count_fills(&svg, "#D55E00")),
         (4, 2),
         "{svg}"
     );
@@ -49,7 +49,7 @@ fn costs_that_grow_are_darker() {
     let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::cost_growth_cell(factor)));
     let svg = draw_map(COST_GROWTH_TEXTS, cells.into_iter().chain([None]).collect());
     assert_eq!(
-        (count(&svg, "#EAF2F8"), count(&svg, "#102F54")),
+        (count_fills(&svg, "#EAF2F8"), count_fills(&svg, "#102F54")),
         (2, 2),
         "{svg}"
     );

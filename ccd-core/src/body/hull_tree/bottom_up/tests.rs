@@ -76,7 +76,7 @@ fn chains_take_no_more_stack_than_other_trees() {
 #[test]
 fn the_first_error_is_the_same() {
     let hierarchy = hierarchy(5000);
-    let fault = |at: usize| HullFault::BadFacet { facet: 7 }.at(at);
+    let fault = |at: usize| HullFault::BadFacet { facet: 7 }.at_node(at);
     let make = |at: usize, _: [&u32; 2]| match at % 1000 {
         999 => Err(fault(at)),
         _ => Ok(0),

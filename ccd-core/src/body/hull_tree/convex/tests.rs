@@ -5,7 +5,7 @@ use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use glam::DVec3;
 
-fn facets_are_convex(points: &[[f64; 3]], facets: &[&[u32]]) -> bool {
+fn is_convex_polytope(points: &[[f64; 3]], facets: &[&[u32]]) -> bool {
     let facet = |corners: &&[u32]| Facet {
         origin: FacetOrigin::Virtual,
         corners: corners.to_vec(),
@@ -18,14 +18,14 @@ fn facets_are_convex(points: &[[f64; 3]], facets: &[&[u32]]) -> bool {
     is_convex(&Pieces::polytopes(&[polytope]).unwrap().get(0))
 }
 
-const ROOF_POINTS: [[f64; 3]; 5] = [
+const PYRAMID_POINTS: [[f64; 3]; 5] = [
     [0.0, 0.0, 0.0],
     [2.0, 0.0, 0.0],
     [2.0, 2.0, 0.0],
     [0.0, 2.0, 0.0],
     [1.0, 1.0, 3.0],
 ];
-const ROOF_FACETS: [&[u32]; 5] = [
+const PYRAMID_FACETS: [&[u32]; 5] = [
     &[3, 2, 1, 0],
     &[0, 1, 4],
     &[1, 2, 4],
@@ -35,47 +35,47 @@ const ROOF_FACETS: [&[u32]; 5] = [
 
 #[test]
 fn polytopes_are() {
-    assert!(facets_are_convex(&ROOF_POINTS, &ROOF_FACETS));
+    assert!(is_convex_polytope(&PYRAMID_POINTS, &PYRAMID_FACETS));
     // One facet is divided into two parts of one plane.
     let parts: [&[u32]; 6] = [
         &[3, 2, 1],
         &[3, 1, 0],
-        ROOF_FACETS[1],
-        ROOF_FACETS[2],
-        ROOF_FACETS[3],
-        ROOF_FACETS[4],
+        PYRAMID_FACETS[1],
+        PYRAMID_FACETS[2],
+        PYRAMID_FACETS[3],
+        PYRAMID_FACETS[4],
     ];
-    assert!(facets_are_convex(&ROOF_POINTS, &parts));
+    assert!(is_convex_polytope(&PYRAMID_POINTS, &parts));
 }
 
 #[test]
 fn dented_turned_or_open_surfaces_are_not_convex() {
-    let mut dented = ROOF_POINTS;
+    let mut dented = PYRAMID_POINTS;
     dented[2] = [0.75, 0.75, 0.0];
-    assert!(!facets_are_convex(&dented, &ROOF_FACETS));
+    assert!(!is_convex_polytope(&dented, &PYRAMID_FACETS));
     let parts: [&[u32]; 6] = [
         &[3, 2, 1],
         &[3, 1, 0],
-        ROOF_FACETS[1],
-        ROOF_FACETS[2],
-        ROOF_FACETS[3],
-        ROOF_FACETS[4],
+        PYRAMID_FACETS[1],
+        PYRAMID_FACETS[2],
+        PYRAMID_FACETS[3],
+        PYRAMID_FACETS[4],
     ];
-    let mut folded = ROOF_POINTS;
+    let mut folded = PYRAMID_POINTS;
     // The new edge across the square bends inward in one direction and outward in the other.
     folded[2] = [2.0, 2.0, -1e-60];
-    assert!(!facets_are_convex(&folded, &parts));
+    assert!(!is_convex_polytope(&folded, &parts));
     folded[2] = [2.0, 2.0, 1e-60];
-    assert!(facets_are_convex(&folded, &parts) && !facets_are_convex(&folded, &ROOF_FACETS));
-    let inside_out: Vec<Vec<u32>> = ROOF_FACETS
+    assert!(is_convex_polytope(&folded, &parts) && !is_convex_polytope(&folded, &PYRAMID_FACETS));
+    let inside_out: Vec<Vec<u32>> = PYRAMID_FACETS
         .map(|f| f.iter().rev().copied().collect())
         .to_vec();
     let inside_out: Vec<&[u32]> = inside_out.iter().map(Vec::as_slice).collect();
-    assert!(!facets_are_convex(&ROOF_POINTS, &inside_out));
-    assert!(!facets_are_convex(&ROOF_POINTS, &ROOF_FACETS[..4]));
-    let mut spare = ROOF_POINTS.to_vec();
+    assert!(!is_convex_polytope(&PYRAMID_POINTS, &inside_out));
+    assert!(!is_convex_polytope(&PYRAMID_POINTS, &PYRAMID_FACETS[..4]));
+    let mut spare = PYRAMID_POINTS.to_vec();
     spare.push([1.0, 1.0, 9.0]);
-    assert!(!facets_are_convex(&spare, &ROOF_FACETS));
+    assert!(!is_convex_polytope(&spare, &PYRAMID_FACETS));
 }
 
 /// Tests that a double pyramid over a five-pointed star is rejected: it is locally convex, but winds about its middle
@@ -103,7 +103,7 @@ fn a_star_that_winds_twice_is_not() {
     let check = |step| {
         let facets = sides(step);
         let facets: Vec<&[u32]> = facets.iter().map(Vec::as_slice).collect();
-        facets_are_convex(&points, &facets)
+        is_convex_polytope(&points, &facets)
     };
     assert!(check(1));
     assert!(!check(2));
@@ -132,7 +132,7 @@ fn facets_that_are_not_convex_are_not() {
         &[2, 3, 9, 8, 10],
         &[3, 0, 4, 9],
     ];
-    let with = |lid: &[&[u32]]| facets_are_convex(&points, &[&sides, lid].concat());
+    let with = |lid: &[&[u32]]| is_convex_polytope(&points, &[&sides, lid].concat());
     assert!(!with(&[&[4, 5, 6, 7, 8, 9], &[7, 6, 10, 8]]));
     assert!(with(&[&[4, 5, 6, 7], &[4, 7, 8, 9], &[7, 6, 10, 8]]));
 }
@@ -155,7 +155,7 @@ fn surfaces_that_share_a_rim_are_not() {
     let all: Vec<Vec<u32>> = spindle.iter().cloned().chain(roof(6)).collect();
     let check = |points: &[[f64; 3]], facets: &[Vec<u32>]| {
         let facets: Vec<&[u32]> = facets.iter().map(Vec::as_slice).collect();
-        facets_are_convex(points, &facets)
+        is_convex_polytope(points, &facets)
     };
     assert!(check(&points[..6], &spindle));
     assert!(!check(&points, &all));

@@ -9,7 +9,7 @@ fn read<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
     postcard::from_bytes(bytes).ok()
 }
 
-fn bytes<T: Serialize>(value: &T) -> Vec<u8> {
+fn to_bytes<T: Serialize>(value: &T) -> Vec<u8> {
     postcard::to_allocvec(value).unwrap()
 }
 
@@ -22,17 +22,17 @@ fn pieces_with_hull_tree() -> (Pieces, HullTree) {
 #[test]
 fn stored_trees_are_read_again() {
     let (pieces, tree) = pieces_with_hull_tree();
-    let again: Pieces = read(&bytes(&pieces)).unwrap();
+    let again: Pieces = read(&to_bytes(&pieces)).unwrap();
     assert!((0..2).all(|k| again.polytope(k) == pieces.polytope(k)));
-    let again: HullTree = read(&bytes(&tree)).unwrap();
+    let again: HullTree = read(&to_bytes(&tree)).unwrap();
     assert_eq!(again.to_nodes(), tree.to_nodes());
     assert_eq!(again.facet_classes(0), tree.facet_classes(0));
-    let again: Hierarchy = read(&bytes(tree.hierarchy())).unwrap();
+    let again: Hierarchy = read(&to_bytes(tree.hierarchy())).unwrap();
     assert_eq!(again.nodes(), tree.hierarchy().nodes());
-    assert_eq!(read(&bytes(&Volume::Solid)), Some(Volume::Solid));
+    assert_eq!(read(&to_bytes(&Volume::Solid)), Some(Volume::Solid));
     let triangles = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE];
     let soup = Pieces::triangles(&triangles, &[[0, 1, 2], [3, 2, 1]], &[7, 4]).unwrap();
-    let again: Pieces = read(&bytes(&soup)).unwrap();
+    let again: Pieces = read(&to_bytes(&soup)).unwrap();
     assert!(again.are_all_triangles());
     assert!((0..2).all(|k| again.polytope(k) == soup.polytope(k)));
 }
@@ -44,10 +44,10 @@ fn trees_are_checked_when_read() {
         ..Polytope::default()
     };
     let variant = 1u32;
-    let pieces = |x: f64| read::<Pieces>(&bytes(&(variant, vec![point(x)])));
+    let pieces = |x: f64| read::<Pieces>(&to_bytes(&(variant, vec![point(x)])));
     assert!(pieces(1.0).is_some());
     assert!(pieces(f64::NAN).is_none());
-    assert!(read::<Pieces>(&bytes(&(variant, Vec::<Polytope>::new()))).is_none());
+    assert!(read::<Pieces>(&to_bytes(&(variant, Vec::<Polytope>::new()))).is_none());
     // Triangles need as many numbers as corners and faces.
     let soup = |corners: usize, vertices: usize, faces: usize| {
         let raw = (
@@ -56,26 +56,26 @@ fn trees_are_checked_when_read() {
             vec![0u32; vertices],
             vec![0u32; faces],
         );
-        read::<Pieces>(&bytes(&raw))
+        read::<Pieces>(&to_bytes(&raw))
     };
     assert!(soup(6, 6, 2).is_some());
     assert!(soup(6, 5, 2).is_none() && soup(5, 5, 2).is_none() && soup(6, 6, 3).is_none());
     assert!(soup(0, 0, 0).is_none());
     let nodes = vec![HierarchyNode::Inner(1, 1), HierarchyNode::Leaf(0)];
-    assert!(read::<Hierarchy>(&bytes(&nodes)).is_none());
+    assert!(read::<Hierarchy>(&to_bytes(&nodes)).is_none());
     let (_, tree) = pieces_with_hull_tree();
     let mut nodes = tree.to_nodes();
     let polytopes = vec![box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)];
-    assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_some());
+    assert!(read::<HullTree>(&to_bytes(&(&polytopes, &nodes))).is_some());
     nodes[0] = HullNode::Inner([1, 2], box_hull(0.0, 1.0));
-    assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
+    assert!(read::<HullTree>(&to_bytes(&(&polytopes, &nodes))).is_none());
 }
 
 /// Tests that reading a stored tree with a damaged or missing byte never panics: it fails or gives a valid tree.
 #[test]
 fn no_bytes_make_it_panic() {
     let (_, tree) = pieces_with_hull_tree();
-    let good = bytes(&tree);
+    let good = to_bytes(&tree);
     for at in 0..good.len() {
         for flip in [0x01, 0x40, 0xff] {
             let mut bad = good.clone();

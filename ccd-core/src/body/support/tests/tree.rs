@@ -3,21 +3,23 @@
 use super::directions_with_ties;
 use crate::body::support::{Support, SupportTree};
 use crate::rounding::HEIGHT_ERROR_F64;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
+use crate::tests::scene::{
+    Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, rng,
+};
 use glam::DVec3;
 
 /// Returns random points of one of seven kinds: on a sphere, in a ball, a plane, a line, one place, a grid or a needle.
 fn random_point_cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
-    let [u, v] = [direction(rng), direction(rng)];
+    let [u, v] = [random_direction(rng), random_direction(rng)];
     let whole = |rng: &mut Pcg64| f64::from(rng.random_range(-3..=3));
     let place = |rng: &mut Pcg64| match kind {
-        0 => direction(rng),
-        1 => point_in_ball(rng, 1.0),
+        0 => random_direction(rng),
+        1 => random_point_in_ball(rng, 1.0),
         2 => u * rng.random_range(-1.0..1.0) + v * rng.random_range(-1.0..1.0),
         3 => u * rng.random_range(-1.0..1.0),
         4 => DVec3::ZERO,
         5 => DVec3::from_array([(); 3].map(|()| whole(rng))),
-        _ => u * rng.random_range(-1.0..1.0) + point_in_ball(rng, 1e-7),
+        _ => u * rng.random_range(-1.0..1.0) + random_point_in_ball(rng, 1e-7),
     };
     (0..count).map(|_| place(rng)).collect()
 }
@@ -30,8 +32,8 @@ fn searching_agrees_with_a_scan() {
     ];
     for (number, count) in counts.into_iter().cycle().take(140).enumerate() {
         // The clouds have all sizes, at up to a million times their size from the origin.
-        let size = magnitude(&mut rng, -30.0, 11.0);
-        let offset = direction(&mut rng) * size * magnitude(&mut rng, -3.0, 6.0);
+        let size = random_power_of_ten(&mut rng, -30.0, 11.0);
+        let offset = random_direction(&mut rng) * size * random_power_of_ten(&mut rng, -3.0, 6.0);
         let offset = if number % 3 == 0 { DVec3::ZERO } else { offset };
         let points: Vec<DVec3> = random_point_cloud(&mut rng, number % 7, count)
             .into_iter()
@@ -64,8 +66,8 @@ fn few_points_of_a_curved_surface_are_visited() {
     let mut rng = rng(22);
     let points = random_point_cloud(&mut rng, 0, 32_768);
     let tree = SupportTree::new(&points);
-    let directions = (0..200).map(|_| direction(&mut rng));
-    let seen: usize = directions.map(|look| tree.visited_node_count(look)).sum();
+    let directions = (0..200).map(|_| random_direction(&mut rng));
+    let seen: usize = directions.map(|look| tree.count_visited_nodes(look)).sum();
     assert!(seen < 200 * 40, "{} nodes a search", seen / 200);
 }
 

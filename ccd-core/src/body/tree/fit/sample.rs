@@ -15,7 +15,7 @@ const MAX_SAMPLE_POINTS: usize = 3 * MAX_SAMPLED_TRIANGLES;
 /// the other.
 #[derive(Clone, Debug)]
 pub(crate) struct PointSample {
-    buffer: [DVec3; MAX_SAMPLE_POINTS],
+    point_buffer: [DVec3; MAX_SAMPLE_POINTS],
     count: usize,
     /// The points in blocks of eight x, y and z coordinates; the last block repeats the last point.
     blocks: [[[f32; LANES]; 3]; MAX_SAMPLE_POINTS / LANES],
@@ -24,7 +24,7 @@ pub(crate) struct PointSample {
 impl PointSample {
     /// A sample without points.
     pub(crate) const EMPTY: PointSample = PointSample {
-        buffer: [DVec3::ZERO; MAX_SAMPLE_POINTS],
+        point_buffer: [DVec3::ZERO; MAX_SAMPLE_POINTS],
         count: 0,
         blocks: [[[0.0; LANES]; 3]; MAX_SAMPLE_POINTS / LANES],
     };
@@ -38,15 +38,15 @@ impl PointSample {
         let step = groups.div_ceil(MAX_SAMPLE_POINTS / size).max(1);
         for group in (0..groups).step_by(step) {
             let points = &node_points.points[size * group..size * (group + 1)];
-            self.buffer[self.count..][..size].copy_from_slice(points);
+            self.point_buffer[self.count..][..size].copy_from_slice(points);
             self.count += size;
         }
-        self.scale_to_unit_size();
+        self.normalize_and_fill_blocks();
     }
 
     /// Returns the sampled points, moved to the origin and scaled to unit size.
     pub(super) fn points(&self) -> &[DVec3] {
-        &self.buffer[..self.count]
+        &self.point_buffer[..self.count]
     }
 
     /// Returns half the surface area of the sample's bounding box along the columns of a frame.
@@ -70,12 +70,12 @@ impl PointSample {
         size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
     }
 
-    fn scale_to_unit_size(&mut self) {
+    fn normalize_and_fill_blocks(&mut self) {
         let (low, high) = bounding_box(self.points().iter().copied());
         let middle = 0.5 * (low + high);
         // If the length is too short, it has no reciprocal.
         let scale = Some((high - low).max_element().recip()).filter(|s| s.is_finite());
-        for point in &mut self.buffer[..self.count] {
+        for point in &mut self.point_buffer[..self.count] {
             *point = (*point - middle) * scale.unwrap_or(1.0);
         }
         let Some(&last) = self.points().last() else {
@@ -88,7 +88,7 @@ impl PointSample {
             for lane in 0..LANES {
                 let at = k * LANES + lane;
                 let point = if at < self.count {
-                    self.buffer[at]
+                    self.point_buffer[at]
                 } else {
                     last
                 };

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::order::lesser;
-use crate::tests::scene::{Pcg64, RngExt, direction, rng};
+use crate::tests::scene::{Pcg64, RngExt, random_direction, rng};
 use crate::tuning::MAX_SAMPLED_TRIANGLES;
 use glam::DQuat;
 
@@ -36,7 +36,7 @@ fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
 }
 
 /// Creates the input of a fit from the corners of triangles.
-fn triangles(points: &[DVec3]) -> NodePoints<'_> {
+fn node_points_of_triangles(points: &[DVec3]) -> NodePoints<'_> {
     NodePoints {
         points,
         radius: 0.0,
@@ -46,13 +46,13 @@ fn triangles(points: &[DVec3]) -> NodePoints<'_> {
 
 /// Returns triangles of a bent sheet, each about a tenth as large as the sheet.
 fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
-    let turn = DQuat::from_axis_angle(direction(rng), 1.0);
-    let middle = 3.0 * size * direction(rng);
+    let turn = DQuat::from_axis_angle(random_direction(rng), 1.0);
+    let middle = 3.0 * size * random_direction(rng);
     (0..count)
         .flat_map(|_| {
             let (x, y) = (rng.random_range(-1.0..1.0), rng.random_range(-0.5..0.5));
             let at = DVec3::new(x, y, 0.1 * x * x);
-            [(); 3].map(|()| middle + size * (turn * (at + 0.05 * direction(rng))))
+            [(); 3].map(|()| middle + size * (turn * (at + 0.05 * random_direction(rng))))
         })
         .collect()
 }
@@ -65,7 +65,7 @@ fn random_triangles_in_rectangle(
     count: usize,
     [long, cluster]: [f64; 2],
 ) -> Vec<DVec3> {
-    let turn = DQuat::from_axis_angle(direction(rng), 1.0);
+    let turn = DQuat::from_axis_angle(random_direction(rng), 1.0);
     let corner = DVec3::new(0.95 * long, 0.95, 0.0);
     (0..count)
         .flat_map(|k| {
@@ -92,7 +92,7 @@ fn boxes_are_as_small_as_the_best_of_all_frames() {
     for k in 0..60 {
         let shape = [[1.0, 0.0], [2.0, 0.5]][k % 2];
         let points = random_triangles_in_rectangle(&mut rng, MAX_SAMPLED_TRIANGLES, shape);
-        sample.fill_from(&triangles(&points));
+        sample.fill_from(&node_points_of_triangles(&points));
         let found = surface(best_frame(&sample, true), &points);
         let least = least_half_surface_area(&points, true);
         assert!(found <= (1.0 + 1e-4) * least, "{found} for {least}");
@@ -126,7 +126,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                     are_triangles: triangles,
                 };
                 let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
-                let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
+                let [x, y, z] = node.half_extents.map(|half| 2.0 * f64::from(half));
                 assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
                 let least = least_half_surface_area(&points, triangles);
@@ -165,7 +165,7 @@ fn degenerate_points_have_a_box() {
             let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
             for (point, k) in points.iter().zip([0, 1, 2, 0]) {
                 let way = (*point - node.centre).dot(node.axes[k].as_dvec3());
-                assert!(way.abs() <= f64::from(node.half[k]));
+                assert!(way.abs() <= f64::from(node.half_extents[k]));
             }
         }
     }
@@ -197,13 +197,13 @@ fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut sample = PointSample::EMPTY;
     for (count, size) in [(40, 1.0), (3, 1e-9), (7, 1e9), (13, 1e3)] {
         let points = sheet(&mut rng, count, size);
-        sample.fill_from(&triangles(&points));
+        sample.fill_from(&node_points_of_triangles(&points));
         let (low, high) = crate::math::vector::bounding_box(sample.points().iter().copied());
         assert!((low + high).length() < 1e-9, "{low} {high}");
         assert!(((high - low).max_element() - 1.0).abs() < 1e-9);
         let mut fresh = PointSample::EMPTY;
-        fresh.fill_from(&triangles(&points));
-        let turned = DMat3::from_quat(DQuat::from_axis_angle(direction(&mut rng), 1.0));
+        fresh.fill_from(&node_points_of_triangles(&points));
+        let turned = DMat3::from_quat(DQuat::from_axis_angle(random_direction(&mut rng), 1.0));
         assert_eq!(
             sample.half_surface_area(&turned),
             fresh.half_surface_area(&turned)

@@ -8,7 +8,7 @@ use glam::DVec3;
 /// Measures by how much a slab without its allowance of 16u is too thin for the exact heights of its corners.
 #[test]
 fn worst_slab() {
-    let found = WorstCaseSearch::of("Slab::about: 16u", 20_000).search(|tape| {
+    let found = WorstCaseSearch::new("Slab::about: 16u", 20_000).search(|tape| {
         let [u, v, centre] = [(); 3].map(|()| DVec3::from(tape.vector(-20..=10)));
         let corners = [(); 6].map(|()| {
             let at = centre + u * tape.any_number(-10..=0) + v * tape.any_number(-10..=0);

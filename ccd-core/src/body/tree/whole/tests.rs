@@ -2,14 +2,14 @@
 
 use super::*;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation};
+use crate::tests::scene::{RngExt, random_direction, random_power_of_ten, random_rotation, rng};
 use crate::tests::worst::{WorstCaseSearch, share};
 
 /// Measures how much of a box's slack is needed for the exact heights of all points, without a rounding radius.
 #[test]
 fn worst_slack() {
     let mut sample = PointSample::EMPTY;
-    let found = WorstCaseSearch::of("Whole::slack", 20_000).search(|tape| {
+    let found = WorstCaseSearch::new("Whole::slack", 20_000).search(|tape| {
         let [u, v, w, middle] = [(); 4].map(|()| DVec3::from(tape.vector(-20..=0)));
         let points = [(); 6].map(|()| {
             let at = u * tape.any_number(-8..=0)
@@ -55,14 +55,14 @@ fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
     let mut rng = rng(5);
     let mut sample = PointSample::EMPTY;
     for _ in 0..300 {
-        let size = magnitude(&mut rng, -9.0, 9.0);
-        let turn = rotation(&mut rng);
+        let size = random_power_of_ten(&mut rng, -9.0, 9.0);
+        let turn = random_rotation(&mut rng);
         let count = rng.random_range(1..200);
         // The points are on the faces of a box, which is rotated and away from the origin.
-        let middle = 10.0 * size * direction(&mut rng);
+        let middle = 10.0 * size * random_direction(&mut rng);
         let points: Vec<DVec3> = (0..3 * count)
             .map(|k| {
-                let mut at = direction(&mut rng);
+                let mut at = random_direction(&mut rng);
                 at[k % 3] = at[k % 3].signum();
                 middle + turn * (size * at)
             })
@@ -79,7 +79,7 @@ fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
             whole.slack
         );
         for _ in 0..20 {
-            let n = direction(&mut rng);
+            let n = random_direction(&mut rng);
             let along = (whole.axes.transpose() * n).abs();
             let reach = along.dot(whole.half_extents) + whole.slack;
             for &point in &points {

@@ -4,12 +4,12 @@
 use super::points_beside_edges;
 use crate::body::Body;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
-use crate::rounding::EDGE_PROBE_DISTANCE;
+use crate::rounding::EDGE_PROBE_DISTANCE_SHARE;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use glam::{DVec2, DVec3};
 
 /// The number of samples of an edge.
-const SAMPLES: usize = 1 << 14;
+const SAMPLES_PER_EDGE: usize = 1 << 14;
 
 const MAX_EDGE_HEIGHT: f64 = 1e-9;
 
@@ -151,19 +151,19 @@ fn depth(outline: &[DVec2], p: DVec2) -> f64 {
 
 /// Computes from samples the points that `points_beside_edges` should return; `None` if samples cannot decide.
 fn expected_points(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec2>> {
-    let at = |k: usize| from + (to - from) * (k as f64 / SAMPLES as f64);
-    let held: Vec<usize> = (0..=SAMPLES)
+    let at = |k: usize| from + (to - from) * (k as f64 / SAMPLES_PER_EDGE as f64);
+    let held: Vec<usize> = (0..=SAMPLES_PER_EDGE)
         .filter(|&k| depth(outline, at(k)) >= -1e-12)
         .collect();
     let (Some(first), Some(last)) = (held.first(), held.last()) else {
         return Some(Vec::new());
     };
-    let share = (last - first) as f64 / SAMPLES as f64;
+    let share = (last - first) as f64 / SAMPLES_PER_EDGE as f64;
     if share < 0.01 {
         return (first == last).then(Vec::new);
     }
     let middle = 0.5 * (at(*first) + at(*last));
-    let aside = (to - from).perp() * (EDGE_PROBE_DISTANCE * share);
+    let aside = (to - from).perp() * (EDGE_PROBE_DISTANCE_SHARE * share);
     let off = sample_spacing([from, to]);
     let both = [middle + aside, middle - aside];
     let told = both.iter().all(|&p| depth(outline, p).abs() > off);
@@ -175,7 +175,7 @@ fn expected_points(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec
 }
 
 fn sample_spacing([from, to]: [DVec2; 2]) -> f64 {
-    from.distance(to) / SAMPLES as f64
+    from.distance(to) / SAMPLES_PER_EDGE as f64
 }
 
 #[test]

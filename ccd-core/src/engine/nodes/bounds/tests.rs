@@ -13,7 +13,7 @@ use crate::engine::nodes::clock;
 use crate::math::order::{greater, lesser};
 use crate::math::simd::{Vec3x8, load};
 use crate::settings::Instructions;
-use crate::tests::scene::{Pcg64, RngExt, direction, rng};
+use crate::tests::scene::{Pcg64, RngExt, random_direction, rng};
 use crate::tuning::{MAX_TURNING_PLANE_TIME, MIN_TURNING_PLANE_RADIUS_RATIO};
 use crate::vectorize;
 use fearless_simd::Level;
@@ -44,12 +44,12 @@ impl Solid {
     }
 
     /// Returns an upper bound of the second derivative of the points' heights along `n`, at any time.
-    fn max_second_derivative(&self, n: DVec3) -> f64 {
+    fn second_derivative_bound(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
     }
 
-    fn size_bound(&self) -> f64 {
+    fn coordinate_scale(&self) -> f64 {
         let reach = self.points.iter().map(|x| x.length()).fold(0.0, greater);
         (reach + 2.0 * self.centre.length()) * (1.0 + self.spin.length())
     }
@@ -57,7 +57,7 @@ impl Solid {
 
 /// A group of children and the other node: in f32, as the bounds take them, and as sets of points in f64. `C` and `P`
 /// are the types of the group and of the other node.
-struct Sample<C, P> {
+struct EightPairSample<C, P> {
     group: C,
     other_node: P,
     motion: RelativeMotionF32,
@@ -75,7 +75,7 @@ struct Sample<C, P> {
 /// The largest errors among the samples, as shares of their allowances.
 #[derive(Debug, Default)]
 struct WorstErrorShares {
-    support: f64,
+    gap: f64,
     rate: f64,
     cross_product: f64,
     clock: f64,
@@ -108,7 +108,7 @@ fn planes_hold_and_allowances_suffice_for_triangles() {
     let mut worst = WorstErrorShares::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng).triangle();
-        let sample = PairConfiguration::new(&mut rng, &other).triangles(&mut rng, &other);
+        let sample = PairConfiguration::new(&mut rng, &other).triangle_sample(&mut rng, &other);
         sample.check_random_axes(&mut rng, &mut worst);
     }
     worst.assert_within_allowances();
@@ -155,7 +155,7 @@ impl WorstErrorShares {
     }
 
     fn assert_within_allowances(&self) {
-        assert!(self.support < 1.0, "{self:?}");
+        assert!(self.gap < 1.0, "{self:?}");
         assert!(self.rate < 1.0, "{self:?}");
         assert!(self.cross_product < 1.0, "{self:?}");
         assert!(self.clock < 1.0, "{self:?}");
@@ -177,7 +177,7 @@ impl WorstErrorShares {
 /// Nothing is inlined: in one function without vectors, the compiler would take minutes.
 fn axis_values<L: Simd, C: Children, P: OtherNode>(
     level: L,
-    sample: &Sample<C, P>,
+    sample: &EightPairSample<C, P>,
     some: Vec3,
 ) -> [AxisValues; 3] {
     let pairs = sample.pairs(level);
@@ -185,7 +185,7 @@ fn axis_values<L: Simd, C: Children, P: OtherNode>(
     let axes = [
         widest_gap_axis(&pairs),
         closest_approach_axis(&pairs),
-        axis::axis_along(pairs.children, pairs.other, pairs.offset, some),
+        axis::axis_along(pairs.children, pairs.other_node, pairs.offset, some),
     ];
     axes.map(|axis| values_along_axis(&pairs, axis))
 }
@@ -194,15 +194,15 @@ type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
 fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> AxesX8<L> {
-    axis::widest_gap_axis(pairs.children, pairs.other, pairs.offset)
+    axis::widest_gap_axis(pairs.children, pairs.other_node, pairs.offset)
 }
 
 #[inline(never)]
 fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
 ) -> AxesX8<L> {
-    let travel = pairs.velocity * splat(pairs.offset.level(), pairs.motion.horizon);
-    axis::closest_approach_axis(pairs.children, pairs.other, pairs.offset, travel)
+    let travel = pairs.velocity * splat(pairs.offset.simd_level(), pairs.motion.horizon);
+    axis::closest_approach_axis(pairs.children, pairs.other_node, pairs.offset, travel)
 }
 
 #[inline(never)]
@@ -215,8 +215,9 @@ fn values_along_axis<L: Simd, C: Children, P: OtherNode>(
         motion.split_rotation.cross_angular_velocity(axis.n),
         motion.other_rotation.cross_angular_velocity(axis.n),
     );
-    let rate =
-        axis.n.dot(pairs.velocity) + pairs.children.extent_along(m) + pairs.other.extent_along(o);
+    let rate = axis.n.dot(pairs.velocity)
+        + pairs.children.extent_along(m)
+        + pairs.other_node.extent_along(o);
     AxisValues {
         axis: [*axis.n.x, *axis.n.y, *axis.n.z],
         gap: *axis.gap,
@@ -235,7 +236,7 @@ fn fixed_plane_times<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
-    *pairs.free(axis)
+    *pairs.fixed_plane_free_times(axis)
 }
 
 #[inline(never)]
@@ -268,7 +269,7 @@ fn free_times(
     })
 }
 
-impl<C: Children, P: OtherNode> Sample<C, P> {
+impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     #[inline(never)]
     fn pairs<L: Simd>(&self, level: L) -> Pairs<'_, L, C, P> {
         EightPairs::new(level, &self.group, &self.other_node, &self.motion)
@@ -276,9 +277,9 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
 
     fn check_random_axes(&self, rng: &mut Pcg64, worst: &mut WorstErrorShares) {
         // Axes may have any length.
-        let some = direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
+        let some = random_direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
         let found = self.axis_values_on_all_levels(some);
-        let reach = vectorize!(Instructions::Best.level(), level => {
+        let reach = vectorize!(Instructions::Best.simd_level(), level => {
             *(self.group.centre(level).length() + self.group.radius(level))
         });
         let reach = reach.into_iter().fold(0.0, greater);
@@ -296,7 +297,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     /// Computes the values with all sets of vector instructions, and checks that they are equal.
     fn axis_values_on_all_levels(&self, some: Vec3) -> [AxisValues; 3] {
         let [best, baseline] = [Instructions::Best, Instructions::Baseline]
-            .map(|instructions| vectorize!(instructions.level(), level => axis_values(level, self, some)));
+            .map(|instructions| vectorize!(instructions.simd_level(), level => axis_values(level, self, some)));
         for (best, baseline) in best.iter().zip(&baseline) {
             assert_eq!(
                 best.comparable_values(),
@@ -313,7 +314,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let frees = self.axis_free_times(found);
         for lane in 0..self.children.len() {
             let of = self.error_shares(found, &frees, lane);
-            worst.support = greater(worst.support, of.support);
+            worst.gap = greater(worst.gap, of.gap);
             worst.rate = greater(worst.rate, of.rate);
             worst.cross_product = greater(worst.cross_product, of.cross_product);
             worst.clock = greater(worst.clock, of.clock);
@@ -333,7 +334,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 let child = self.children[lane].max_height(n, tau) + n.dot(self.displacement(tau));
                 (-self.other_solid.max_height(-n, tau) - child) / n.length()
             };
-            worst.fixed_plane_count += usize::from(self.check(lane, free, gap, worst));
+            worst.fixed_plane_count += usize::from(self.check_gap_is_kept(lane, free, gap, worst));
         }
     }
 
@@ -360,12 +361,13 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 let top = child.max_height(n, tau) + n.dot(self.displacement(tau));
                 (-self.other_solid.max_height(-n, tau) - top) / n.length()
             };
-            worst.turning_plane_count += usize::from(self.check(lane, free[lane], gap, worst));
+            worst.turning_plane_count +=
+                usize::from(self.check_gap_is_kept(lane, free[lane], gap, worst));
         }
     }
 
     /// Checks at sampled times that a gap is kept for a free time, and returns whether the free time is positive.
-    fn check(
+    fn check_gap_is_kept(
         &self,
         lane: usize,
         free: f32,
@@ -378,7 +380,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
         let kept = self.kept_gap;
         let travel = self.velocity.length() + self.acceleration.length();
-        let size = self.children[lane].size_bound() + self.other_solid.size_bound() + travel;
+        let size =
+            self.children[lane].coordinate_scale() + self.other_solid.coordinate_scale() + travel;
         let until = lesser(1.0, f64::from(free));
         for k in 0..=16 {
             let tau = until * f64::from(k) / 16.0;

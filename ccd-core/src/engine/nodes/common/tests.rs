@@ -11,7 +11,7 @@ fn no_point_of_a_node_is_beyond_the_reach() {
         let problem = scene.problem();
         for side in [&problem.a, &problem.b] {
             let tree = side.body.tree();
-            for id in 0..tree.nodes() as u32 {
+            for id in 0..tree.node_count() as u32 {
                 let NodeOrTriangle::Node(node) = tree.get(id) else {
                     continue;
                 };

@@ -3,7 +3,7 @@
 use super::*;
 use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
-use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, rng, scene};
 use crate::tuning::MIN_TURNING_PLANE_RADIUS_RATIO;
 
@@ -126,7 +126,7 @@ struct SceneAudit<'a> {
 struct BoundedPair {
     split: WhichBody,
     child: NodeId,
-    other: NodeId,
+    other_node: NodeId,
     start_clock: f64,
     end_clock: f64,
 }
@@ -157,14 +157,14 @@ impl SceneAudit<'_> {
             );
             self.check(&expansion, split, node, other, s, tally);
             let count = self.child_count_and_kind(split, node).0;
-            let lane = self.next(rng, &expansion, count);
-            ids[split as usize] = expansion.first + lane;
+            let lane = self.choose_child(rng, &expansion, count);
+            ids[split as usize] = expansion.first_child + lane;
         }
     }
 
     /// Returns a clock at which the bodies are near each other, or a random one.
     fn clock(&self, rng: &mut Pcg64) -> f64 {
-        let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.passage_time;
+        let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.passage_duration;
         match rng.random_range(0..8) {
             0 => 0.0,
             1 | 2 => rng.random_range(0.0..1.0),
@@ -174,7 +174,7 @@ impl SceneAudit<'_> {
     }
 
     /// Chooses the child with which the descent continues, mostly the one with the least free time.
-    fn next(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
+    fn choose_child(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
         let free = |k: &u32| expansion.bounds.free_times.time_of_lane(*k as usize);
         let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
         if rng.random_bool(0.8) {
@@ -186,7 +186,7 @@ impl SceneAudit<'_> {
 
     /// Returns the number of a node's children, and whether these are triangles.
     fn child_count_and_kind(&self, split: WhichBody, node: NodeId) -> (u32, bool) {
-        let tree = split.of(self.problem).body.tree();
+        let tree = split.body_in_problem(self.problem).body.tree();
         match tree.get(node) {
             NodeOrTriangle::Node(node) => match node.children {
                 NodeChildren::Boxes(group) => (tree.box_group(group).header.count, false),
@@ -213,8 +213,8 @@ impl SceneAudit<'_> {
             assert!(free >= 0.0, "{:?}: {free}", self.name);
             let pair = BoundedPair {
                 split,
-                child: expansion.first + lane,
-                other,
+                child: expansion.first_child + lane,
+                other_node: other,
                 start_clock: s,
                 end_clock: lesser(1.0, s + f64::from(free)),
             };
@@ -224,7 +224,7 @@ impl SceneAudit<'_> {
                 tally.lanes_by_split_body[split as usize] += 1;
                 tally.times_lengthened_by_turning_plane +=
                     usize::from(free > 1.5 * still.free_times.time_of_lane(lane as usize));
-                let other_tree = split.other().of(self.problem).body.tree();
+                let other_tree = split.other().body_in_problem(self.problem).body.tree();
                 tally.lanes_against_triangle += usize::from(other_tree.piece(other).is_some());
                 if triangles {
                     tally.lanes_of_triangles += 1;
@@ -241,8 +241,9 @@ impl SceneAudit<'_> {
     /// Returns whether some pieces of a lane are within the gap to keep; `false` for a lane of more than 64 pairs of
     /// pieces.
     fn overlap(&self, lane: &BoundedPair) -> bool {
-        let (near, far) = self.at(lane, lane.start_clock);
-        near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
+        let (near, far) = self.triangles_at(lane, lane.start_clock);
+        near.len() * far.len() <= 64
+            && self.least_distance_of_unseparated(&near, &far, 0.0) <= self.problem.gap()
     }
 
     /// Checks at every sampled time that all triangles below the child stay apart from those below the other node. They
@@ -254,11 +255,11 @@ impl SceneAudit<'_> {
         for k in 0..SAMPLES {
             let share = k as f64 / (SAMPLES - 1) as f64;
             let s = lane.start_clock + share * (lane.end_clock - lane.start_clock);
-            let (near, far) = self.at(lane, s);
+            let (near, far) = self.triangles_at(lane, s);
             if prover.separates(&near, &far, kept) {
                 tally.samples_proven_by_axis += 1;
             } else {
-                let least = self.least_distance(&near, &far, kept);
+                let least = self.least_distance_of_unseparated(&near, &far, kept);
                 assert!(
                     least > kept,
                     "{:?}: {least:e} apart at {s}, {kept:e} promised: {lane:?}",
@@ -269,13 +270,18 @@ impl SceneAudit<'_> {
         }
     }
 
-    fn least_distance(&self, near: &[Triangle], far: &[Triangle], enough: f64) -> f64 {
+    fn least_distance_of_unseparated(
+        &self,
+        near: &[Triangle],
+        far: &[Triangle],
+        enough: f64,
+    ) -> f64 {
         let mut least = f64::INFINITY;
         for a in near {
             for b in far {
                 let mut prover = AxisSearch::default();
                 if !(enough > 0.0 && prover.separates(&[*a], &[*b], enough)) {
-                    least = lesser(least, nearest(a, b).distance);
+                    least = lesser(least, nearest_points(a, b).distance);
                 }
             }
         }
@@ -283,12 +289,12 @@ impl SceneAudit<'_> {
     }
 
     /// Returns the triangles below both nodes, at the poses at a clock.
-    fn at(&self, lane: &BoundedPair, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
+    fn triangles_at(&self, lane: &BoundedPair, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
         let placed = |which: WhichBody, id: NodeId| {
-            let side = which.of(self.problem);
+            let side = which.body_in_problem(self.problem);
             let frame = side.path.frame(s);
             let mut out = Vec::new();
-            below(side, id, &mut |piece| {
+            visit_pieces_below(side, id, &mut |piece| {
                 out.push(
                     side.body
                         .pieces()
@@ -300,13 +306,13 @@ impl SceneAudit<'_> {
         };
         (
             placed(lane.split, lane.child),
-            placed(lane.split.other(), lane.other),
+            placed(lane.split.other(), lane.other_node),
         )
     }
 }
 
 /// Calls `visit` with all pieces below a node.
-fn below(side: &BodyWithPath<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
+fn visit_pieces_below(side: &BodyWithPath<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     let tree = side.body.tree();
     let members = match tree.get(id) {
         NodeOrTriangle::Triangle(piece) => return visit(piece),
@@ -317,7 +323,7 @@ fn below(side: &BodyWithPath<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
         },
     };
     for k in 0..members.count {
-        below(side, members.first + k, visit);
+        visit_pieces_below(side, members.first_child + k, visit);
     }
 }
 
@@ -374,7 +380,7 @@ fn expand_with_fixed_planes(
     other: NodeId,
     s: f64,
 ) -> EightPairBounds {
-    let tree = split.of(problem).body.tree();
+    let tree = split.body_in_problem(problem).body.tree();
     let NodeOrTriangle::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
@@ -385,12 +391,12 @@ fn expand_with_fixed_planes(
         match below.children {
             NodeChildren::Boxes(group) => {
                 let group = tree.box_group(group);
-                still(&motion, group, &group.header)
+                bound_with_fixed_planes(&motion, group, &group.header)
             }
             NodeChildren::Triangles(group) => {
-                let pieces = split.of(problem).body.pieces();
+                let pieces = split.body_in_problem(problem).body.pieces();
                 let group = &tree.triangle_group(group, pieces);
-                still(&motion, group, &group.header)
+                bound_with_fixed_planes(&motion, group, &group.header)
             }
             NodeChildren::Piece(_) => panic!("a node to split"),
         }
@@ -400,13 +406,13 @@ fn expand_with_fixed_planes(
 /// Like `RelativeMotion::bound`, with fixed planes only. A radius that is neither much larger nor much smaller than the
 /// other node's excludes planes that turn.
 #[inline(always)]
-fn still<L: Simd, C: Children>(
+fn bound_with_fixed_planes<L: Simd, C: Children>(
     motion: &RelativeMotion<'_, L>,
     group: &C,
     members: &GroupHeader,
 ) -> EightPairBounds {
-    let far = motion.other_side;
-    let radius = match far.body.tree().get(motion.split.other) {
+    let far = motion.other_body;
+    let radius = match far.body.tree().get(motion.split.other_node) {
         NodeOrTriangle::Node(node) => node.radius,
         NodeOrTriangle::Triangle(piece) => {
             let [a, b, c] = far.body.pieces().triangle(piece as usize);

@@ -9,17 +9,20 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::settings::Settings;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
+use crate::tests::scene::{
+    Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation,
+    rng,
+};
 use glam::DQuat;
 
 /// Draws 4 to 5,000 points in space, on a sphere, in a plane, or on a line.
 fn points(rng: &mut Pcg64, kind: usize, size: f64) -> Vec<DVec3> {
-    let count = magnitude(rng, 0.6, 3.7) as usize;
-    let [u, v] = [direction(rng), direction(rng)];
-    let offset = direction(rng) * magnitude(rng, -3.0, 3.0);
+    let count = random_power_of_ten(rng, 0.6, 3.7) as usize;
+    let [u, v] = [random_direction(rng), random_direction(rng)];
+    let offset = random_direction(rng) * random_power_of_ten(rng, -3.0, 3.0);
     let place = |rng: &mut Pcg64| match kind {
-        0 => point_in_ball(rng, 1.0),
-        1 => direction(rng),
+        0 => random_point_in_ball(rng, 1.0),
+        1 => random_direction(rng),
         2 => u * rng.random_range(-1.0..1.0) + v * rng.random_range(-1.0..1.0),
         _ => u * rng.random_range(-1.0..1.0),
     };
@@ -31,21 +34,28 @@ fn many_points_are_bounded_like_all_of_them() {
     let mut rng = rng(31);
     let (mut tight, mut many) = ([0; 2], 0);
     for number in 0..600 {
-        let size = magnitude(&mut rng, -6.0, 3.0);
+        let size = random_power_of_ten(&mut rng, -6.0, 3.0);
         let polytope = Polytope {
             points: points(&mut rng, number % 4, size),
             ..Polytope::default()
         };
         let body = Body::polytope(polytope).unwrap();
-        let spin = direction(&mut rng) * [0.0, magnitude(&mut rng, -6.0, 3.0)][number % 2];
-        let velocity = direction(&mut rng) * magnitude(&mut rng, -3.0, 2.0) * size;
-        let start = Pose::new(size * direction(&mut rng), rotation(&mut rng)).unwrap();
-        let motion =
-            Motion::about(start, velocity, spin, size * point_in_ball(&mut rng, 2.0)).unwrap();
+        let spin = random_direction(&mut rng)
+            * [0.0, random_power_of_ten(&mut rng, -6.0, 3.0)][number % 2];
+        let velocity = random_direction(&mut rng) * random_power_of_ten(&mut rng, -3.0, 2.0) * size;
+        let start =
+            Pose::new(size * random_direction(&mut rng), random_rotation(&mut rng)).unwrap();
+        let motion = Motion::about(
+            start,
+            velocity,
+            spin,
+            size * random_point_in_ball(&mut rng, 2.0),
+        )
+        .unwrap();
         let ball = Body::sphere(0.1).unwrap();
         let (moving, still) = ((&body, motion), (&ball, Motion::STILL));
-        let linear_acceleration =
-            direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
+        let linear_acceleration = random_direction(&mut rng)
+            * [0.0, random_power_of_ten(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
         let (bodies, pulls) = ([moving, still], [linear_acceleration, DVec3::ZERO]);
         let problem =
             Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.to_query_settings())
@@ -53,7 +63,7 @@ fn many_points_are_bounded_like_all_of_them() {
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
-        let normal = direction(&mut rng);
+        let normal = random_direction(&mut rng);
         let piece = body.piece(0);
         let bare = Piece {
             support_map: None,
@@ -62,13 +72,13 @@ fn many_points_are_bounded_like_all_of_them() {
         let heights = Heights::new(side, &piece, &frame, normal, clock);
         let twin = Heights::new(side, &bare, &frame, normal, clock);
         many += usize::from(piece.bounding_ball().is_some());
-        assert!(heights.speed() >= twin.speed() * (1.0 - 1e-15));
+        assert!(heights.speed_bound() >= twin.speed_bound() * (1.0 - 1e-15));
         // A ball about the points extends no farther than that, except by its own slack.
         assert!(
-            heights.speed() <= 1.5 * twin.speed(),
+            heights.speed_bound() <= 1.5 * twin.speed_bound(),
             "{} {}",
-            heights.speed(),
-            twin.speed()
+            heights.speed_bound(),
+            twin.speed_bound()
         );
         // The rounding is that of heights about the centre, and of the positions from which they are computed.
         let span = problem.a.body.tree().max_distance_from_origin() + side.path.centre.length();
@@ -86,7 +96,7 @@ fn many_points_are_bounded_like_all_of_them() {
                 "{bound:?} {all:?}"
             );
             assert!(
-                bound.rate <= all.rate + 1e-15 * twin.speed(),
+                bound.rate <= all.rate + 1e-15 * twin.speed_bound(),
                 "{bound:?} {all:?}"
             );
             assert!(
@@ -117,16 +127,26 @@ fn points_rise_and_sink_as_their_body_turns() {
     for number in 0..400 {
         let count = [1, 2, 3, 4, 400][number % 5];
         let cloud = Polytope {
-            points: (0..count).map(|_| point_in_ball(&mut rng, 1.0)).collect(),
+            points: (0..count)
+                .map(|_| random_point_in_ball(&mut rng, 1.0))
+                .collect(),
             ..Polytope::default()
         };
         let body = Body::polytope(cloud).unwrap();
-        let spin = direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 1.0)][number / 5 % 2];
-        let start = Pose::new(point_in_ball(&mut rng, 1.0), rotation(&mut rng)).unwrap();
-        let (velocity, centre) = (point_in_ball(&mut rng, 1.0), point_in_ball(&mut rng, 1.0));
+        let spin = random_direction(&mut rng)
+            * [0.0, random_power_of_ten(&mut rng, -3.0, 1.0)][number / 5 % 2];
+        let start = Pose::new(
+            random_point_in_ball(&mut rng, 1.0),
+            random_rotation(&mut rng),
+        )
+        .unwrap();
+        let (velocity, centre) = (
+            random_point_in_ball(&mut rng, 1.0),
+            random_point_in_ball(&mut rng, 1.0),
+        );
         let motion = Motion::about(start, velocity, spin, centre).unwrap();
         let moving = (&body, motion);
-        let acceleration = point_in_ball(&mut rng, [0.0, 1.0][number / 10 % 2]);
+        let acceleration = random_point_in_ball(&mut rng, [0.0, 1.0][number / 10 % 2]);
         let (bodies, pulls) = (
             [moving, (&ball, Motion::STILL)],
             [acceleration, DVec3::ZERO],
@@ -137,7 +157,7 @@ fn points_rise_and_sink_as_their_body_turns() {
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
-        let (piece, normal) = (body.piece(0), direction(&mut rng));
+        let (piece, normal) = (body.piece(0), random_direction(&mut rng));
         let twin = ReferenceHeights {
             arms: piece
                 .points
@@ -205,7 +225,9 @@ impl ReferenceHeights {
             self.least_point_value(0.0, |p| p.height)
         ));
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
-        assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
+        assert!(
+            heights.speed_bound() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14)
+        );
         assert_eq!(
             heights.tracks_if_few_points().is_some(),
             self.arms.len() <= MAX_TRACKED_POINTS
@@ -225,7 +247,11 @@ impl ReferenceHeights {
                 continue;
             };
             assert!(is(least, self.least_point_value(tau, both)));
-            for (k, point) in few.at(heights.angle(tau), tau).into_iter().enumerate() {
+            for (k, point) in few
+                .heights_at(heights.angle_sin_cos(tau), tau)
+                .into_iter()
+                .enumerate()
+            {
                 // The last point is repeated.
                 let twin = self.point(lesser(k as u32, self.arms.len() as u32 - 1) as usize, tau);
                 assert!(is(point.height, twin.height) && is(point.rate, twin.rate));
@@ -234,11 +260,11 @@ impl ReferenceHeights {
         self.check_descent(heights, 0.7);
     }
 
-    /// Checks that `max_descent_until` is not less than the largest sampled descent by rotation, and at most 1e-3 more;
+    /// Checks that `max_rotational_descent_until` is not less than the largest sampled descent by rotation, and at most 1e-3 more;
     /// or `None`, if the piece has many points.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
         let many = heights.piece.bounding_ball().is_some();
-        let Some(descent) = heights.max_descent_until(horizon) else {
+        let Some(descent) = heights.max_rotational_descent_until(horizon) else {
             assert!(many);
             return;
         };

@@ -30,7 +30,7 @@ fn with_two_balls<R>(
 
 /// Advances a new pair until a step is not a clock before the end, and returns that step and the clock at which it was
 /// made.
-fn run(problem: &Problem<'_>) -> (f64, PairStep) {
+fn advance_to_last_step(problem: &Problem<'_>) -> (f64, PairStep) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
     for _ in 0..128 {
@@ -48,7 +48,7 @@ fn run(problem: &Problem<'_>) -> (f64, PairStep) {
 #[test]
 fn two_balls_meet_when_they_do() {
     let config = Settings::DEFAULT;
-    let (s, step) = with_two_balls(4.0, 4.0, &config, run);
+    let (s, step) = with_two_balls(4.0, 4.0, &config, advance_to_last_step);
     assert!(matches!(step, PairStep::Contact(_)), "two balls meet");
     // The gap of 2 is closed at half the duration. The balls stop within the tolerance of it.
     assert!(s <= 0.5 && s > 0.5 - config.tolerance / 4.0, "{s}");
@@ -56,7 +56,7 @@ fn two_balls_meet_when_they_do() {
 
 #[test]
 fn a_pair_that_recedes_is_done_with() {
-    let (s, step) = with_two_balls(4.0, -4.0, &Settings::DEFAULT, run);
+    let (s, step) = with_two_balls(4.0, -4.0, &Settings::DEFAULT, advance_to_last_step);
     assert_eq!(s, 0.0);
     assert!(matches!(step, PairStep::FreeUntil(clock) if clock > 1.0));
 }
@@ -67,16 +67,16 @@ fn the_margin_is_kept() {
         margin: 1.0,
         ..Settings::DEFAULT
     };
-    let (s, step) = with_two_balls(4.0, 4.0, &config, run);
+    let (s, step) = with_two_balls(4.0, 4.0, &config, advance_to_last_step);
     assert!(matches!(step, PairStep::Contact(_)));
     assert!(s <= 0.25 && s > 0.2497, "{s}");
 }
 
 #[test]
 fn overlap_and_touching_are_distinguished() {
-    let (s, step) = with_two_balls(1.9, 0.0, &Settings::DEFAULT, run);
+    let (s, step) = with_two_balls(1.9, 0.0, &Settings::DEFAULT, advance_to_last_step);
     assert!(s == 0.0 && matches!(step, PairStep::Overlap(_)));
-    let (s, step) = with_two_balls(2.0, 0.0, &Settings::DEFAULT, run);
+    let (s, step) = with_two_balls(2.0, 0.0, &Settings::DEFAULT, advance_to_last_step);
     assert!(s == 0.0 && matches!(step, PairStep::Contact(_)));
 }
 
@@ -88,16 +88,16 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     };
     // Pairs that begin with a gap are handled by the search, which uses half of the gap.
     let x = 2.0;
-    let (_, step) = with_two_balls(x, -1.0, &config, run);
+    let (_, step) = with_two_balls(x, -1.0, &config, advance_to_last_step);
     assert!(matches!(step, PairStep::FreeUntil(_)), "parting");
-    let (_, step) = with_two_balls(x, 0.0, &config, run);
+    let (_, step) = with_two_balls(x, 0.0, &config, advance_to_last_step);
     assert!(matches!(step, PairStep::FreeUntil(_)), "resting");
-    let (s, step) = with_two_balls(x, 1.0, &config, run);
+    let (s, step) = with_two_balls(x, 1.0, &config, advance_to_last_step);
     assert!(matches!(step, PairStep::Contact(_)), "approaching");
     // The contact is never late, except for the rounding of resting.
     assert!(s <= 1e-12, "{s}");
     // A second touch after parting is a contact at the query's own tolerance.
-    let (s, step) = with_returning_bar(&config, run);
+    let (s, step) = with_returning_bar(&config, advance_to_last_step);
     assert!(matches!(step, PairStep::Contact(_)));
     let exact = 1.0 - 2.0 * 0.2f64.atan2(0.9) / std::f64::consts::PI;
     assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");

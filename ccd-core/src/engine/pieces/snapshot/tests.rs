@@ -5,9 +5,9 @@ mod planes;
 mod resting;
 
 use super::*;
-use crate::tests::nearest::nearest;
+use crate::tests::nearest::nearest_points;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{RngExt, SceneKind, direction, magnitude, rng, scene};
+use crate::tests::scene::{RngExt, SceneKind, random_direction, random_power_of_ten, rng, scene};
 
 const SAMPLES: u32 = 32;
 
@@ -25,7 +25,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
-        let mut normal = direction(&mut rng);
+        let mut normal = random_direction(&mut rng);
         let heights = |s: f64, normal: DVec3| {
             let now = Snapshot::new(&problem, 0, 0, s);
             let axis = now.frames[0].inverse_vector(normal);
@@ -36,7 +36,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         }
         let gap = heights(clock, normal);
         // The slack is the part of the gap that may be used up.
-        let slack = gap.abs() * magnitude(&mut rng, -3.0, 0.0);
+        let slack = gap.abs() * random_power_of_ten(&mut rng, -3.0, 0.0);
         let free = snapshot.fixed_plane_free_time(normal, slack);
         let until = free.map_or(1.0, |free| clock + free);
         let least = gap - slack - 3.0 * problem.rounding;
@@ -102,7 +102,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
                 .pieces()
                 .triangle(0)
                 .map(|p| frames[1].point(p));
-            let found = nearest(&a, &b).distance;
+            let found = nearest_points(&a, &b).distance;
             assert!(
                 found > kept - problem.rounding,
                 "{number}: {found:e} at {s} of {until}, {kept:e} promised"
@@ -125,7 +125,7 @@ fn no_slack_is_no_time() {
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free = snapshot.fixed_plane_free_time(direction(&mut rng), slack);
+            let free = snapshot.fixed_plane_free_time(random_direction(&mut rng), slack);
             assert_eq!(free, Some(0.0), "{slack}");
         }
         let free = snapshot.fixed_plane_free_time(DVec3::NAN, 1.0);

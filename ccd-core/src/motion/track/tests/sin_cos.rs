@@ -27,7 +27,7 @@ fn agrees_with_the_standard_library() {
 /// Tests that `sin_cos` is off by at most 2u, at angles next to multiples of a right angle and elsewhere.
 #[test]
 fn worst_sine_and_cosine() {
-    let found = WorstCaseSearch::of("sin_cos: 2u", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("sin_cos: 2u", 40_000).search(|tape| {
         let angle = match tape.index_below(2) {
             0 => tape.size(-30..=19),
             _ => {

@@ -51,7 +51,7 @@ pub(super) struct StretchDistance {
     pub(super) upper: f64,
     /// The sum of both bodies' deviations, which bounds the difference between the bodies' distance and that of the
     /// approximate motions.
-    pub(super) total_deviation: f64,
+    pub(super) total_deviation_bound: f64,
     /// The time at which the motions are nearest, counted from the start of the stretch.
     pub(super) time: f64,
     /// The rate at which the motions approach each other at the time when they are nearest.
@@ -73,7 +73,7 @@ impl StretchDistance {
     /// help then.
     pub(super) fn is_limited_by_rounding(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
-        width > tolerance && self.total_deviation <= width
+        width > tolerance && self.total_deviation_bound <= width
     }
 
     /// Returns the end of the stretch beyond which the distance probably decreases further; `None` if there is no such
@@ -85,10 +85,10 @@ impl StretchDistance {
             MIN_CUT_SHARE * motions.span.length(),
             self.approach_rate * motions.span.length(),
         );
-        let time = motions.time(self.time);
-        if time - from <= near && -falls > motions.total_deviation {
+        let time = motions.query_time(self.time);
+        if time - from <= near && -falls > motions.total_deviation_bound {
             Some(from)
-        } else if to - time <= near && falls > motions.total_deviation {
+        } else if to - time <= near && falls > motions.total_deviation_bound {
             Some(to)
         } else {
             None
@@ -112,7 +112,7 @@ impl LeastDistanceSoFar {
             lower: f64::INFINITY,
             nearest_contact: None,
             lower_bound_attempts: LowerBoundAttempts::new(0.0, query.settings.budget)
-                .with_earlier_first_attempt(is_timed),
+                .with_earlier_first_attempt_if_timed(is_timed),
         }
     }
 
@@ -131,7 +131,7 @@ impl LeastDistanceSoFar {
         outcome: &Outcome,
     ) -> Result<StretchDistance, Limit> {
         let mut seen = StretchDistance {
-            total_deviation: motions.total_deviation,
+            total_deviation_bound: motions.total_deviation_bound,
             ..StretchDistance::default()
         };
         match *outcome {
@@ -140,7 +140,7 @@ impl LeastDistanceSoFar {
                 time,
                 contact,
             } => {
-                self.record_contact(motions.time(time), motions.contact(contact));
+                self.record_contact(motions.query_time(time), motions.contact(contact));
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
                 seen.time = time;
@@ -153,7 +153,7 @@ impl LeastDistanceSoFar {
             }
             Outcome::Unresolved(known) => {
                 if let Some((time, contact)) = known.nearest {
-                    self.record_contact(motions.time(time), motions.contact(contact));
+                    self.record_contact(motions.query_time(time), motions.contact(contact));
                 }
                 return Err(known.limit);
             }
@@ -168,7 +168,7 @@ impl LeastDistanceSoFar {
         }
     }
 
-    pub(super) fn nearest(
+    pub(super) fn nearest_answer(
         &self,
         query: &Query<'_>,
         stretches: &WaitingStretches<'_, '_>,
@@ -230,7 +230,10 @@ impl LeastDistanceSoFar {
         outcome: Outcome,
     ) -> Answer {
         Answer {
-            tolerance: greater(query.settings.tolerance, outcome.width()),
+            tolerance: greater(
+                query.settings.tolerance,
+                outcome.least_distance_bracket_width(),
+            ),
             outcome,
             stats: stretches.stats,
         }

@@ -47,7 +47,7 @@ struct ShuttleTrajectory {
 }
 
 impl ShuttleTrajectory {
-    fn at(&self, time: f64) -> DVec3 {
+    fn position_at(&self, time: f64) -> DVec3 {
         let way = time * f64::from(self.laps);
         let lap = way.floor();
         let x = if lap % 2.0 == 0.0 {
@@ -61,7 +61,7 @@ impl ShuttleTrajectory {
 
 impl Trajectory for ShuttleTrajectory {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let [start, end] = [from, to].map(|time| self.at(time));
+        let [start, end] = [from, to].map(|time| self.position_at(time));
         let velocity = if to > from {
             (end - start) / (to - from)
         } else {
@@ -176,14 +176,14 @@ fn each_part_between_two_corners_has_a_budget() {
 
 /// A trajectory with unbounded deviations, with a corner near the end of every stretch, or with invalid bounds.
 struct HostileTrajectory {
-    deviation: DeviationBound,
+    deviation_bound: DeviationBound,
     step: f64,
 }
 
 impl Trajectory for HostileTrajectory {
     fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
         Ok(Stretch {
-            deviation_bound: self.deviation,
+            deviation_bound: self.deviation_bound,
             ..Stretch::exact(Motion::STILL)
         })
     }
@@ -199,7 +199,7 @@ fn budgets_end_cuts_where_there_is_no_bound() {
     let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
     let ask = |shift: f64, turn: f64, step: f64| {
         let hostile = HostileTrajectory {
-            deviation: DeviationBound { shift, turn },
+            deviation_bound: DeviationBound { shift, turn },
             step,
         };
         let config = Settings {

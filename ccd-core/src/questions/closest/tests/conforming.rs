@@ -36,7 +36,7 @@ fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
     let problem = Problem::about((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
     let first = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
     assert!(matches!(first.outcome, Outcome::Free { .. }));
-    let closest = approach(&problem);
+    let closest = closest_approach_answer(&problem);
     assert!(
         matches!(closest.outcome, Outcome::LeastDistance { .. }),
         "{closest:?}"

@@ -18,11 +18,11 @@ fn upper_bounds_have_the_excess_added_once() {
     let (mut apart, mut overlapping) = (0, 0);
     for number in 0..400 {
         let scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
-        let known = approach(&scene.problem());
+        let known = closest_approach_answer(&scene.problem());
         let size = scene.bodies[0].bounding_radius() + scene.bodies[1].bounding_radius();
-        let excess = size * magnitude(&mut rng, -6.0, -1.0);
+        let excess = size * random_power_of_ten(&mut rng, -6.0, -1.0);
         let scene = scene_with_excess(scene, excess);
-        let found = approach(&scene.problem());
+        let found = closest_approach_answer(&scene.problem());
         let (outcome, upper) = (found.outcome, known.outcome.upper() + excess);
         assert_eq!(outcome.lower(), known.outcome.lower());
         assert_eq!(outcome.time(), known.outcome.time());
@@ -30,7 +30,10 @@ fn upper_bounds_have_the_excess_added_once() {
             outcome.upper() >= upper && outcome.upper() <= upper * (1.0 + 1e-15),
             "{number}: {outcome:?} of {known:?}"
         );
-        assert!(found.tolerance >= outcome.width(), "{number}: {found:?}");
+        assert!(
+            found.tolerance >= outcome.least_distance_bracket_width(),
+            "{number}: {found:?}"
+        );
         match outcome {
             Outcome::Overlapping { upper, .. } => {
                 overlapping += 1;
@@ -53,13 +56,16 @@ fn a_clearance_is_violated_by_more_than_the_excess_only() {
     let (mut kept, mut violated, mut between) = (0, 0, 0);
     for number in 0..500 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
-        let known = approach(&scene.problem()).outcome;
+        let known = closest_approach_answer(&scene.problem()).outcome;
         let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
             continue;
         };
         let tolerance = scene.problem().tolerance;
         let size = scene.bodies[0].bounding_radius() + scene.bodies[1].bounding_radius();
-        let excess = greater(8.0 * tolerance, size * magnitude(&mut rng, -6.0, -1.0));
+        let excess = greater(
+            8.0 * tolerance,
+            size * random_power_of_ten(&mut rng, -6.0, -1.0),
+        );
         scene = scene_with_excess(scene, excess);
         for required in [
             lower - 2.0 * tolerance,
@@ -71,7 +77,7 @@ fn a_clearance_is_violated_by_more_than_the_excess_only() {
                 continue;
             }
             scene.settings.clearance = Some(required);
-            let outcome = approach(&scene.problem()).outcome;
+            let outcome = closest_approach_answer(&scene.problem()).outcome;
             assert!(outcome.lower() <= upper, "{number}: {outcome:?}");
             match outcome.clearance(required) {
                 Clearance::Kept => {

@@ -8,7 +8,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     let (mut kept, mut violated, mut between) = (0, 0, 0);
     for number in 0..800 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
-        let known = approach(&scene.problem()).outcome;
+        let known = closest_approach_answer(&scene.problem()).outcome;
         let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
             continue;
         };
@@ -28,7 +28,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
             }
             scene.settings.clearance = Some(required);
             let problem = scene.problem();
-            let answer = approach(&problem);
+            let answer = closest_approach_answer(&problem);
             let outcome = answer.outcome;
             assert!(
                 outcome.lower() <= found + slack,
@@ -77,13 +77,13 @@ fn a_required_distance_costs_little_more_than_a_margin() {
     let (mut required, mut margins, mut measured) = (0, 0, 0);
     for number in 0..300 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
-        let known = approach(&scene.problem());
+        let known = closest_approach_answer(&scene.problem());
         let Outcome::LeastDistance { lower, contact, .. } = known.outcome else {
             continue;
         };
         for distance in [0.7 * lower, 1.5 * contact.separation.upper] {
             scene.settings.clearance = Some(distance);
-            required += approach(&scene.problem()).stats.work();
+            required += closest_approach_answer(&scene.problem()).stats.work();
             scene.settings.margin = distance;
             let problem = scene.problem();
             let any = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
@@ -104,13 +104,13 @@ fn searches_that_end_early_know_a_part_of_the_distance() {
     let (mut ended, mut proven) = (0, 0);
     for number in 0..400 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
-        let whole = approach(&scene.problem());
+        let whole = closest_approach_answer(&scene.problem());
         if !(whole.outcome.lower() > 0.01) {
             continue;
         }
         scene.settings.budget = whole.stats.work() - 1;
         let problem = scene.problem();
-        let answer = approach(&problem);
+        let answer = closest_approach_answer(&problem);
         let Outcome::Unresolved(Unresolved { lower, nearest, .. }) = answer.outcome else {
             continue;
         };

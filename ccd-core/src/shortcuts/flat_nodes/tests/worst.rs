@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{body, direction, rotation};
+use crate::tests::scene::{body, random_direction, random_rotation};
 use crate::tests::worst::{WorstCaseSearch, share};
 use glam::DVec3;
 
@@ -18,12 +18,12 @@ fn worst_reach() {
     let triangle =
         |k: usize| [0, 1, 2].map(|j| DVec3::new(plate[j][k], plate[(j + k) % 3][(k + 1) % 3], 0.0));
     let flat = body(&[triangle(0), triangle(1)]);
-    let found = WorstCaseSearch::of("RATE_F64, the reach of flat nodes", 20_000).search(|tape| {
-        let still = Motion::still(Pose::new(DVec3::ZERO, rotation(tape)).ok()?);
+    let found = WorstCaseSearch::new("RATE_F64, the reach of flat nodes", 20_000).search(|tape| {
+        let still = Motion::still(Pose::new(DVec3::ZERO, random_rotation(tape)).ok()?);
         let problem =
             Problem::about((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT).ok()?;
         let node = FlatNode::new(&problem.a, 0, 0.0)?;
-        let n = (node.normal + direction(tape) * tape.size(-30..=4)).normalize();
+        let n = (node.normal + random_direction(tape) * tape.size(-30..=4)).normalize();
         let [exact, normal] = [n, node.normal].map(DoubleDouble3::from);
         let along = exact.dot(normal).get().abs();
         let radius = node.node.radius;

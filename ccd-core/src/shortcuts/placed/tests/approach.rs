@@ -8,13 +8,13 @@ use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::shortcuts::placed::{ApproachRateBounds, PlacedNode};
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{body, rotation};
+use crate::tests::scene::{body, random_rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::DVec3;
 
 /// Draws a motion of any speed and rotation, about a centre near the body or far from it.
 fn motion(tape: &mut RandomCase) -> Option<Motion> {
-    let start = Pose::new(tape.vector(-20..=4), rotation(tape)).ok()?;
+    let start = Pose::new(tape.vector(-20..=4), random_rotation(tape)).ok()?;
     let [velocity, spin, centre] = [-20..=6, -20..=6, -20..=10].map(|range| tape.vector(range));
     Motion::about(start, velocity, spin, centre).ok()
 }
@@ -76,7 +76,7 @@ impl ApproachRateTerms {
         self.second_derivative =
             self.second_derivative + axis.dot(DoubleDouble3::from(path.acceleration));
         let arm = node.centre - path.centre_at(s);
-        self.speed += path.speed() + path.rate * (length(arm) + node.radius);
+        self.speed += path.speed_bound() + path.rate * (length(arm) + node.radius);
         self.size += path.rate * node.radius;
         let from_axis = length(path.axis.cross(arm)) + node.radius;
         self.second_derivative_without_allowance +=
@@ -99,9 +99,9 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let problem =
         Problem::with_accelerations(bodies, pulls, 1.0, &Settings::DEFAULT.to_query_settings())
             .ok()?;
-    let (n, s) = (unit(tape.vector(-40..=0).into())?, tape.fraction());
+    let (n, s) = (unit(tape.vector(-40..=0).into())?, tape.next_fraction());
     let sides = [&problem.a, &problem.b];
-    let nodes = sides.map(|side| PlacedNode::new(side, side.body.tree().nodes() as u32, s));
+    let nodes = sides.map(|side| PlacedNode::new(side, side.body.tree().node_count() as u32, s));
     let [at, bt] = &nodes;
     let found = ApproachRateBounds::along_axis(&problem, [at, bt], n, s);
     let mut sums = ApproachRateTerms::new();
@@ -109,7 +109,7 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
         sums.add(sides[k], &motions[k], &nodes[k], n, s);
     }
     let allowed = RATE_ERROR_F64 * (2.0 * sums.speed + sums.size);
-    let rate = DoubleDouble::from(found.rate) - DoubleDouble::from(allowed);
+    let rate = DoubleDouble::from(found.rate_bound) - DoubleDouble::from(allowed);
     let rate = share((sums.rate - rate).get(), allowed);
     let allowed = found.second_derivative - sums.second_derivative_without_allowance;
     let second_derivative = share(
@@ -122,14 +122,14 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
 
 #[test]
 fn worst_rate() {
-    let found = WorstCaseSearch::of("RATE_F64, rates of nodes", 20_000)
+    let found = WorstCaseSearch::new("RATE_F64, rates of nodes", 20_000)
         .search(|tape| Some(error_shares(tape)?[0]));
     found.assert_tight_bound(40.0);
 }
 
 #[test]
 fn worst_bend() {
-    let found = WorstCaseSearch::of("RATE_F64, bends of nodes", 20_000)
+    let found = WorstCaseSearch::new("RATE_F64, bends of nodes", 20_000)
         .search(|tape| Some(error_shares(tape)?[1]));
     found.assert_tight_bound(40.0);
 }

@@ -42,7 +42,7 @@ fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let body = body(&[corners]);
     let problem = Problem::about((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
-    let node = PlacedNode::new(&problem.a, body.tree().nodes() as u32, 0.0);
+    let node = PlacedNode::new(&problem.a, body.tree().node_count() as u32, 0.0);
     let profile = Profile::new(&node, axis)?;
     let (arm, distance) = {
         let way = node.centre - axis.origin;
@@ -84,7 +84,7 @@ fn axis(tape: &mut RandomCase, advance: f64) -> Option<ScrewAxis> {
 /// Tests the rounding of profiles of tiny triangles anywhere about the axis.
 #[test]
 fn worst_of_an_arm() {
-    let found = WorstCaseSearch::of("profile_rounding, an arm", 20_000).search(|tape| {
+    let found = WorstCaseSearch::new("profile_rounding, an arm", 20_000).search(|tape| {
         let advance = tape.any_number(-10..=6);
         let axis = axis(tape, advance)?;
         let at = DVec3::from(tape.vector(-10..=10));
@@ -99,13 +99,15 @@ fn worst_of_an_arm() {
 /// from the axis.
 #[test]
 fn worst_of_a_radius() {
-    let found = WorstCaseSearch::of("profile_rounding, a radius", 20_000).search(|tape| {
+    let found = WorstCaseSearch::new("profile_rounding, a radius", 20_000).search(|tape| {
         let axis = axis(tape, 0.0)?;
         let out = axis.direction.cross(tape.vector(-40..=0).into());
         let out = unit(out)?;
         let long = tape.size(0..=20);
         let corners = [-1.0, 1.0, 0.0].map(|along| {
-            axis.origin + axis.direction * (along * long) + out * (1.0 + 0.25 * tape.fraction())
+            axis.origin
+                + axis.direction * (along * long)
+                + out * (1.0 + 0.25 * tape.next_fraction())
         });
         worst_error_share(&axis, corners)
     });

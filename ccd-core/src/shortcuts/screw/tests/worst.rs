@@ -11,7 +11,7 @@ use glam::DVec3;
 
 #[test]
 fn worst_advance() {
-    let found = WorstCaseSearch::of("ADVANCE_F64", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("ADVANCE_F64", 40_000).search(|tape| {
         let spin = DVec3::from(tape.vector(-10..=6));
         let advance = tape.any_number(-10..=4);
         let velocity = spin * advance + DVec3::from(tape.vector(-70..=-5));

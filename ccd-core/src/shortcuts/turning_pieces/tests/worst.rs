@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::rounding::turning_axis_rounding;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{body, rotation};
+use crate::tests::scene::{body, random_rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use glam::DVec3;
@@ -21,18 +21,24 @@ use glam::DVec3;
 fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let ranges = [-20..=6, -20..=15, -20..=8, -20..=6];
     let [velocity, spin, centre, at] = ranges.map(|range| tape.vector(range));
-    Motion::about(Pose::new(at, rotation(tape)).ok()?, velocity, spin, centre).ok()
+    Motion::about(
+        Pose::new(at, random_rotation(tape)).ok()?,
+        velocity,
+        spin,
+        centre,
+    )
+    .ok()
 }
 
 /// A point of one body and a plane that turns with the other body, to compare computed heights with exact heights.
-struct Setting<'s> {
+struct PointAndTurningPlane<'s> {
     sweep: &'s PiecePastTurningPlane<'s>,
     motions: [Motion; 2],
     normal: DVec3,
     point: DVec3,
 }
 
-impl Setting<'_> {
+impl PointAndTurningPlane<'_> {
     /// Returns the computed height of the point above the plane after a time, and the rate of the height.
     fn found(&self, tau: f64) -> [DoubleDouble; 2] {
         let HeightTerms {
@@ -40,12 +46,12 @@ impl Setting<'_> {
             axis,
             rate,
             rate_axis: closing,
-        } = self.sweep.turned(tau);
+        } = self.sweep.height_terms_after(tau);
         let arm = self.point - self.sweep.reference_point;
         [height + axis.dot(arm), rate + closing.dot(arm)].map(DoubleDouble::from)
     }
 
-    fn exact(&self, tau: f64) -> [DoubleDouble; 2] {
+    fn exact_height_and_rate(&self, tau: f64) -> [DoubleDouble; 2] {
         let [spin, own] = self
             .motions
             .map(|motion| DoubleDouble3::from(motion.spin()));
@@ -114,26 +120,26 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let motions = [motion(tape)?, motion(tape)?];
     let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
     let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).ok()?;
-    let snapshot = Snapshot::new(&problem, 0, 0, tape.fraction());
+    let snapshot = Snapshot::new(&problem, 0, 0, tape.next_fraction());
     let [own, other] = snapshot.moving_pieces();
     let normal = unit(tape.vector(-40..=0).into())?;
     if !own.side.path.is_turning() {
         return None;
     }
     let sweep = PiecePastTurningPlane::new(&own, &other, normal, problem.rounding);
-    let setting = Setting {
+    let setting = PointAndTurningPlane {
         sweep: &sweep,
         motions,
         normal,
         point: other.piece.points[tape.index_below(3)],
     };
-    let tau = tape.fraction();
+    let tau = tape.next_fraction();
     let rounding = turning_axis_rounding(sweep.angular_speed + sweep.own_angular_speed);
     let [start, end, from, to] = [
         setting.found(0.0),
         setting.found(tau),
-        setting.exact(0.0),
-        setting.exact(tau),
+        setting.exact_height_and_rate(0.0),
+        setting.exact_height_and_rate(tau),
     ];
     let height = ((end[0] - start[0]) - (to[0] - from[0])).get().abs();
     let rate = (end[1] - to[1]).get().abs();
@@ -150,21 +156,21 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
 
 #[test]
 fn worst_height() {
-    let found = WorstCaseSearch::of("attached_rounding, heights", 10_000)
+    let found = WorstCaseSearch::new("attached_rounding, heights", 10_000)
         .search(|tape| Some(error_shares(tape)?[0]));
     found.assert_tight_bound(60.0);
 }
 
 #[test]
 fn worst_rate() {
-    let found = WorstCaseSearch::of("attached_rounding, rates", 10_000)
+    let found = WorstCaseSearch::new("attached_rounding, rates", 10_000)
         .search(|tape| Some(error_shares(tape)?[1]));
     found.assert_tight_bound(60.0);
 }
 
 #[test]
 fn worst_bend() {
-    let found = WorstCaseSearch::of("RATE_F64, bends past a turning plane", 10_000)
+    let found = WorstCaseSearch::new("RATE_F64, bends past a turning plane", 10_000)
         .search(|tape| Some(error_shares(tape)?[2]));
     found.assert_tight_bound(40.0);
 }

@@ -19,7 +19,7 @@ fn shifted_part(shape: usize, x: f64) -> Part {
     Part {
         name: None,
         shape,
-        map,
+        placement: map,
     }
 }
 
@@ -27,7 +27,7 @@ fn shifted_part(shape: usize, x: f64) -> Part {
 fn parts_are_placed_in_order() {
     let parts = [10.0, 21.0, 0.0].map(|x| shifted_part(0, x));
     let assembly = Assembly::new(vec![triangle()], parts.into(), ExpansionBudget::for_file(0));
-    let all = assembly.expand(0..3).unwrap();
+    let all = assembly.placed_triangles(0..3).unwrap();
     let firsts: Vec<f64> = all.vertices.iter().step_by(3).map(|v| v.x).collect();
     assert_eq!(firsts, [10.0, 21.0, 0.0]);
     assert_eq!(all.corners, (0..9).collect::<Vec<i64>>());

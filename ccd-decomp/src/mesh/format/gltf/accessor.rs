@@ -40,10 +40,10 @@ impl<'a> AccessorReader<'a> {
 
     /// Reads the points of a `VEC3` accessor as f64.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
-        self.read_accessor(accessor, |accessors, about| {
+        self.with_accessor(accessor, |accessors, about| {
             check_accessor_type(about, "VEC3")?;
             let component = ComponentType::from_code(about.component_type)?;
-            let size = component.size();
+            let size = component.byte_count();
             let point = |row: &[u8]| {
                 let number =
                     |k: usize| component.read_coordinate(&row[k * size..], about.normalized);
@@ -56,13 +56,13 @@ impl<'a> AccessorReader<'a> {
 
     /// Reads the indices of a `SCALAR` accessor.
     pub(super) fn indices(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
-        self.read_accessor(accessor, |accessors, about| {
+        self.with_accessor(accessor, |accessors, about| {
             check_accessor_type(about, "SCALAR")?;
             let component = ComponentType::index_type_from_code(about.component_type)?;
-            let whole = |row: &[u8]| component.read_f64(row) as u32;
+            let whole = |row: &[u8]| component.read_as_f64(row) as u32;
             accessors.read_elements(
                 about,
-                component.size(),
+                component.byte_count(),
                 expansion_cost(0, about.count),
                 0,
                 whole,
@@ -71,7 +71,7 @@ impl<'a> AccessorReader<'a> {
     }
 
     /// Calls `read` with an accessor's description, and adds the accessor's number to its faults.
-    fn read_accessor<T>(
+    fn with_accessor<T>(
         &mut self,
         accessor: usize,
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
@@ -94,7 +94,7 @@ impl<'a> AccessorReader<'a> {
             Some(view) => {
                 let stride = self.buffers.stride(view);
                 let layout = (about.count, size);
-                Some(self.rows(view, about.byte_offset, layout, stride)?)
+                Some(self.element_bytes(view, about.byte_offset, layout, stride)?)
             }
             None if about.sparse.is_some() => None,
             None => return Err(MeshFault::malformed_content("has no buffer view")),
@@ -109,7 +109,8 @@ impl<'a> AccessorReader<'a> {
             let places = self.sparse_indices(sparse, elements.len())?;
             let values = &sparse.values;
             let layout = (sparse.count, size);
-            let values = self.rows(values.buffer_view, values.byte_offset, layout, None)?;
+            let values =
+                self.element_bytes(values.buffer_view, values.byte_offset, layout, None)?;
             for (place, row) in places.into_iter().zip(values) {
                 elements[place] = read(row);
             }
@@ -119,7 +120,7 @@ impl<'a> AccessorReader<'a> {
 
     /// Returns an iterator over the bytes of each of `count` elements of `size` bytes, at a constant stride in a buffer
     /// view.
-    fn rows(
+    fn element_bytes(
         &self,
         view: usize,
         offset: u64,
@@ -146,11 +147,11 @@ impl<'a> AccessorReader<'a> {
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
         let component = ComponentType::index_type_from_code(about.component_type)?;
-        let layout = (sparse.count, component.size());
-        let rows = self.rows(about.buffer_view, about.byte_offset, layout, None)?;
+        let layout = (sparse.count, component.byte_count());
+        let rows = self.element_bytes(about.buffer_view, about.byte_offset, layout, None)?;
         self.expansion_budget
             .spend(expansion_cost(0, sparse.count))?;
-        let checked = |row| match component.read_f64(row) as usize {
+        let checked = |row| match component.read_as_f64(row) as usize {
             number if number < length => Ok(number),
             number => Err(MeshFault::malformed_content(format!(
                 "replaces element {number} of {length}"
@@ -197,7 +198,7 @@ impl ComponentType {
         }
     }
 
-    fn size(self) -> usize {
+    fn byte_count(self) -> usize {
         match self {
             ComponentType::I8 | ComponentType::U8 => 1,
             ComponentType::I16 | ComponentType::U16 => 2,
@@ -208,7 +209,7 @@ impl ComponentType {
     /// Reads a coordinate of this type from the first bytes of a slice. A normalized integer is a fraction of the
     /// largest value of its type.
     fn read_coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
-        let number = self.read_f64(bytes);
+        let number = self.read_as_f64(bytes);
         let largest: f64 = match self {
             _ if !normalized => return number,
             ComponentType::I8 => i8::MAX.into(),
@@ -221,7 +222,7 @@ impl ComponentType {
         greater(number / largest, -1.0)
     }
 
-    fn read_f64(self, bytes: &[u8]) -> f64 {
+    fn read_as_f64(self, bytes: &[u8]) -> f64 {
         match self {
             ComponentType::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
             ComponentType::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),

@@ -82,7 +82,7 @@ fn buffer_bytes<'a>(
         Some(uri) => match data_uri_payload(uri) {
             Some(data) => decode_base64(data?)?.into(),
             None => {
-                let name = percent_decoded(uri)?;
+                let name = path_from_uri(uri)?;
                 let bytes = linked.get(&name).map(Vec::as_slice);
                 bytes.ok_or_else(|| linked_file_fault(name))?.into()
             }
@@ -108,7 +108,7 @@ fn linked_file_fault(name: String) -> MeshFault {
 pub(super) fn file_reference(buffer: &Buffer) -> Result<Option<FileReference>, MeshFault> {
     match &buffer.uri {
         Some(uri) if data_uri_payload(uri).is_none() => Ok(Some(FileReference {
-            name: percent_decoded(uri)?,
+            name: path_from_uri(uri)?,
             needed_bytes: buffer.byte_length,
         })),
         _ => Ok(None),
@@ -129,18 +129,18 @@ fn data_uri_payload(uri: &str) -> Option<Result<&str, MeshFault>> {
 
 fn decode_base64(data: &str) -> Result<Vec<u8>, MeshFault> {
     // Some programs omit the padding.
-    const LENIENT_CONFIG: GeneralPurposeConfig = GeneralPurposeConfig::new()
+    const LENIENT_BASE64_CONFIG: GeneralPurposeConfig = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
         .with_decode_allow_trailing_bits(true);
     const BASE64_ENGINE: GeneralPurpose =
-        GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT_CONFIG);
+        GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT_BASE64_CONFIG);
     let decoded = BASE64_ENGINE.decode(data);
     decoded
         .map_err(|error| MeshFault::malformed_content(format!("its base64 is not valid: {error}")))
 }
 
 /// Decodes the percent escapes of a URI to a path: `%20` is a space, and so on.
-fn percent_decoded(uri: &str) -> Result<String, MeshFault> {
+fn path_from_uri(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
         let problem = format!("its URI {:?} {what}", QuotedName(uri));
         Err(MeshFault::malformed_content(problem))

@@ -20,19 +20,19 @@ pub(super) struct Scene {
 
 /// Reads the default scene of the file or, if none is named, the first scene. In a file without scenes it reads all
 /// nodes, and in a file without nodes all meshes.
-pub(super) fn scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene, MeshFault> {
+pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene, MeshFault> {
     let mut walk = SceneTraversal {
         root,
-        accessors,
+        accessor_reader: accessors,
         shape_of_mesh: HashMap::new(),
         visited_nodes: vec![false; root.nodes.len()],
         scene: Scene::default(),
     };
     match (root.scene, root.scenes.first()) {
         (Some(scene), _) => {
-            walk.visit_descendants(&element(&root.scenes, "scene", scene)?.nodes)?;
+            walk.visit_subtrees(&element(&root.scenes, "scene", scene)?.nodes)?;
         }
-        (None, Some(first)) => walk.visit_descendants(&first.nodes)?,
+        (None, Some(first)) => walk.visit_subtrees(&first.nodes)?,
         (None, None) if root.nodes.is_empty() => (0..root.meshes.len())
             .try_for_each(|mesh| walk.place(mesh, None, AffineMap::IDENTITY))?,
         (None, None) => walk.visit_all_nodes()?,
@@ -44,7 +44,7 @@ pub(super) fn scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene,
 /// The state of a traversal of the scene's nodes. Each mesh is read at its first use.
 struct SceneTraversal<'a> {
     root: &'a Root,
-    accessors: AccessorReader<'a>,
+    accessor_reader: AccessorReader<'a>,
     /// The index of the shape for each mesh that has been read, by mesh index.
     shape_of_mesh: HashMap<usize, usize>,
     visited_nodes: Vec<bool>,
@@ -53,7 +53,7 @@ struct SceneTraversal<'a> {
 
 impl SceneTraversal<'_> {
     /// Visits the nodes `tops` and all their descendants, parents first.
-    fn visit_descendants(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
+    fn visit_subtrees(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
         let top = |&node: &usize| (node, AffineMap::IDENTITY);
         let mut waiting: Vec<(usize, AffineMap)> = tops.iter().rev().map(top).collect();
         while let Some((number, above)) = waiting.pop() {
@@ -100,7 +100,7 @@ impl SceneTraversal<'_> {
             return Err(MeshFault::malformed_content("is below itself")
                 .at_element(element_name("node", 0, None)));
         }
-        self.visit_descendants(&tops)
+        self.visit_subtrees(&tops)
     }
 
     /// Adds remarks about content that was skipped, or that was read in its rest pose.
@@ -148,7 +148,7 @@ impl SceneTraversal<'_> {
             Some(&shape) => shape,
             None => {
                 let place = || element_name("mesh", mesh, about.name.as_deref());
-                let shape = primitive::shape(about, &mut self.accessors)
+                let shape = primitive::read_shape(about, &mut self.accessor_reader)
                     .map_err(|fault| fault.at_element(place()))?;
                 self.scene.shapes.push(shape);
                 *self
@@ -160,7 +160,11 @@ impl SceneTraversal<'_> {
         // An empty name counts as no name.
         let given = |name: &String| !name.is_empty();
         let name = label.filter(given).or(about.name.clone().filter(given));
-        self.scene.parts.push(Part { name, shape, map });
+        self.scene.parts.push(Part {
+            name,
+            shape,
+            placement: map,
+        });
         Ok(())
     }
 }

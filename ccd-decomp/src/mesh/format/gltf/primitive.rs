@@ -9,14 +9,14 @@ use ccd_core::glam::DVec3;
 use std::collections::HashMap;
 
 /// Reads the triangles of a mesh, one primitive after the other. Primitives with the same positions share vertices.
-pub(super) fn shape(
+pub(super) fn read_shape(
     mesh: &Mesh,
     accessors: &mut AccessorReader<'_>,
 ) -> Result<Polygons, MeshFault> {
     let mut shape = Polygons::default();
     let mut known = HashMap::new();
     for (k, primitive) in mesh.primitives.iter().enumerate() {
-        add(primitive, &mut shape, &mut known, accessors)
+        add_primitive(primitive, &mut shape, &mut known, accessors)
             .map_err(|fault| fault.at_element(element_name("primitive", k, None)))?;
     }
     Ok(shape)
@@ -29,7 +29,7 @@ struct VertexRange {
     count: usize,
 }
 
-fn add(
+fn add_primitive(
     primitive: &Primitive,
     shape: &mut Polygons,
     known: &mut HashMap<usize, VertexRange>,

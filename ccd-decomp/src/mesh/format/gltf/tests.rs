@@ -27,12 +27,12 @@ fn error(gltf: &Gltf) -> MeshError {
     }
 }
 
-fn corner(gltf: &Gltf) -> DVec3 {
+fn second_vertex(gltf: &Gltf) -> DVec3 {
     read(gltf).vertices()[1]
 }
 
 /// Returns a glTF with an accessor of the four corners of a unit square, and no primitives yet.
-fn square_gltf() -> Gltf {
+fn gltf_with_square_points() -> Gltf {
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
     gltf
@@ -59,7 +59,7 @@ fn metres_are_converted() {
     gltf.add_vec3_accessor(&[[0., 0., 0.], [0.1, 0., 0.], [0., 1., 0.]]);
     gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     assert_eq!(mesh_file(&gltf).unit(), Some(Unit::Metre));
-    assert_eq!(corner(&gltf).x, f64::from(0.1_f32));
+    assert_eq!(second_vertex(&gltf).x, f64::from(0.1_f32));
     let file = mesh_file(&gltf).converted_to_unit(Unit::Millimetre);
     assert_eq!(file.unit(), Some(Unit::Millimetre));
     assert_eq!(
@@ -115,8 +115,8 @@ fn whole_numbers_may_have_a_fraction_of_zero() {
             _ => {}
         }
     }
-    let mut gltf = square_gltf();
-    let indices = gltf.indices(&[0, 1, 2, 3]);
+    let mut gltf = gltf_with_square_points();
+    let indices = gltf.add_index_accessor(&[0, 1, 2, 3]);
     gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices, "mode": 6}));
     let mut gltf = gltf.set("scene", json!(0));
     let plain = read(&gltf);

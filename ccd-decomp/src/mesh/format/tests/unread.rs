@@ -102,7 +102,7 @@ fn ply_text(faces: &str, lines: &str) -> String {
     )
 }
 
-const FACES: &str = "element face 1\nproperty list uchar int vertex_indices\n";
+const FACE_HEADER_LINES: &str = "element face 1\nproperty list uchar int vertex_indices\n";
 const STRIPS_HEADER_LINES: &str = "element tristrips 1\nproperty list int int vertex_indices\n";
 
 #[test]
@@ -125,7 +125,7 @@ fn strips_are_triangles_turned_alike() {
             &[[0, 1, 2]],
         ),
         (
-            [FACES, STRIPS_HEADER_LINES].concat(),
+            [FACE_HEADER_LINES, STRIPS_HEADER_LINES].concat(),
             "3 2 3 4\n4 0 1 2 3\n",
             &[[2, 3, 4], [0, 1, 2], [2, 1, 3]],
         ),
@@ -140,14 +140,14 @@ fn strips_are_triangles_turned_alike() {
 }
 
 #[rstest]
-#[case::two_elements([FACES, FACES].concat(), "3 0 1 2\n3 2 1 3\n", "line 9: a second element \"face\"")]
+#[case::two_elements([FACE_HEADER_LINES, FACE_HEADER_LINES].concat(), "3 0 1 2\n3 2 1 3\n", "line 9: a second element \"face\"")]
 #[case::two_properties(
-    [FACES, "property list uchar int vertex_indices\n"].concat(),
+    [FACE_HEADER_LINES, "property list uchar int vertex_indices\n"].concat(),
     "3 0 1 2 3 2 1 3\n",
     "line 9: a second property \"vertex_indices\""
 )]
-#[case::more_lines(FACES.to_owned(), "3 0 1 2\n3 2 1 3\n", "has 8 bytes more than its header announces")]
-#[case::more_corners(FACES.to_owned(), "3 0 1 2 3\n", "line 15: \"3\" follows the last property of \"face\"")]
+#[case::more_lines(FACE_HEADER_LINES.to_owned(), "3 0 1 2\n3 2 1 3\n", "has 8 bytes more than its header announces")]
+#[case::more_corners(FACE_HEADER_LINES.to_owned(), "3 0 1 2 3\n", "line 15: \"3\" follows the last property of \"face\"")]
 fn faces_beyond_the_header_are_errors(
     #[case] elements: String,
     #[case] lines: &str,

@@ -2,7 +2,7 @@
 
 use super::Target;
 use crate::mesh::TriangleMesh;
-use crate::rational::{Exact3, exact};
+use crate::rational::{Exact3, exact_fraction};
 use crate::solid::topology::Topology;
 use crate::work::Work;
 use crate::worst::{RandomCase, WorstCaseSearch, share};
@@ -12,7 +12,8 @@ use dashu_ratio::Relaxed;
 
 /// Returns the exact square of the distance from a point to a triangle.
 fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
-    let [a, b, c] = [a, b, c].map(|v| Exact3::of(v).minus(&Exact3::of(point)));
+    let [a, b, c] =
+        [a, b, c].map(|v| Exact3::from_coordinates(v).minus(&Exact3::from_coordinates(point)));
     let edges = [(&a, &b), (&b, &c), (&c, &a)].map(|(p, q)| {
         let along = q.minus(p);
         let length = along.dot(&along);
@@ -47,19 +48,19 @@ fn setting(tape: &mut RandomCase) -> ([DVec3; 3], DVec3) {
     let [a, b, c] = corners;
     let [along, other] = [b - a, c - a];
     let near = tape.size(-40..=1);
-    let at = a + along * tape.fraction() + other * tape.fraction();
+    let at = a + along * tape.next_fraction() + other * tape.next_fraction();
     let point = at + DVec3::from(tape.vector(-8..=0)) * near * scale;
     (corners, point)
 }
 
 #[test]
 fn worst_distance() {
-    let found = WorstCaseSearch::of("NEAREST_SLACK", 6_000).search(|tape| {
+    let found = WorstCaseSearch::new("NEAREST_SLACK", 6_000).search(|tape| {
         let (corners, point) = setting(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
         let target = Target::new(&mesh, &Topology::of(&mesh));
         let (found, reached) = target.distance_bounds(point, &Work::unbounded());
-        let scale = exact(2f64.powi(400));
+        let scale = exact_fraction(2f64.powi(400));
         let truth = (square(corners, point) * &scale).to_f64().value().sqrt() * 2f64.powi(-200);
         // Inside, the lesser of the two is the depth; outside, the second is the distance.
         let error = greater(lesser(found, reached) - truth, truth - reached);

@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::crossings::faces_cross;
 use crate::solid::topology::Topology;
-use crate::test_meshes::{comb, merged_meshes, placed, tetrahedron};
+use crate::test_meshes::{comb, merged_meshes, scaled_and_moved, tetrahedron};
 use ccd_core::glam::{DQuat, dvec3};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -10,14 +10,14 @@ use proptest::test_runner::TestRunner;
 
 /// Returns a comb with teeth of the given heights, and a tetrahedron at each of the given places, all rotated by an
 /// angle.
-fn combs_with_tetrahedra(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
+fn rotated_comb_with_tetrahedra(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
     let comb = comb(heights);
     let thorn = tetrahedron();
     let thorns: Vec<_> = places
         .iter()
         .map(|&[x, y, z, scale]| {
             let place = 0.5 * dvec3(x.into(), y.into(), z.into());
-            placed(&thorn, 0.5 * f64::from(scale), place)
+            scaled_and_moved(&thorn, 0.5 * f64::from(scale), place)
         })
         .collect();
     let parts: Vec<&TriangleMesh> = [&comb].into_iter().chain(&thorns).collect();
@@ -42,7 +42,7 @@ fn whoever_meets_is_reported() {
     let (mut meeting, mut with_plates, mut asked, mut all) = (0, 0, 0, 0);
     for _ in 0..60 {
         let (heights, places, turn) = given.new_tree(&mut runner).unwrap().current();
-        let mesh = combs_with_tetrahedra(&heights, &places, turn);
+        let mesh = rotated_comb_with_tetrahedra(&heights, &places, turn);
         let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
@@ -52,8 +52,8 @@ fn whoever_meets_is_reported() {
         let faces = mesh.faces().len() as u32;
         let mut reported = Vec::new();
         for face in 0..faces {
-            let region = Region::triangle(manifold.triangle(face));
-            plates.all_meeting_faces_satisfy(face, &region, &Work::unbounded(), |other| {
+            let region = Region::from_triangle(manifold.triangle(face));
+            plates.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
                 reported.push((face.min(other), face.max(other)));
                 true
             });
@@ -91,8 +91,8 @@ fn a_comb_is_next_to_its_plates() {
     assert_eq!(plates.plates.len(), 2);
     assert!(plates.plates.iter().all(|plate| plate.faces.len() == 80));
     for face in 0..mesh.faces().len() as u32 {
-        let region = Region::triangle(manifold.triangle(face));
-        plates.all_meeting_faces_satisfy(face, &region, &Work::unbounded(), |other| {
+        let region = Region::from_triangle(manifold.triangle(face));
+        plates.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
             assert_eq!(plates.plate_of_face[other as usize], NO_PLATE);
             true
         });

@@ -4,7 +4,7 @@ use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
 /// Generates boxes with corners on a coarse grid, so that many joint boxes have equal areas.
-fn row() -> impl Strategy<Value = Vec<Node>> {
+fn boxes_on_grid() -> impl Strategy<Value = Vec<Node>> {
     let number = || (0u8..8).prop_map(f32::from);
     let corner = move || [number(), number(), number()].prop_map(Vec3A::from);
     let node = (corner(), corner()).prop_map(|(p, q)| {
@@ -19,7 +19,7 @@ fn row() -> impl Strategy<Value = Vec<Node>> {
 
 proptest! {
     #[test]
-    fn the_best_neighbour_is_the_last_of_the_cheapest(row in row(), reach in 1usize..=6) {
+    fn the_best_neighbour_is_the_last_of_the_cheapest(row in boxes_on_grid(), reach in 1usize..=6) {
         let best = best_neighbours(&row, reach);
         for (index, node) in row.iter().enumerate() {
             let price = |other: usize| node.cuboid.union(row[other].cuboid).half_area();

@@ -4,7 +4,7 @@ use super::{Tree, reinsert_subtrees};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
-fn leaves() -> impl Strategy<Value = Vec<Node>> {
+fn leaf_list_strategy() -> impl Strategy<Value = Vec<Node>> {
     let point = || prop::array::uniform3(0.0f32..1.0).prop_map(Vec3A::from);
     let cuboid = (point(), 0.0f32..0.2).prop_map(|(lo, size)| AabbF32 { lo, hi: lo + size });
     prop::collection::vec(cuboid, 2..120).prop_map(|cuboids| {
@@ -24,7 +24,7 @@ fn total_half_area(nodes: &[Node]) -> f64 {
 
 /// Checks that every node except the root has one parent, and that every box is the union of its children's boxes.
 /// Returns the pieces of the leaves.
-fn check(nodes: &[Node]) -> Vec<u32> {
+fn check_nodes_and_collect_pieces(nodes: &[Node]) -> Vec<u32> {
     let mut pieces = Vec::new();
     let mut stack = vec![0];
     let mut seen = 0;
@@ -51,23 +51,23 @@ fn check(nodes: &[Node]) -> Vec<u32> {
 /// Returns half the total area of all boxes after the subtree `from` becomes the sibling of `to`.
 fn total_half_area_after_move(nodes: &[Node], from: u32, to: u32) -> f64 {
     let mut copy = nodes.to_vec();
-    Tree::new(&mut copy).apply(from, to);
-    check(&copy);
+    Tree::new(&mut copy).move_beside(from, to);
+    check_nodes_and_collect_pieces(&copy);
     total_half_area(&copy)
 }
 
 proptest! {
     #[test]
-    fn trees_stay_trees_and_their_boxes_shrink(leaves in leaves()) {
+    fn trees_stay_trees_and_their_boxes_shrink(leaves in leaf_list_strategy()) {
         let mut nodes = agglomerate(&leaves);
         let before = total_half_area(&nodes);
         reinsert_subtrees(&mut nodes);
-        prop_assert_eq!(check(&nodes), (0..leaves.len() as u32).collect::<Vec<_>>());
+        prop_assert_eq!(check_nodes_and_collect_pieces(&nodes), (0..leaves.len() as u32).collect::<Vec<_>>());
         prop_assert!(total_half_area(&nodes) <= before * (1.0 + 1e-6));
     }
 
     #[test]
-    fn the_best_move_is_the_best_of_all(leaves in leaves()) {
+    fn the_best_move_is_the_best_of_all(leaves in leaf_list_strategy()) {
         let mut nodes = agglomerate(&leaves);
         let all = nodes.clone();
         let before = total_half_area(&all);

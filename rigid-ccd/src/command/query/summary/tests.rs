@@ -120,7 +120,10 @@ fn rows_of_earlier_runs_are_counted_separately() {
     );
     assert_eq!(summary.describe_means(), None);
     summary.add(Status::Free, &sample_timed_answer(5.0, 1e-3));
-    assert_eq!((summary.counts.rows(), summary.median_micros()), (3, 5.0));
+    assert_eq!(
+        (summary.counts.row_count(), summary.median_micros()),
+        (3, 5.0)
+    );
     let text = summary.to_string();
     let begin = "3 rows: 2 free, 1 error; 1 in this run; median 5.0";
     assert!(text.starts_with(begin), "{text}");
@@ -132,7 +135,10 @@ fn rows_of_earlier_runs_are_counted_separately() {
 fn invalid_rows_take_no_time() {
     let mut summary = sum(&[sample_timed_answer(3.0, 1e-3)], 1e-3);
     summary.add_error();
-    assert_eq!((summary.counts.rows(), summary.median_micros()), (2, 3.0));
+    assert_eq!(
+        (summary.counts.row_count(), summary.median_micros()),
+        (2, 3.0)
+    );
     let text = summary.to_string();
     assert!(
         text.starts_with("2 rows: 1 free, 1 error; median 3.0"),

@@ -38,7 +38,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     };
     let mut courses = [
         motion_at_rest(),
-        RawMotion::velocities(RawPose::at(start), along, spin),
+        RawMotion::from_velocities(RawPose::at(start), along, spin),
     ];
     if draw.bool_with_probability(0.3) {
         // The same scene in another frame.

@@ -44,7 +44,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let (velocity, spin, expect) = motion_from_contact(draw, gap, config.margin);
     let mut courses = [
         motion_at_rest(),
-        RawMotion::velocities(RawPose::at(at), velocity, spin),
+        RawMotion::from_velocities(RawPose::at(at), velocity, spin),
     ];
     if draw.bool_with_probability(0.3) {
         // The tangential velocity has no upward part, so that the gap is unchanged.

@@ -35,7 +35,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let spin = scale_array(draw.direction(), turn);
     let courses = [
         motion_at_rest(),
-        RawMotion::velocities(start, velocity, spin),
+        RawMotion::from_velocities(start, velocity, spin),
     ];
     Case {
         shapes: [several, other],

@@ -1,9 +1,9 @@
 //! Decodes bytes as a query of two small bodies.
 
-use super::Question;
+use super::QueryAndMethods;
 use super::source::NumberReader;
 use crate::case::{Case, Expectation, MeshClass, Shape};
-use crate::engine::{Kind, Method};
+use crate::engine::{Method, PieceKind};
 use crate::raw_motion::{MotionSpec, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
@@ -35,14 +35,14 @@ pub(super) const EXTRA_CHECKS_BIT: u8 = 64;
 /// The number of the kind of shape with arbitrary vertices and faces.
 pub(super) const MESH_SHAPE_KIND: u8 = 0;
 
-pub(super) fn decode_question(bytes: &[u8]) -> Question {
+pub(super) fn decode_query_and_methods(bytes: &[u8]) -> QueryAndMethods {
     let mut source = NumberReader::new(bytes);
     let flags = source.read_byte();
     let config = config(&mut source, flags);
     let [duration] = source.read_numbers_if(flags & DURATION_BIT > 0, [1.0]);
     let asked = methods(&mut source);
     let shapes = [shape(&mut source), shape(&mut source)];
-    let mut courses = [course(&mut source), course(&mut source)];
+    let mut courses = [decode_motion(&mut source), decode_motion(&mut source)];
     let duration = duration.abs();
     courses.iter_mut().for_each(|c| limit_rotation(c, duration));
     let mut case = Case {
@@ -55,9 +55,9 @@ pub(super) fn decode_question(bytes: &[u8]) -> Question {
     if flags & AIMED_BIT > 0 {
         aim_at_corner(&mut source, &mut case);
     }
-    Question {
+    QueryAndMethods {
         case,
-        asked,
+        kinds_and_methods: asked,
         has_extra_checks: flags & EXTRA_CHECKS_BIT > 0,
     }
 }
@@ -88,7 +88,7 @@ fn config(source: &mut NumberReader<'_>, flags: u8) -> Settings {
 }
 
 /// Returns the methods that answer the query: always the default, and in most cases another one.
-fn methods(source: &mut NumberReader<'_>) -> Vec<(Kind, Method)> {
+fn methods(source: &mut NumberReader<'_>) -> Vec<(PieceKind, Method)> {
     const METHODS: [Method; 5] = [
         Method::Direct,
         Method::Gjk,
@@ -96,9 +96,9 @@ fn methods(source: &mut NumberReader<'_>) -> Vec<(Kind, Method)> {
         Method::Naive,
         Method::Fast,
     ];
-    const KINDS: [Kind; 3] = [Kind::Triangles, Kind::Patches, Kind::Hull];
+    const KINDS: [PieceKind; 3] = [PieceKind::Triangles, PieceKind::Patches, PieceKind::Hull];
     let other = usize::from(source.read_byte());
-    let mut asked = vec![(Kind::Triangles, Method::Direct)];
+    let mut asked = vec![(PieceKind::Triangles, Method::Direct)];
     let one = (KINDS[other / 5 % 3], METHODS[other % 5]);
     asked.extend((one != asked[0]).then_some(one));
     asked
@@ -210,7 +210,7 @@ fn height_field(source: &mut NumberReader<'_>) -> Shape {
     shape
 }
 
-fn course(source: &mut NumberReader<'_>) -> RawMotion {
+fn decode_motion(source: &mut NumberReader<'_>) -> RawMotion {
     let flags = source.read_byte();
     let has = |bit: u8| flags & bit > 0;
     let none = [0.0; 3];
@@ -254,8 +254,8 @@ fn aim_at_corner(source: &mut NumberReader<'_>, case: &mut Case) {
     let mut corner = |k: usize| {
         let vertices = &case.shapes[k].vertices;
         let corner = vertices[usize::from(source.read_byte()) % vertices.len()];
-        let track = case.motions[k].track(case.duration);
-        let placed = track.at(time);
+        let track = case.motions[k].exact_motion(case.duration);
+        let placed = track.snapshot_at(time);
         let arm = placed.arm_of(Vector::from_array(corner) - track.centre);
         arm + placed.centre
     };

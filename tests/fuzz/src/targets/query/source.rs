@@ -22,11 +22,11 @@ impl<'a> NumberReader<'a> {
 
     /// Reads a byte; 0 after the end of the input.
     pub(super) fn read_byte(&mut self) -> u8 {
-        let [byte] = self.read_array();
+        let [byte] = self.read_bytes();
         byte
     }
 
-    fn read_array<const N: usize>(&mut self) -> [u8; N] {
+    fn read_bytes<const N: usize>(&mut self) -> [u8; N] {
         let mut out = [0; N];
         let there = self.bytes.len().min(N);
         let (taken, rest) = self.bytes.split_at(there);
@@ -57,12 +57,12 @@ impl<'a> NumberReader<'a> {
                 let bits = self.earlier_number(tag - 208).to_bits();
                 f64::from_bits(bits.wrapping_add_signed(ulps))
             }
-            224..240 => f64::from(i32::from_le_bytes(self.read_array())) / f64::from(1 << 31),
+            224..240 => f64::from(i32::from_le_bytes(self.read_bytes())) / f64::from(1 << 31),
             240..248 => {
                 let power = 10f64.powf(0.25 * f64::from(self.read_byte().cast_signed()));
                 if tag % 2 == 0 { power } else { -power }
             }
-            248..=RAW_NUMBER_TAG => f64::from_le_bytes(self.read_array()),
+            248..=RAW_NUMBER_TAG => f64::from_le_bytes(self.read_bytes()),
         };
         self.numbers_so_far.push(x);
         x

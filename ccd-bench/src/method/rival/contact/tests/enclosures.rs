@@ -1,7 +1,7 @@
 //! Tests against sampled poses that enclosures contain the motions, that separated boxes never meet, and that first
 //! touches of triangles are not late.
 
-use crate::method::rival::contact::boxes::{BoxSeparation, box_separation};
+use crate::method::rival::contact::boxes::{BoxSeparation, test_box_separation};
 use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
 use crate::method::rival::contact::elementary::{TrianglePair, TriangleWithNormals};
 use crate::method::rival::contact::leaf::{FirstTouch, first_touch};
@@ -29,7 +29,7 @@ fn distance_outside(enclosure: &MotionEnclosure, rotation: DMat3, offset: DVec3)
     (0..3).map(column).fold(off.max_element(), greater)
 }
 
-fn span(samples: &mut RandomSource) -> TimeSpan {
+fn random_span(samples: &mut RandomSource) -> TimeSpan {
     let start = samples.uniform_number(0.0, 1.0);
     let width = samples.uniform_number(0.0, 1.0).powi(3);
     TimeSpan {
@@ -71,7 +71,7 @@ fn enclosures_contain_all_placements_and_rates_between() {
             let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&still));
             relative = RelativeMotion::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
         }
-        let span = span(&mut samples);
+        let span = random_span(&mut samples);
         let (placements, rates) = (
             relative.enclosure_over(span),
             relative.rate_enclosure_over(span),
@@ -153,12 +153,14 @@ fn separated_boxes_never_meet() {
         let meet = sample_times(span, 8)
             .any(|time| boxes_share_grid_point(&a, &b, &relative.placement_at(time)));
         met += usize::from(meet);
-        match box_separation(&a, &b, &relative.enclosure_over(span)) {
+        match test_box_separation(&a, &b, &relative.enclosure_over(span)) {
             BoxSeparation::Separated => {
                 assert!(!meet);
                 apart += 1;
             }
-            BoxSeparation::NotSeparated { spread } => {
+            BoxSeparation::NotSeparated {
+                motion_spread: spread,
+            } => {
                 assert!(spread >= 0.0);
                 near += 1;
             }
@@ -195,10 +197,15 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     };
     let spread = 0.0;
     for axis in DVec3::AXES {
-        let ask = |offset: f64| box_separation(&cube, &cube, &enclosure(offset * axis));
+        let ask = |offset: f64| test_box_separation(&cube, &cube, &enclosure(offset * axis));
         assert_eq!(ask(1.0 + 1e-9), BoxSeparation::Separated);
         assert_eq!(ask(-1.0 - 1e-9), BoxSeparation::Separated);
-        assert_eq!(ask(1.0 - 1e-9), BoxSeparation::NotSeparated { spread });
+        assert_eq!(
+            ask(1.0 - 1e-9),
+            BoxSeparation::NotSeparated {
+                motion_spread: spread
+            }
+        );
     }
 }
 
@@ -207,7 +214,7 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
 const MAX_SPEED: f64 = 30.0;
 
 /// Returns a random relative motion in which the first body flies towards the start of the second.
-fn approaching_motion(samples: &mut RandomSource) -> RelativeMotion {
+fn random_approaching_motion(samples: &mut RandomSource) -> RelativeMotion {
     let query = samples.query(1.0, 1.0);
     let (mut a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
     a.velocity += query.b.start().translation() - query.a.start().translation();
@@ -219,7 +226,7 @@ fn triangles_touch_when_samples_first_cross() {
     let mut samples = RandomSource::new(5);
     let (mut hits, mut free) = (0, 0);
     for k in 0..1500 {
-        let relative = approaching_motion(&mut samples);
+        let relative = random_approaching_motion(&mut samples);
         let (a, b) = (samples.triangle(), samples.triangle());
         let at = |time: f64| a.map(|p| relative.placement_at(time).apply(p));
         if triangles_cross(&at(0.0), &b) {

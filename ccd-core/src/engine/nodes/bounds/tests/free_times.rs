@@ -8,7 +8,7 @@ use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;
 
 /// Draws a free time; many are equal, extreme or NaN.
-fn time(rng: &mut Pcg64) -> f32 {
+fn random_free_time(rng: &mut Pcg64) -> f32 {
     match rng.random_range(0..7) {
         0 => 0.0,
         6 => [f32::NAN, -0.0][rng.random_range(0..2)],
@@ -25,9 +25,9 @@ fn times_come_out_in_order_each_lane_once() {
     let mut rng = rng(7);
     let mut many = 0;
     for _ in 0..20_000 {
-        let free: [f32; LANES] = std::array::from_fn(|_| time(&mut rng));
+        let free: [f32; LANES] = std::array::from_fn(|_| random_free_time(&mut rng));
         let used = rng.random();
-        let level = Instructions::Best.level();
+        let level = Instructions::Best.simd_level();
         let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
         let rounded = |lane: usize| {
             if free[lane] > 0.0 {

@@ -1,6 +1,6 @@
 //! Draws groups of nodes, and other nodes near them, in f64 and rounded to f32.
 
-use super::{Sample, Solid};
+use super::{EightPairSample, Solid};
 use crate::body::tree::{
     BoxGroup, LANES, Node, NodeChildren, StoredTriangleGroup, TriangleGroup, round_up_to_f32,
     unit_normal,
@@ -13,12 +13,14 @@ use crate::rounding::{
     ARM_INCREASE_PER_DISTANCE, GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32, LEAST_GAP_F32,
     RATE_ERROR_F32,
 };
-use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rotation};
+use crate::tests::scene::{
+    RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation,
+};
 use glam::{DMat3, DVec3, Vec3};
 
 fn spin(rng: &mut impl RngExt) -> DVec3 {
     if rng.random_bool(0.7) {
-        direction(rng) * magnitude(rng, -3.0, 1.6)
+        random_direction(rng) * random_power_of_ten(rng, -3.0, 1.6)
     } else {
         DVec3::ZERO
     }
@@ -26,11 +28,11 @@ fn spin(rng: &mut impl RngExt) -> DVec3 {
 
 /// Draws the centre of rotation of a body with a node of this size and position.
 fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
-    let reach = size * magnitude(rng, -1.0, 4.0);
+    let reach = size * random_power_of_ten(rng, -1.0, 4.0);
     if rng.random_bool(0.3) {
         at
     } else {
-        at + point_in_ball(rng, reach)
+        at + random_point_in_ball(rng, reach)
     }
 }
 
@@ -43,12 +45,12 @@ pub(super) struct Shape {
 impl Shape {
     /// Draws a box of random size and proportions, often as thin as a plate or a needle.
     pub(super) fn new(rng: &mut impl RngExt) -> Self {
-        let size = magnitude(rng, -4.0, 4.0);
+        let size = random_power_of_ten(rng, -4.0, 4.0);
         Shape::random_box(rng, size, DVec3::ZERO)
     }
 
     fn random_box(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
-        let frame = DMat3::from_quat(rotation(rng));
+        let frame = DMat3::from_quat(random_rotation(rng));
         let mut ratio = || match rng.random_range(0..3) {
             0 => 1e-7,
             _ => rng.random_range(0.1..1.0),
@@ -72,8 +74,8 @@ impl Shape {
         let node = Node {
             centre,
             axes,
-            half: axes.map(|u| farthest(&|offset| offset.dot(u.as_dvec3()).abs())),
-            rounding: 0.0,
+            half_extents: axes.map(|u| farthest(&|offset| offset.dot(u.as_dvec3()).abs())),
+            rounding_radius: 0.0,
             radius: farthest(&DVec3::length),
             children: NodeChildren::Boxes(0),
         };
@@ -108,29 +110,29 @@ pub(super) struct PairConfiguration {
 impl PairConfiguration {
     pub(super) fn new(rng: &mut impl RngExt, other: &Shape) -> Self {
         let radius = f64::from(other.node.radius);
-        let size = radius * magnitude(rng, -3.0, 3.0);
+        let size = radius * random_power_of_ten(rng, -3.0, 3.0);
         // The distance is mostly near; otherwise so near, or so far, that one kind of rounding dominates.
         let far = match rng.random_range(0..5) {
-            0 => magnitude(rng, -3.0, 0.0),
-            1 => magnitude(rng, 0.0, 4.0),
+            0 => random_power_of_ten(rng, -3.0, 0.0),
+            1 => random_power_of_ten(rng, 0.0, 4.0),
             _ => rng.random_range(0.5..4.0),
         } * (radius + size);
-        let place = direction(rng) * far;
-        let fast = far * magnitude(rng, -3.0, 2.0);
-        let offset = size * magnitude(rng, 0.0, 6.0);
+        let place = random_direction(rng) * far;
+        let fast = far * random_power_of_ten(rng, -3.0, 2.0);
+        let offset = size * random_power_of_ten(rng, 0.0, 6.0);
         PairConfiguration {
-            rotation: DMat3::from_quat(rotation(rng)),
+            rotation: DMat3::from_quat(random_rotation(rng)),
             other_position: place,
             size,
-            origin: point_in_ball(rng, offset),
+            origin: random_point_in_ball(rng, offset),
             velocity: if rng.random_bool(0.8) {
-                direction(rng) * fast
+                random_direction(rng) * fast
             } else {
                 DVec3::ZERO
             },
             acceleration: rng
                 .random_bool(0.4)
-                .then(|| direction(rng) * far * magnitude(rng, -3.0, 2.0)),
+                .then(|| random_direction(rng) * far * random_power_of_ten(rng, -3.0, 2.0)),
             angular_velocities: [spin(rng), spin(rng)],
             rotation_centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
         }
@@ -142,7 +144,7 @@ impl PairConfiguration {
     }
 
     /// Moves the other node to the distance `far`, in units of the sum of both sizes.
-    pub(super) fn with_distance(self, far: f64, other: &Shape) -> Self {
+    pub(super) fn with_relative_distance(self, far: f64, other: &Shape) -> Self {
         let far = far * (f64::from(other.node.radius) + self.size);
         PairConfiguration {
             other_position: self.other_position / self.other_position.length() * far,
@@ -181,12 +183,16 @@ impl PairConfiguration {
     }
 
     fn random_child_shape(&self, rng: &mut impl RngExt) -> Shape {
-        let size = self.size * magnitude(rng, -2.0, 0.0);
-        let centre = self.origin + point_in_ball(rng, self.size);
+        let size = self.size * random_power_of_ten(rng, -2.0, 0.0);
+        let centre = self.origin + random_point_in_ball(rng, self.size);
         Shape::random_box(rng, size, centre)
     }
 
-    pub(super) fn boxes(&self, rng: &mut impl RngExt, other: &Shape) -> Sample<BoxGroup, OtherBox> {
+    pub(super) fn boxes(
+        &self,
+        rng: &mut impl RngExt,
+        other: &Shape,
+    ) -> EightPairSample<BoxGroup, OtherBox> {
         let shapes: Vec<Shape> = (0..LANES).map(|_| self.random_child_shape(rng)).collect();
         let nodes: Vec<Node> = shapes.iter().map(|s| s.node.clone()).collect();
         let group = BoxGroup::new(&nodes, 0, self.origin);
@@ -201,20 +207,20 @@ impl PairConfiguration {
         let boxed = OtherBox {
             centre: (self.rotation * node.centre + self.other_position).as_vec3(),
             axes: node.axes.map(|u| x * u.x + y * u.y + z * u.z),
-            half: node.half,
-            rounding: node.rounding,
+            half_extents: node.half_extents,
+            rounding_radius: node.rounding_radius,
             radius: node.radius,
             piece: false,
         };
         let reach = group.header.reach;
-        self.sample(group, boxed, reach, children, self.other_solid(other))
+        self.build_sample(group, boxed, reach, children, self.other_solid(other))
     }
 
-    pub(super) fn triangles(
+    pub(super) fn triangle_sample(
         &self,
         rng: &mut impl RngExt,
         other: &Shape,
-    ) -> Sample<TriangleGroup, OtherTriangle> {
+    ) -> EightPairSample<TriangleGroup, OtherTriangle> {
         let shapes: Vec<Shape> = (0..LANES).map(|_| self.random_child_shape(rng)).collect();
         let corners: Vec<[DVec3; 3]> = shapes
             .iter()
@@ -235,18 +241,18 @@ impl PairConfiguration {
                 .next_up(),
         };
         let reach = group.header.reach;
-        self.sample(group, triangle, reach, children, far)
+        self.build_sample(group, triangle, reach, children, far)
     }
 
     /// Creates a sample with the allowances for rounding that an expansion uses.
-    fn sample<C, P: OtherNode>(
+    fn build_sample<C, P: OtherNode>(
         &self,
         group: C,
         other: P,
         reach: f32,
         children: Vec<Solid>,
         far: Solid,
-    ) -> Sample<C, P> {
+    ) -> EightPairSample<C, P> {
         let turning = |k: usize| BodyRotation {
             is_turning: true,
             spin: self.angular_velocities[k].as_vec3(),
@@ -267,7 +273,7 @@ impl PairConfiguration {
             + split.rate * (reach + split.distance_from_centre(Vec3::ZERO))
             + turning_far.rate * (other.radius() + far_arm);
         let kept = 1e-3 * other.radius();
-        Sample {
+        EightPairSample {
             motion: RelativeMotionF32 {
                 velocity,
                 acceleration: self.acceleration.map(|change| change.as_vec3()),
@@ -275,7 +281,7 @@ impl PairConfiguration {
                 other_rotation: turning_far,
                 horizon: 1.0,
                 slack: (kept + allowed).next_up(),
-                closed_gap: LEAST_GAP_F32,
+                closed_gap_threshold: LEAST_GAP_F32,
                 rate_allowance: RATE_ERROR_F32 * speed,
                 larger_body: None,
             },

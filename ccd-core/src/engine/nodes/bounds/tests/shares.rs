@@ -1,6 +1,6 @@
 //! Computes the rounding errors of bounds, as shares of their allowances.
 
-use super::{AxisValues, Sample, free_times};
+use super::{AxisValues, EightPairSample, free_times};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -21,7 +21,7 @@ pub(super) struct AxisFreeTimes {
 /// The errors of one pair along one axis, as shares of their allowances.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ErrorShares {
-    pub(super) support: f64,
+    pub(super) gap: f64,
     pub(super) rate: f64,
     pub(super) cross_product: f64,
     pub(super) clock: f64,
@@ -40,18 +40,18 @@ pub(super) fn free_time_error_share(numbers: [f32; 4]) -> f64 {
     share(free / factor / exact - 1.0, 1.0 - factor)
 }
 
-impl<C: Children, P: OtherNode> Sample<C, P> {
+impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     /// Computes the free times from the gaps and rates of an axis, with exact second derivatives.
     pub(super) fn axis_free_times(&self, found: &AxisValues) -> AxisFreeTimes {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
-            (self.children[lane].max_second_derivative(n)
-                + self.other_solid.max_second_derivative(n)) as f32
+            (self.children[lane].second_derivative_bound(n)
+                + self.other_solid.second_derivative_bound(n)) as f32
                 + LEAST_SECOND_DERIVATIVE_F32
         });
-        let closed = self.motion.closed_gap;
-        let level = Instructions::Best.level();
+        let closed = self.motion.closed_gap_threshold;
+        let level = Instructions::Best.simd_level();
         AxisFreeTimes {
             free_times: free_times(level, &apart, &found.rate, &second_derivative, closed),
             gap_excess: apart,
@@ -75,7 +75,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let gap = -self.other_solid.max_height(-n, 0.0) - child.max_height(n, 0.0);
         let above = f64::from(found.gap[lane]) - gap;
         let mut shares = ErrorShares {
-            support: share(above, self.allowed_gap_error.into()),
+            gap: share(above, self.allowed_gap_error.into()),
             rate: share(below, motion.rate_allowance.into()),
             ..ErrorShares::default()
         };

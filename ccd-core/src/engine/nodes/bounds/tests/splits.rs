@@ -1,7 +1,7 @@
 //! Tests which pairs the bounds choose to visit again, and which nodes to split, against choices computed in f64.
 
 use super::setting::{PairConfiguration, Shape};
-use super::{Sample, axis_values, widest_gap_axis};
+use super::{EightPairSample, axis_values, widest_gap_axis};
 use crate::body::tree::LANES;
 use crate::engine::nodes::bounds::{EightPairBounds, bound_eight_pairs};
 use crate::engine::nodes::eight_pairs::LargerBody;
@@ -10,28 +10,31 @@ use crate::math::order::greater;
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::tuning::{
-    MIN_REVISIT_SWEEP, MIN_TURNING_PLANE_RADIUS_RATIO, REVISIT_DISTANCE, THICKNESS_PER_RADIUS,
+    ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_SWEEP, MIN_TURNING_PLANE_RADIUS_RATIO, REVISIT_DISTANCE,
 };
 use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
 /// The values of eight pairs from which the bounds choose.
-struct PairValues {
+struct EightPairValues {
     radius: [f32; LANES],
     /// The distances of the small nodes from the other body's centre of rotation.
-    arms: [f32; LANES],
+    arm_lengths: [f32; LANES],
     split_extent: [f32; LANES],
     other_extent: [f32; LANES],
     gap: [f32; LANES],
     /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
     free_times: [[f32; LANES]; 4],
-    pieces: u8,
-    found: EightPairBounds,
+    piece_mask: u8,
+    computed_bounds: EightPairBounds,
 }
 
 #[inline(never)]
-fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -> EightPairBounds {
+fn bounds<L: Simd, C: Children, P: OtherNode>(
+    level: L,
+    sample: &EightPairSample<C, P>,
+) -> EightPairBounds {
     bound_eight_pairs(
         level,
         &sample.group,
@@ -41,28 +44,28 @@ fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -
     )
 }
 
-impl<C: Children, P: OtherNode> Sample<C, P> {
-    fn rows(&self) -> PairValues {
-        let level = Instructions::Best.level();
+impl<C: Children, P: OtherNode> EightPairSample<C, P> {
+    fn pair_values(&self) -> EightPairValues {
+        let level = Instructions::Best.simd_level();
         let [along, passing, _] = vectorize!(level, level => axis_values(level, self, Vec3::X));
         vectorize!(level, level => {
             let axis = widest_gap_axis(&self.pairs(level));
-            PairValues {
+            EightPairValues {
                 radius: *self.group.radius(level),
-                arms: *self.motion.other_rotation.distances_from_centre(self.group.centre(level)),
+                arm_lengths: *self.motion.other_rotation.distances_from_centre(self.group.centre(level)),
                 split_extent: *axis.split_extent,
                 other_extent: *axis.other_extent,
                 gap: along.gap,
                 free_times: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
-                pieces: self.group.pieces(level).to_bitmask() as u8,
-                found: bounds(level, self),
+                piece_mask: self.group.pieces(level).to_bitmask() as u8,
+                computed_bounds: bounds(level, self),
             }
         })
     }
 
     /// Sets `motion.larger` to the body whose nodes are much larger, or to `None` if neither body's nodes are.
-    fn with_larger_body(mut self) -> Self {
-        let level = Instructions::Best.level();
+    fn determine_larger_body(mut self) -> Self {
+        let level = Instructions::Best.simd_level();
         let radii = vectorize!(level, level => *self.group.radius(level));
         let reach = radii.into_iter().fold(0.0, greater);
         let other = self.other_node.radius();
@@ -79,7 +82,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
 }
 
 /// Returns whether one number is greater than another; `None` if they are equal up to rounding.
-fn exceeds(one: f64, other: f64) -> Option<bool> {
+fn exceeds_beyond_rounding(one: f64, other: f64) -> Option<bool> {
     let near = 1e-4 * (one.abs() + other.abs());
     ((one - other).abs() > near).then_some(one > other)
 }
@@ -87,46 +90,55 @@ fn exceeds(one: f64, other: f64) -> Option<bool> {
 /// For each option, the number of pairs for which it was not chosen, and for which it was chosen.
 #[derive(Debug, Default)]
 struct ChoiceCounts {
-    revisit_counts: [usize; 2],
-    passing_revisit_counts: [usize; 2],
+    similar_size_revisit_counts: [usize; 2],
+    larger_body_revisit_counts: [usize; 2],
     split_child_counts: [usize; 2],
 }
 
 impl ChoiceCounts {
-    fn check<C: Children, P: OtherNode>(&mut self, sample: &Sample<C, P>) {
-        let rows = sample.rows();
+    fn check_choices<C: Children, P: OtherNode>(&mut self, sample: &EightPairSample<C, P>) {
+        let rows = sample.pair_values();
         for lane in 0..LANES {
-            let revisit = rows.found.revisit_mask >> lane & 1 == 1;
-            let split_child = rows.found.split_child_mask >> lane & 1 == 1;
-            if let Some(expected) = rows.revisit(lane, sample) {
-                assert_eq!(revisit, expected, "{:?} of {:?}", rows.found, sample.motion);
+            let revisit = rows.computed_bounds.revisit_mask >> lane & 1 == 1;
+            let split_child = rows.computed_bounds.split_child_mask >> lane & 1 == 1;
+            if let Some(expected) = rows.should_revisit(lane, sample) {
+                assert_eq!(
+                    revisit, expected,
+                    "{:?} of {:?}",
+                    rows.computed_bounds, sample.motion
+                );
                 match sample.motion.larger_body {
-                    Some(_) => self.passing_revisit_counts[usize::from(revisit)] += 1,
-                    None => self.revisit_counts[usize::from(revisit)] += 1,
+                    Some(_) => self.larger_body_revisit_counts[usize::from(revisit)] += 1,
+                    None => self.similar_size_revisit_counts[usize::from(revisit)] += 1,
                 }
             }
-            if let Some(expected) = rows.split_child(lane, sample) {
-                assert_eq!(split_child, expected, "{:?}", rows.found);
+            if let Some(expected) = rows.should_split_child(lane, sample) {
+                assert_eq!(split_child, expected, "{:?}", rows.computed_bounds);
                 self.split_child_counts[usize::from(split_child)] += 1;
             }
         }
     }
 }
 
-impl PairValues {
-    fn revisit<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
+impl EightPairValues {
+    fn should_revisit<C, P: OtherNode>(
+        &self,
+        lane: usize,
+        sample: &EightPairSample<C, P>,
+    ) -> Option<bool> {
         let motion = &sample.motion;
         let (radius, other) = (
             f64::from(self.radius[lane]),
             f64::from(sample.other_node.radius()),
         );
         let apart = f64::from(self.gap[lane]) - f64::from(motion.slack);
-        let clear_of = |size: f64| exceeds(apart, size * f64::from(REVISIT_DISTANCE));
+        let clear_of =
+            |size: f64| exceeds_beyond_rounding(apart, size * f64::from(REVISIT_DISTANCE));
         let far = clear_of(radius + other);
         let free = |row: usize| f64::from(self.free_times[row][lane]);
         let fixed = greater(free(0), free(1));
         let swept = |free: f64, rate: f32, arm: f32, large: f64| {
-            exceeds(
+            exceeds_beyond_rounding(
                 free * f64::from(rate) * f64::from(arm),
                 large * f64::from(MIN_REVISIT_SWEEP),
             )
@@ -137,7 +149,7 @@ impl PairValues {
                 let arm = motion
                     .split_rotation
                     .distance_from_centre(sample.other_node.centre());
-                let other_is_piece = self.pieces >> lane & 1 == 1;
+                let other_is_piece = self.piece_mask >> lane & 1 == 1;
                 (
                     swept(
                         greater(fixed, free(2)),
@@ -156,7 +168,7 @@ impl PairValues {
                 let (rate, other_is_piece) =
                     (motion.other_rotation.rate, sample.other_node.is_piece());
                 (
-                    swept(greater(fixed, free(3)), rate, self.arms[lane], other),
+                    swept(greater(fixed, free(3)), rate, self.arm_lengths[lane], other),
                     if other_is_piece {
                         clear_of(radius)
                     } else {
@@ -173,15 +185,23 @@ impl PairValues {
         }
     }
 
-    fn split_child<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
-        let thick =
-            |reach: f32, radius: f32| f64::from(reach) + f64::from(THICKNESS_PER_RADIUS * radius);
+    fn should_split_child<C, P: OtherNode>(
+        &self,
+        lane: usize,
+        sample: &EightPairSample<C, P>,
+    ) -> Option<bool> {
+        let thick = |reach: f32, radius: f32| {
+            f64::from(reach) + f64::from(ADDED_THICKNESS_PER_RADIUS * radius)
+        };
         let split = thick(self.split_extent[lane], self.radius[lane]);
         let other = thick(self.other_extent[lane], sample.other_node.radius());
-        match (self.pieces >> lane & 1 == 1, sample.other_node.is_piece()) {
+        match (
+            self.piece_mask >> lane & 1 == 1,
+            sample.other_node.is_piece(),
+        ) {
             (true, _) => Some(false),
             (false, true) => Some(true),
-            (false, false) => exceeds(split, other),
+            (false, false) => exceeds_beyond_rounding(split, other),
         }
     }
 }
@@ -193,19 +213,19 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
         let other = Shape::new(rng);
         let mut boxes = PairConfiguration::new(rng, &other).boxes(rng, &other);
         boxes.other_node.piece = rng.random_bool(0.3);
-        decisions.check(&boxes);
-        decisions.check(&boxes.with_larger_body());
+        decisions.check_choices(&boxes);
+        decisions.check_choices(&boxes.determine_larger_body());
         let other = Shape::new(rng).triangle();
-        let triangles = PairConfiguration::new(rng, &other).triangles(rng, &other);
-        decisions.check(&triangles);
-        decisions.check(&triangles.with_larger_body());
+        let triangles = PairConfiguration::new(rng, &other).triangle_sample(rng, &other);
+        decisions.check_choices(&triangles);
+        decisions.check_choices(&triangles.determine_larger_body());
     };
     for _ in 0..1_000 {
         check(&mut rng);
     }
     let ChoiceCounts {
-        revisit_counts: revisit,
-        passing_revisit_counts: swept,
+        similar_size_revisit_counts: revisit,
+        larger_body_revisit_counts: swept,
         split_child_counts: split_child,
     } = decisions;
     let each = [revisit, swept, split_child].concat();

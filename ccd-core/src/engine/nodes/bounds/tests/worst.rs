@@ -4,7 +4,7 @@
 
 use super::setting::{PairConfiguration, Shape};
 use super::shares::{ErrorShares, free_time_error_share};
-use super::{AxisValues, Sample, free_times};
+use super::{AxisValues, EightPairSample, free_times};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -14,7 +14,7 @@ use crate::rounding::{
     LEAST_SECOND_DERIVATIVE_F32, SECOND_DERIVATIVE_FACTOR_F32, UNIT_ROUNDOFF_F32,
 };
 use crate::settings::Instructions;
-use crate::tests::scene::{RngExt, direction, magnitude};
+use crate::tests::scene::{RngExt, random_direction, random_power_of_ten};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
@@ -31,15 +31,15 @@ struct Search {
 impl Search {
     /// Runs the search over boxes, then over triangles, and checks the largest shares.
     fn run(self) {
-        let boxes = WorstCaseSearch::of(self.name[0], 3_000).search(|tape| {
+        let boxes = WorstCaseSearch::new(self.name[0], 3_000).search(|tape| {
             let other = Shape::new(tape);
             let sample = (self.draw_configuration)(tape, &other).boxes(tape, &other);
             Some(self.max_error_share(tape, &sample))
         });
         boxes.assert_tight_bound(self.max_looseness);
-        let triangles = WorstCaseSearch::of(self.name[1], 3_000).search(|tape| {
+        let triangles = WorstCaseSearch::new(self.name[1], 3_000).search(|tape| {
             let other = Shape::new(tape).triangle();
-            let sample = (self.draw_configuration)(tape, &other).triangles(tape, &other);
+            let sample = (self.draw_configuration)(tape, &other).triangle_sample(tape, &other);
             Some(self.max_error_share(tape, &sample))
         });
         triangles.assert_tight_bound(self.max_looseness);
@@ -49,9 +49,9 @@ impl Search {
     fn max_error_share<C: Children, P: OtherNode>(
         self,
         tape: &mut RandomCase,
-        sample: &Sample<C, P>,
+        sample: &EightPairSample<C, P>,
     ) -> f64 {
-        let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
+        let some = random_direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
         let of = |found: &AxisValues, lane: usize| {
             (self.select_share)(&sample.error_shares(found, &sample.axis_free_times(found), lane))
         };
@@ -73,10 +73,10 @@ fn way_f32() {
             "GAP_PER_DISTANCE_F32, triangles",
         ],
         draw_configuration: |tape, other| {
-            let far = magnitude(tape, 3.0, 5.0);
-            PairConfiguration::new(tape, other).with_distance(far, other)
+            let far = random_power_of_ten(tape, 3.0, 5.0);
+            PairConfiguration::new(tape, other).with_relative_distance(far, other)
         },
-        select_share: |of| of.support,
+        select_share: |of| of.gap,
         max_looseness: 12.0,
     }
     .run();
@@ -89,10 +89,10 @@ fn reach_f32() {
     Search {
         name: ["GAP_PER_RADIUS_F32, boxes", "GAP_PER_RADIUS_F32, triangles"],
         draw_configuration: |tape, other| {
-            let far = magnitude(tape, -5.0, -2.0);
-            PairConfiguration::new(tape, other).with_distance(far, other)
+            let far = random_power_of_ten(tape, -5.0, -2.0);
+            PairConfiguration::new(tape, other).with_relative_distance(far, other)
         },
-        select_share: |of| of.support,
+        select_share: |of| of.gap,
         max_looseness: 40.0,
     }
     .run();
@@ -119,10 +119,10 @@ fn places() {
             "ARM_DISTANCE_SHARE of RATE_F32, triangles",
         ],
         draw_configuration: |tape, other| {
-            let (far, spin) = (magnitude(tape, 3.0, 5.0), direction(tape));
-            let setting = PairConfiguration::new(tape, other).with_distance(far, other);
-            let arm = direction(tape) * setting.size();
-            setting.with_only_other_turning(spin * magnitude(tape, -3.0, 1.6), arm)
+            let (far, spin) = (random_power_of_ten(tape, 3.0, 5.0), random_direction(tape));
+            let setting = PairConfiguration::new(tape, other).with_relative_distance(far, other);
+            let arm = random_direction(tape) * setting.size();
+            setting.with_only_other_turning(spin * random_power_of_ten(tape, -3.0, 1.6), arm)
         },
         select_share: |of| of.rate,
         max_looseness: 40.0,
@@ -134,13 +134,14 @@ fn places() {
 fn compute_on_all_instruction_sets<T: PartialEq + std::fmt::Debug>(
     of: impl Fn(fearless_simd::Level) -> T,
 ) -> T {
-    let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(|set| of(set.level()));
+    let [best, baseline] =
+        [Instructions::Best, Instructions::Baseline].map(|set| of(set.simd_level()));
     assert_eq!(best, baseline);
     best
 }
 
 /// Returns the lengths of the cross products of `n` and `spin`.
-fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
+fn cross_product_lengths(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     let rows = [0, 1, 2].map(|k| n.map(|n| n[k]));
     compute_on_all_instruction_sets(|level| {
         vectorize!(level, level => {
@@ -154,18 +155,18 @@ fn random_axes_and_spin(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)
     let spin = DVec3::from(tape.vector(-20..=5));
     let aside = tape.size(-30..=0);
     let axes = [(); LANES].map(|()| match tape.index_below(2) {
-        0 => direction(tape),
+        0 => random_direction(tape),
         // The axis is next to parallel.
-        _ => (spin.normalize_or(DVec3::X) + direction(tape) * aside).normalize(),
+        _ => (spin.normalize_or(DVec3::X) + random_direction(tape) * aside).normalize(),
     });
     (spin.length() > 1e-6).then_some((axes, spin))
 }
 
 #[test]
 fn across_f32() {
-    let found = WorstCaseSearch::of("CROSS_PRODUCT_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("CROSS_PRODUCT_F32", 40_000).search(|tape| {
         let (axes, spin) = random_axes_and_spin(tape)?;
-        let lengths = across(axes.map(DVec3::as_vec3), spin.as_vec3());
+        let lengths = cross_product_lengths(axes.map(DVec3::as_vec3), spin.as_vec3());
         let allowed = f64::from(CROSS_PRODUCT_ERROR_F32) * spin.length();
         let error = |k: usize| axes[k].cross(spin).length() - f64::from(lengths[k]);
         let errors = (0..LANES).map(|k| share(error(k), allowed));
@@ -177,10 +178,11 @@ fn across_f32() {
 /// Measures the relative error of products of two lengths `|n × ω|`, each above half of its upper bound.
 #[test]
 fn bend_f32() {
-    let found = WorstCaseSearch::of("SECOND_DERIVATIVE_FACTOR_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("SECOND_DERIVATIVE_FACTOR_F32", 40_000).search(|tape| {
         let (axes, spin) = random_axes_and_spin(tape)?;
-        let arms = [(); LANES].map(|()| direction(tape));
-        let [one, other] = [axes, arms].map(|of| across(of.map(DVec3::as_vec3), spin.as_vec3()));
+        let arms = [(); LANES].map(|()| random_direction(tape));
+        let [one, other] =
+            [axes, arms].map(|of| cross_product_lengths(of.map(DVec3::as_vec3), spin.as_vec3()));
         let share = |k: usize| {
             let exact = [axes[k], arms[k]].map(|n| n.cross(spin).length());
             let long = exact.iter().all(|&length| length > 0.5 * spin.length());
@@ -196,7 +198,7 @@ fn bend_f32() {
 
 #[test]
 fn clock_f32() {
-    let found = WorstCaseSearch::of("FREE_TIME_FACTOR_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("FREE_TIME_FACTOR_F32", 40_000).search(|tape| {
         let row = |tape: &mut RandomCase, of: fn(&mut RandomCase) -> f64| {
             [(); LANES].map(|()| of(tape) as f32)
         };
@@ -217,7 +219,7 @@ fn clock_f32() {
 /// due to underflow, and is a share of the allowance for the rounding of the free time.
 #[test]
 fn least_gap_f32() {
-    let found = WorstCaseSearch::of("LEAST_GAP_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("LEAST_GAP_F32", 40_000).search(|tape| {
         let row = |tape: &mut RandomCase, of: fn(&mut RandomCase) -> f64| {
             [(); LANES].map(|()| of(tape) as f32)
         };
@@ -250,7 +252,7 @@ fn least_gap_f32() {
 /// Tests that the lengths of the shortest vectors that give an axis are as accurate as those of longer vectors.
 #[test]
 fn least_axis_f32() {
-    let found = WorstCaseSearch::of("LEAST_AXIS_F32", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("LEAST_AXIS_F32", 40_000).search(|tape| {
         let v = [(); LANES].map(|()| DVec3::from(tape.vector(-79..=-58)).as_vec3());
         let rows = [0, 1, 2].map(|k| v.map(|v| v[k]));
         let inverse = compute_on_all_instruction_sets(

@@ -15,7 +15,7 @@ use crate::problem::Problem;
 use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::scene::{body, rotation};
+use crate::tests::scene::{body, random_rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
 use glam::DVec3;
 
@@ -40,7 +40,7 @@ impl ExactRotation {
 /// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
 fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let [velocity, spin, centre] = [-20..=6, -20..=15, -20..=8].map(|range| tape.vector(range));
-    let start = Pose::new(DVec3::ZERO, rotation(tape)).ok()?;
+    let start = Pose::new(DVec3::ZERO, random_rotation(tape)).ok()?;
     Motion::about(start, velocity, spin, centre)
         .ok()
         .filter(|motion| motion.spin() != DVec3::ZERO)
@@ -53,7 +53,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (side, normal) = (&problem.a, unit(tape.vector(-40..=0).into())?);
-    let [clock, tau] = [0; 2].map(|_| tape.fraction());
+    let [clock, tau] = [0; 2].map(|_| tape.next_fraction());
     let turning = ExactRotation {
         frame: side.path.frame(clock),
         spin: DoubleDouble3::from(motion.spin()),
@@ -66,7 +66,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
         let velocity = DoubleDouble3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = DoubleDouble3::from(normal).dot(velocity);
         let off = (DoubleDouble::from(found.rate) - exact).get().abs();
-        share(off, RATE_ERROR_F64 * heights.speed())
+        share(off, RATE_ERROR_F64 * heights.speed_bound())
     };
     let shares = piece
         .points
@@ -78,14 +78,14 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
 
 #[test]
 fn worst_rate() {
-    let found = WorstCaseSearch::of("RATE_F64, rates of points", 10_000).search(rate_error_share);
+    let found = WorstCaseSearch::new("RATE_F64, rates of points", 10_000).search(rate_error_share);
     found.assert_tight_bound(10.0);
 }
 
 /// Measures the rounding error of the upper bound of the distances to all points in a ball.
 #[test]
 fn worst_farthest() {
-    let found = WorstCaseSearch::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
+    let found = WorstCaseSearch::new("RATE_F64, a sum of lengths", 40_000).search(|tape| {
         let [middle, from] = [(); 2].map(|()| DVec3::from(tape.vector(-20..=20)));
         let radius = tape.size(-20..=20);
         let exact = (DoubleDouble3::from(middle) - DoubleDouble3::from(from)).length()
@@ -102,18 +102,18 @@ fn worst_farthest() {
 /// Returns the errors of the lowest height and of the least rate of many points, as shares of [`TURNED_SUPPORT_ERROR`].
 /// The points are equally low up to rounding, and far from each other.
 fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
-    let (motion, tau) = (motion(tape)?, tape.fraction());
+    let (motion, tau) = (motion(tape)?, tape.next_fraction());
     let ball = Body::sphere(0.1).ok()?;
     let still = Motion::still(Pose::IDENTITY);
     let alone = Problem::about((&ball, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let path = alone.a.path;
-    let clock = tape.fraction();
+    let clock = tape.next_fraction();
     let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
     let turn = path.rate * tau;
     let angle = (AngleSinCos::new(turn), turn);
     let seen = RotatingVector::new(-path.axis, normal);
     let along = match tape.index_below(2) {
-        0 => seen.at(angle.0),
+        0 => seen.vector_at(angle.0),
         _ => seen.derivative_at(angle.0),
     };
     let level = unit(frame.inverse_vector(along))?;
@@ -161,11 +161,11 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
         let least = arms.iter().map(of).reduce(DoubleDouble::min)?;
         Some((of(&arms[chosen as usize]) - least).get())
     };
-    let height = miss(seen.at(angle.0), &|arm| n.dot(*arm))?;
+    let height = miss(seen.vector_at(angle.0), &|arm| n.dot(*arm))?;
     let rate = miss(seen.derivative_at(angle.0), &|arm| {
         n.dot(turning.spin.cross(*arm))
     })?;
-    assert!(heights.support_error >= allowed);
+    assert!(heights.support_error_bound >= allowed);
     Some([share(height, allowed), share(rate, path.rate * allowed)])
 }
 
@@ -174,14 +174,14 @@ const POINT_COUNT: usize = 36;
 
 #[test]
 fn worst_lowest_of_many() {
-    let found = WorstCaseSearch::of("TURNED_SUPPORT, heights", 6_000)
+    let found = WorstCaseSearch::new("TURNED_SUPPORT, heights", 6_000)
         .search(|tape| Some(support_error_shares(tape)?[0]));
     found.assert_tight_bound(100.0);
 }
 
 #[test]
 fn worst_fastest_of_many() {
-    let found = WorstCaseSearch::of("TURNED_SUPPORT, rates", 6_000)
+    let found = WorstCaseSearch::new("TURNED_SUPPORT, rates", 6_000)
         .search(|tape| Some(support_error_shares(tape)?[1]));
     found.assert_tight_bound(100.0);
 }

@@ -32,7 +32,7 @@ fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: VelocityBound, reaches: [
 }
 
 /// Returns the sum of the greatest speeds of both pieces' points; the rounding of rates is a share of it.
-fn speed(problem: &Problem<'_>, reaches: [f64; 2]) -> f64 {
+fn max_speed_sum(problem: &Problem<'_>, reaches: [f64; 2]) -> f64 {
     let sides = [&problem.a, &problem.b];
     let speeds = sides.iter().zip(reaches).map(|(side, reach)| {
         let motion = side.path.velocities();
@@ -67,7 +67,7 @@ fn a_directed_time_is_the_gap_over_both_advances() {
                 .max_distance_from_axis(side.body.pieces().points())
         });
         let normal = snapshot.frames[0].rotation * checked.axis;
-        let allowance = RATE_ERROR_F64 * speed(&problem, reaches);
+        let allowance = RATE_ERROR_F64 * max_speed_sum(&problem, reaches);
         for (k, bound) in [VelocityBound::Sound, VelocityBound::Published]
             .into_iter()
             .enumerate()

@@ -10,7 +10,8 @@ use crate::motion::pose::Pose;
 use crate::settings::Settings;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{
-    Pcg64, RngExt, SceneKind, body, direction, magnitude, point_in_ball, rng, rotation, scene,
+    Pcg64, RngExt, SceneKind, body, random_direction, random_point_in_ball, random_power_of_ten,
+    random_rotation, rng, scene,
 };
 use glam::DQuat;
 
@@ -79,7 +80,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
 }
 
 /// Converts a free time to a number; `None`, an unbounded time, becomes infinity.
-fn time(free: Option<f64>) -> f64 {
+fn free_time_or_infinity(free: Option<f64>) -> f64 {
     free.unwrap_or(f64::INFINITY)
 }
 
@@ -113,29 +114,29 @@ fn the_plane_of_the_longest_time_counts() {
         check_closest_approach_plane(&snapshot, &checked, kept, passing.as_ref());
         let planes: Vec<&SeparatingPlane> = iter::once(&direct).chain(&passing).collect();
         let along = |plane: &&SeparatingPlane| {
-            time(snapshot.fixed_plane_free_time(plane.normal, plane.slack))
+            free_time_or_infinity(snapshot.fixed_plane_free_time(plane.normal, plane.slack))
         };
         let members = snapshot.moving_pieces();
         let attached = |plane: &&SeparatingPlane| {
-            time(snapshot.turning_plane_time(&members, plane, f64::INFINITY))
+            free_time_or_infinity(snapshot.turning_plane_time(&members, plane, f64::INFINITY))
         };
         let fixed = planes.iter().map(along).fold(0.0, greater);
         let all = planes.iter().map(attached).fold(fixed, greater);
         // A plane that turns is tried only if a body's turning uses up the slack.
         let free = snapshot.free_time(&checked, kept);
         assert!(
-            (fixed..=all).contains(&time(free)),
+            (fixed..=all).contains(&free_time_or_infinity(free)),
             "{free:?} of {fixed}, {all}"
         );
-        turning += usize::from(time(free) > fixed);
+        turning += usize::from(free_time_or_infinity(free) > fixed);
         passes += usize::from(fixed > along(&&direct));
         let expected = match along(&&direct) {
             first if first >= SUFFICIENT_FIRST_FREE_TIME => first,
-            _ => time(free),
+            _ => free_time_or_infinity(free),
         };
-        let first = time(snapshot.first_visit_free_time(&checked, kept));
+        let first = free_time_or_infinity(snapshot.first_visit_free_time(&checked, kept));
         assert_eq!(first, expected, "{:?}", direct.normal);
-        at_once[usize::from(first < time(free))] += 1;
+        at_once[usize::from(first < free_time_or_infinity(free))] += 1;
     }
     assert!(turning > 30 && passes > 300, "{turning} {passes}");
     assert!(at_once.into_iter().all(|count| count > 300), "{at_once:?}");
@@ -147,9 +148,14 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
     let mut rng = rng(11);
     let mut planes = 0;
     for _ in 0..500 {
-        let place = 2.0 * direction(&mut rng);
-        let pose = Pose::new(place, rotation(&mut rng)).unwrap();
-        let motion = Motion::new(pose, point_in_ball(&mut rng, 2.0) - place, DVec3::ZERO).unwrap();
+        let place = 2.0 * random_direction(&mut rng);
+        let pose = Pose::new(place, random_rotation(&mut rng)).unwrap();
+        let motion = Motion::new(
+            pose,
+            random_point_in_ball(&mut rng, 2.0) - place,
+            DVec3::ZERO,
+        )
+        .unwrap();
         let sides = ((&bar, motion), (&ball, Motion::STILL));
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
@@ -171,8 +177,8 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     let [a, b] = [0.5, 0.25].map(|size| body(&[[DVec3::ZERO, size * DVec3::X, size * DVec3::Y]]));
     let mut rng = rng(12);
     for _ in 0..500 {
-        let away = direction(&mut rng);
-        let velocity = 0.1 * point_in_ball(&mut rng, 1.0) - 0.3 * away;
+        let away = random_direction(&mut rng);
+        let velocity = 0.1 * random_point_in_ball(&mut rng, 1.0) - 0.3 * away;
         let moving = |place: DVec3, velocity: DVec3| {
             let pose = Pose::new(place, DQuat::IDENTITY).unwrap();
             Motion::new(pose, velocity, DVec3::ZERO).unwrap()
@@ -193,7 +199,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     }
 }
 
-/// Tests that `rotation_keeps_slack` requires exactly the slack that rotation, straight motion and rounding use up.
+/// Tests that `stays_apart_despite_rotation` requires exactly the slack that rotation, straight motion and rounding use up.
 #[test]
 fn points_that_turn_pass_with_all_the_slack_they_need() {
     let mut rng = rng(13);
@@ -211,7 +217,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
         }
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
-        let (horizon, normal) = (snapshot.time_left(), direction(&mut rng));
+        let (horizon, normal) = (snapshot.time_left(), random_direction(&mut rng));
         let a = Heights::new(
             &problem.a,
             &snapshot.pieces.a,
@@ -226,10 +232,10 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             normal,
             snapshot.clock,
         );
-        let passes = |slack: f64| snapshot.rotation_keeps_slack(&a, &b, slack);
+        let passes = |slack: f64| snapshot.stays_apart_despite_rotation(&a, &b, slack);
         let descents = a
-            .max_descent_until(horizon)
-            .zip(b.max_descent_until(horizon));
+            .max_rotational_descent_until(horizon)
+            .zip(b.max_rotational_descent_until(horizon));
         let Some(descents) = descents.filter(|_| !(a.is_nonrotating() && b.is_nonrotating()))
         else {
             assert!(!passes(f64::MAX));
@@ -238,7 +244,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
         };
         let displacement = (a.linear_rate() + b.linear_rate()) * horizon;
         let needed = descents.0 + descents.1 - lesser(0.0, displacement);
-        let allowance = RATE_ERROR_F64 * (a.speed() + b.speed()) * horizon;
+        let allowance = RATE_ERROR_F64 * (a.speed_bound() + b.speed_bound()) * horizon;
         let (mut low, mut high) = (0.0, 2.0 * (needed + allowance));
         assert!(!passes(low) && passes(high));
         for _ in 0..200 {
@@ -265,9 +271,10 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
     let mut rng = rng(14);
     let mut within = [0; 2];
     for _ in 0..4_000 {
-        let any = |rng: &mut Pcg64| magnitude(rng, -3.0, 3.0) * rng.random_range(-1.0..1.0);
+        let any =
+            |rng: &mut Pcg64| random_power_of_ten(rng, -3.0, 3.0) * rng.random_range(-1.0..1.0);
         let (rate, linear_acceleration) = (any(&mut rng), any(&mut rng));
-        let horizon = magnitude(&mut rng, -2.0, 0.0);
+        let horizon = random_power_of_ten(&mut rng, -2.0, 0.0);
         let way = |tau: f64| (rate + 0.5 * linear_acceleration * tau) * tau;
         let samples = (0..=2_000).map(|k| way(horizon * f64::from(k) / 2e3));
         let sampled = samples.fold(0.0, lesser);
@@ -353,7 +360,9 @@ fn depth_is_measured_between_the_middles_of_many_points() {
     let mut inside = 0;
     for _ in 0..200 {
         let mut cloud = |radius: f64| {
-            let points: Vec<DVec3> = (0..80).map(|_| point_in_ball(&mut rng, radius)).collect();
+            let points: Vec<DVec3> = (0..80)
+                .map(|_| random_point_in_ball(&mut rng, radius))
+                .collect();
             let polytope = Polytope {
                 points,
                 radius: 0.05 * radius,
@@ -362,8 +371,13 @@ fn depth_is_measured_between_the_middles_of_many_points() {
             Body::polytope(polytope).unwrap()
         };
         let (a, b) = (cloud(1.0), cloud(0.5));
-        let motion =
-            Motion::still(Pose::new(point_in_ball(&mut rng, 2.5), rotation(&mut rng)).unwrap());
+        let motion = Motion::still(
+            Pose::new(
+                random_point_in_ball(&mut rng, 2.5),
+                random_rotation(&mut rng),
+            )
+            .unwrap(),
+        );
         let sides = ((&a, motion), (&b, Motion::STILL));
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);

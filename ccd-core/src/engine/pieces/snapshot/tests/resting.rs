@@ -9,7 +9,7 @@ use crate::settings::Settings;
 use crate::tests::meshes::{cube, translated_triangles};
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{RngExt, pieces, rng, rotation};
+use crate::tests::scene::{RngExt, pieces, random_rotation, rng};
 use glam::DQuat;
 
 /// A body with a triangle, or an edge, in the plane z = 0.
@@ -77,7 +77,7 @@ impl RestingBody {
 
 /// Returns the free time of B's triangle on A's for a required gap of minus `k` roundings, in units in which B moves by
 /// one rounding. B moves away along z by `speed` in the whole duration. Both are rotated together by `whole`.
-fn time([a, b]: [&RestingBody; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
+fn free_time([a, b]: [&RestingBody; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
     let pose = Pose::new(DVec3::ZERO, whole).unwrap();
     // B's own frame differs from A's.
     let tilted = Pose::new(DVec3::ZERO, whole * DQuat::from_rotation_z(0.3)).unwrap();
@@ -116,8 +116,8 @@ fn solids_keep_to_their_sides_of_the_plane() {
         RestingBody::sheet(),
     );
     for _ in 0..200 {
-        let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
-        let ask = |a, b, speed: f64| time([a, b], whole, speed, k);
+        let (whole, k) = (random_rotation(&mut rng), rng.random_range(1.5..3.0));
+        let ask = |a, b, speed: f64| free_time([a, b], whole, speed, k);
         for (a, b) in [(&below, &above), (&below, &sheet), (&sheet, &above)] {
             assert_eq!(ask(a, b, 0.5), None, "they part");
             let free = ask(a, b, -0.5).unwrap();
@@ -151,9 +151,13 @@ fn crossed_edges_rest_on_the_plane_between_them() {
     let above = RestingBody::cube_on_edge(1.0, DVec3::Y);
     let mut rng = rng(14);
     for _ in 0..100 {
-        let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
-        assert_eq!(time([&below, &above], whole, 0.5, k), None, "they part");
-        let free = time([&below, &above], whole, -0.5, k).unwrap();
+        let (whole, k) = (random_rotation(&mut rng), rng.random_range(1.5..3.0));
+        assert_eq!(
+            free_time([&below, &above], whole, 0.5, k),
+            None,
+            "they part"
+        );
+        let free = free_time([&below, &above], whole, -0.5, k).unwrap();
         check(free, k);
     }
 }
@@ -167,7 +171,7 @@ fn what_is_left_of_the_rounding_is_no_time() {
         RestingBody::sheet(),
     );
     for _ in 0..100 {
-        let whole = rotation(&mut rng);
+        let whole = random_rotation(&mut rng);
         for (pair, speeds) in [
             ([&below, &above], &[-0.5][..]),
             ([&sheet, &sheet], &[-0.5, 0.5]),
@@ -175,7 +179,7 @@ fn what_is_left_of_the_rounding_is_no_time() {
             let ask = |left: f64| {
                 speeds
                     .iter()
-                    .map(move |&v| time(pair, whole, v, 1.0 + left))
+                    .map(move |&v| free_time(pair, whole, v, 1.0 + left))
             };
             assert!(ask(0.5 * MIN_RESTING_SLACK).all(|free| free == Some(0.0)));
             let more: Vec<_> = ask(2.0 * MIN_RESTING_SLACK).collect();
@@ -193,10 +197,10 @@ fn surfaces_in_one_plane_are_kept_apart_by_it_on_either_side() {
     let sheet = RestingBody::sheet();
     let (mut rng, mut parted) = (rng(10), 0);
     for _ in 0..100 {
-        let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
+        let (whole, k) = (random_rotation(&mut rng), rng.random_range(1.5..3.0));
         for speed in [-0.5, 0.5] {
             // The claim's axis is on one side. A plane through both sheets lets one of them part.
-            match time([&sheet, &sheet], whole, speed, k) {
+            match free_time([&sheet, &sheet], whole, speed, k) {
                 None => parted += 1,
                 Some(free) => check(free, k),
             }
@@ -211,7 +215,7 @@ fn a_piece_of_unknown_side_is_not_let_go() {
     assert_eq!(unclear.body.facing(unclear.piece), Facing::Unclear);
     for pair in [[&unclear, &sheet], [&sheet, &unclear]] {
         for speed in [-0.5, 0.5] {
-            assert_eq!(time(pair, DQuat::IDENTITY, speed, 2.0), Some(0.0));
+            assert_eq!(free_time(pair, DQuat::IDENTITY, speed, 2.0), Some(0.0));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Tests the error message for every kind of invalid glTF.
 
-use super::{error, read, square_gltf};
+use super::{error, gltf_with_square_points, read};
 use crate::test_files::Gltf;
 use crate::{Format, MeshFault, TriangleMesh};
 use rstest::rstest;
@@ -105,8 +105,8 @@ fn names_of_nodes_and_meshes_are_in_messages() {
 
 #[test]
 fn corners_must_be_vertices() {
-    let mut gltf = square_gltf();
-    let indices = gltf.indices(&[0, 1, 2, 0, 4, 2]);
+    let mut gltf = gltf_with_square_points();
+    let indices = gltf.add_index_accessor(&[0, 1, 2, 0, 4, 2]);
     gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     let expected =
         "node 0: mesh 0: primitive 0: face 1 names vertex 4, but there are 4, numbered from 0";
@@ -126,7 +126,7 @@ fn corners_must_be_vertices() {
 
 #[test]
 fn triangles_have_three_corners() {
-    let mut gltf = square_gltf();
+    let mut gltf = gltf_with_square_points();
     gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
     let message = error(&gltf).to_string();
     assert!(
@@ -134,8 +134,8 @@ fn triangles_have_three_corners() {
         "{message}"
     );
     for mode in [5, 6] {
-        let mut gltf = square_gltf();
-        let few = gltf.indices(&[0, 1]);
+        let mut gltf = gltf_with_square_points();
+        let few = gltf.add_index_accessor(&[0, 1]);
         gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": few, "mode": mode}));
         assert!(matches!(
             error(&gltf).fault,

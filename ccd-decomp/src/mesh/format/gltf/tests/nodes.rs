@@ -1,6 +1,6 @@
 //! Tests how nodes place meshes, and which scene is read.
 
-use super::{corner, mesh_file, read};
+use super::{mesh_file, read, second_vertex};
 use crate::test_files::Gltf;
 use crate::{Format, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
@@ -23,7 +23,7 @@ fn nodes_are_placed_by_their_transforms(#[case] node: Value, #[case] expected: D
     let mut gltf = Gltf::triangle();
     gltf.json["nodes"][0] = node;
     gltf.json["nodes"][0]["mesh"] = json!(0);
-    assert_eq!(corner(&gltf), expected);
+    assert_eq!(second_vertex(&gltf), expected);
 }
 
 /// Tests that a rotation quaternion in rounded f32 is normalized, so that it does not scale the mesh.
@@ -32,7 +32,7 @@ fn rotations_are_made_unit_first() {
     let half = 0.707_106_77_f32;
     let mut gltf = Gltf::triangle();
     gltf.json["nodes"][0]["rotation"] = json!([0.0, 0.0, half, half]);
-    let corner = corner(&gltf);
+    let corner = second_vertex(&gltf);
     assert!((corner - DVec3::Y).length() < 1e-15, "{corner}");
 }
 

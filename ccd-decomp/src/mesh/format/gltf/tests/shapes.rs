@@ -1,6 +1,6 @@
 //! Tests every mode of glTF primitives, and every kind of accessor.
 
-use super::{corner, error, mesh_file, read, square_gltf};
+use super::{error, gltf_with_square_points, mesh_file, read, second_vertex};
 use crate::test_files::Gltf;
 use ccd_core::glam::{DVec3, dvec3};
 use rstest::rstest;
@@ -16,8 +16,8 @@ fn every_mode_of_triangles_is_read(
     #[case] corners: &[u16],
     #[case] faces: &[[u32; 3]],
 ) {
-    let mut gltf = square_gltf();
-    let indices = gltf.indices(corners);
+    let mut gltf = gltf_with_square_points();
+    let indices = gltf.add_index_accessor(corners);
     let mut primitive = json!({"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": indices});
     if !mode.is_null() {
         primitive["mode"] = mode;
@@ -36,7 +36,7 @@ fn corners_may_go_without_indices() {
         let mut gltf = if mode == 4 {
             Gltf::new()
         } else {
-            square_gltf()
+            gltf_with_square_points()
         };
         if mode == 4 {
             gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);
@@ -48,7 +48,7 @@ fn corners_may_go_without_indices() {
 
 #[test]
 fn points_and_lines_are_passed_over() {
-    let mut gltf = square_gltf();
+    let mut gltf = gltf_with_square_points();
     for mode in 0..4 {
         gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "mode": mode}));
     }
@@ -59,16 +59,16 @@ fn points_and_lines_are_passed_over() {
     );
     // Primitives without positions are skipped, too.
     gltf.add_primitive(json!({"attributes": {"TEXCOORD_0": 7}}));
-    let indices = gltf.indices(&[0, 1, 2]);
+    let indices = gltf.add_index_accessor(&[0, 1, 2]);
     gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     assert_eq!(read(&gltf).faces(), [[0, 1, 2]]);
 }
 
 #[test]
 fn primitives_share_the_vertices_of_an_accessor() {
-    let mut gltf = square_gltf();
+    let mut gltf = gltf_with_square_points();
     for corners in [[0, 1, 2], [0, 2, 3]] {
-        let indices = gltf.indices(&corners);
+        let indices = gltf.add_index_accessor(&corners);
         gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     }
     let other = gltf.add_vec3_accessor(&[[5., 0., 0.], [6., 0., 0.], [5., 1., 0.]]);
@@ -87,7 +87,7 @@ fn indices_are_of_any_size() {
         (5123, vec![0, 0, 1, 0, 2, 0]),
         (5125, vec![0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]),
     ] {
-        let mut gltf = square_gltf();
+        let mut gltf = gltf_with_square_points();
         let view = gltf.add_buffer_view(&bytes);
         let indices = gltf.push(
             "accessors",
@@ -141,7 +141,7 @@ fn quantized_positions_are_read(
     let about = json!({"bufferView": view, "componentType": kind, "normalized": normalized, "count": 3, "type": "VEC3"});
     gltf.push("accessors", about);
     gltf.add_primitive(json!({"attributes": {"POSITION": 0}}));
-    assert_eq!(corner(&gltf), expected);
+    assert_eq!(second_vertex(&gltf), expected);
 }
 
 #[test]
@@ -172,8 +172,8 @@ fn sparse_accessors_replace_elements() {
 
 #[test]
 fn indices_may_be_sparse() {
-    let mut gltf = square_gltf();
-    let indices = gltf.indices(&[0, 1, 1]);
+    let mut gltf = gltf_with_square_points();
+    let indices = gltf.add_index_accessor(&[0, 1, 1]);
     let places = gltf.add_buffer_view(&[2, 0, 0, 0]);
     let values = gltf.add_buffer_view(&[2, 0]);
     gltf.json["accessors"][indices]["sparse"] = json!({

@@ -1,0 +1,152 @@
+"""Robots and cells: answers against closed forms, poses and distances of one pair after another."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rigid_ccd import Body, Cell, InputError, PathContact, Robot, Unresolved, distance
+
+URDF = """<robot name="arm">
+  <link name="base"/>
+  <link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="0.8 0.1 0.1"/></geometry></collision></link>
+  <link name="fore"><collision><origin xyz="0.5 0 0"/><geometry><sphere radius="0.2"/></geometry></collision></link>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="1 0 0"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>"""
+HERE: Any = ([0, 0, 0], [1, 0, 0, 0])
+
+
+@pytest.fixture
+def robot(tmp_path: Path) -> Robot:
+    file = tmp_path / "arm.urdf"
+    file.write_text(URDF)
+    return Robot.from_urdf(file)
+
+
+def test_a_robot_is_that_of_its_file(robot: Robot) -> None:
+    assert robot.joint_names == ["shoulder", "elbow"]
+    assert robot.link_names == ["base", "upper", "fore"]
+    assert robot.limits.tolist() == [[-3, 3], [-3, 3]]
+    # Neighbours are not checked.
+    assert robot.checked_pairs == []
+    pose = robot.pose("fore", [0.3, 1])
+    assert pose[:3, 3] == pytest.approx([np.cos(0.3), np.sin(0.3), 0])
+
+
+def test_a_contact_is_where_trigonometry_says(robot: Robot) -> None:
+    cell = Cell(robot)
+    cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))
+    # The ball is at 1.5 in the direction of the shoulder.
+    path = [[0, 0], [3, 0]]
+    touch = np.pi / 2 - 2 * np.arcsin(0.3 / 2 / 1.5)
+    contact = cell.first_contact(path, tolerance=1e-6)
+    assert isinstance(contact, PathContact)
+    assert (contact.segment, contact.a, contact.b) == (0, "fore", "post")
+    assert touch - 1e-5 < 3 * contact.share <= touch
+    assert np.linalg.norm(np.subtract(contact.witness_a, contact.witness_b)) < 1e-5
+    assert not cell.is_free(path) and cell.is_free([[0, 0], [touch - 1e-2, 0]])
+    nearest = cell.closest_approach([[0, 0], [1, 0]], tolerance=1e-6)
+    exact = 2 * 1.5 * np.sin((np.pi / 2 - 1) / 2) - 0.3
+    assert nearest.lower <= exact <= nearest.upper <= nearest.lower + 2e-6
+    assert nearest.nearest is not None and nearest.nearest.share == pytest.approx(1)
+
+
+def test_tables_agree_with_single_paths(robot: Robot) -> None:
+    rng = np.random.default_rng(1)
+    cell = Cell(robot)
+    for k in range(6):
+        cell.add(f"box{k}", Body.box(0.1, 0.1, 0.1), (rng.uniform(-1.5, 1.5, 3), [1, 0, 0, 0]))
+    start, end = rng.uniform(-3, 3, (2, 200, 2))
+    free = cell.edges(start, end)
+    first = cell.edges(start, end, ask="first-contact", threads=2)
+    close = cell.edges(start, end, ask="closest-approach")
+    assert {"free", "contact"} == set(free["status"])
+    assert (free["status"] == first["status"]).all()
+    for k in range(200):
+        path = [start[k], end[k]]
+        assert cell.is_free(path) == (free["status"][k] == "free")
+        contact, nearest = cell.first_contact(path), cell.closest_approach(path)
+        if contact is None:
+            assert first["a"][k] is None and np.isnan(first["share"][k])
+        else:
+            assert (first["a"][k], first["b"][k]) == (contact.a, contact.b)
+            assert first["share"][k] == contact.share
+        assert close["lower"][k] == nearest.lower
+        assert close["upper"][k] == nearest.upper
+    paths = np.stack([start, (start + end) / 2, end], axis=1)
+    table = cell.paths(paths, ask="first-contact")
+    assert {0, 1} >= set(table["segment"][~np.isnan(table["segment"].astype(float))])
+
+
+def test_distances_are_those_of_bodies(robot: Robot) -> None:
+    rng = np.random.default_rng(2)
+    cell = Cell(robot)
+    box = Body.box(0.2, 0.3, 0.1)
+    place: Any = ([0.8, 0.4, 0.5], [0.8, 0, 0.6, 0])
+    cell.add("box", box, place)
+    upper, fore = Body.box(0.4, 0.05, 0.05), Body.sphere(0.2)
+    shift = np.eye(4)
+    shift[0, 3] = 0.5
+    for configuration in rng.uniform(-3, 3, (20, 2)):
+        found = cell.closest_approach(configuration, tolerance=1e-6)
+        poses = [robot.pose(link, configuration) @ shift for link in ("upper", "fore")]
+        least = min(
+            distance(body, box, pose, place).upper
+            for body, pose in zip((upper, fore), poses, strict=True)
+        )
+        assert found.lower - 1e-9 <= least <= found.upper + 1e-6
+
+
+def test_cells_change(robot: Robot) -> None:
+    cell = Cell(robot)
+    path = [[0, 0], [3, 0]]
+    assert cell.is_free(path)
+    cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))
+    assert not cell.is_free(path)
+    cell.move_to("post", ([0, 3.5, 0], [1, 0, 0, 0]))
+    assert cell.is_free(path) and not cell.is_free(path, margin=2.5)
+    cell.set_padding("fore", 2.5)
+    assert not cell.is_free(path)
+    cell.set_clearance("fore", "post", 0.5)
+    assert cell.is_free(path)
+    cell.attach("rod", Body.capsule(0.05, 1.2), "fore", ([1.5, 0, 0], [0.5**0.5, 0, 0.5**0.5, 0]))
+    contact = cell.first_contact(path)
+    assert contact is not None and (contact.a, contact.b) == ("rod", "post")
+    cell.detach("rod")
+    assert cell.is_free(path)
+    cell.remove("post")
+    assert "0 obstacles" in repr(cell)
+
+
+def test_wrong_input_is_named(robot: Robot, tmp_path: Path) -> None:
+    cell = Cell(robot)
+    cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))
+    with pytest.raises(InputError, match="configuration 1 of the path.*shoulder"):
+        cell.is_free([[0, 0], [9, 0]])
+    with pytest.raises(InputError, match="3 positions for 2 joints"):
+        cell.is_free([[0, 0, 0]])
+    with pytest.raises(InputError, match="shape"):
+        cell.paths(np.zeros((4, 2, 3)))
+    with pytest.raises(InputError, match="shape"):
+        cell.is_free(np.zeros((0, 2)))
+    with pytest.raises(InputError, match="two obstacles are named `post`"):
+        cell.add("post", Body.sphere(0.1))
+    with pytest.raises(InputError, match="no link `hand`"):
+        cell.set_padding("hand", 1)
+    with pytest.raises(InputError, match="'all' is not is-free"):
+        wrong: Any = "all"
+        cell.edges([[0, 0]], [[1, 0]], ask=wrong)
+    unknown: Any = {"clearance": 1.0}
+    with pytest.raises(TypeError, match="unexpected keyword argument 'clearance'"):
+        cell.is_free([[0, 0]], **unknown)
+    with pytest.raises(Unresolved) as caught:
+        cell.first_contact([[0, 0], [3, 0]], deadline=0)
+    assert caught.value.safe_until == 0
+    rows = cell.edges([[0, 0], [0, 0]], [[1, 0], [9, 0]])
+    assert rows["status"].tolist() == ["free", "error"] and "shoulder" in rows["error"][1]
+    with pytest.raises(InputError, match="nothing.urdf"):
+        Robot.from_urdf(tmp_path / "nothing.urdf")
