@@ -135,8 +135,7 @@ impl Method {
         }
     }
 
-    /// Returns true if the method is this project's default on triangles or patches, instead of the fewest exact
-    /// pieces.
+    /// Returns whether the method is this project's own on triangles or patches, which are not its default pieces.
     pub fn is_default_with_other_pieces(self) -> bool {
         matches!(self, Method::ThisProject(kind, pieces)
             if pieces != PieceKind::FewestPieces && !kind.schedule.uses_hull_trees())

@@ -33,7 +33,7 @@ pub enum Shortcut {
 }
 
 impl Shortcut {
-    /// The list of all shortcuts.
+    /// All shortcuts, in the order of the enum.
     pub const ALL: [Shortcut; 7] = [
         Shortcut::Balls,
         Shortcut::Boxes,

@@ -24,7 +24,7 @@ use std::str::FromStr;
 /// ```
 /// use ccd_decomp::BodySource;
 /// assert_eq!("sphere:0.5".parse(), Ok(BodySource::Sphere { radius: 0.5 }));
-/// assert_eq!("part.ccd".parse(), Ok(BodySource::Stored("part.ccd".into())));
+/// assert_eq!("part.ccd".parse(), Ok(BodySource::StoredBody("part.ccd".into())));
 /// let lid = "scene.glb#lid@mm".parse()?;
 /// assert_eq!("scene.glb#lid@mm".parse(), Ok(BodySource::Mesh(lid)));
 /// let error = "ball:0.5".parse::<BodySource>().unwrap_err();

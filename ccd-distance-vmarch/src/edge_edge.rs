@@ -84,7 +84,7 @@ impl NearestParameters {
     }
 }
 
-/// Returns the nearest points of two segments. If one is an end, its parameter is exact.
+/// Returns the parameters of the nearest points of two segments. If one is an end, its parameter is exact.
 ///
 /// If the segments are nearly parallel, the first parameter is off by rounding over the sine. The
 /// second one is computed from it, so the distance of the points is off by rounding only.

@@ -70,7 +70,7 @@ pub fn check_parent_folder(path: &Path) -> io::Result<()> {
     ))
 }
 
-/// Opens a stream for appending, so that the content of an open file is kept.
+/// Opens a path such as `/dev/stdout` for appending, so that a file behind it keeps its content.
 pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
     File::options().append(true).open(path)
 }

@@ -1,12 +1,15 @@
 //! The Python class `Robot`.
 
 use crate::arrays::float64_array;
-use crate::errors::input_error;
+use crate::errors::{file_error, input_error};
 use crate::motion::pose_matrix;
+use crate::table::PyTable;
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_schema::ArrowError;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
-use rigid_ccd_robot::{BodyElements, LinkPairs, MeshModel, Robot, Urdf};
+use rigid_ccd_robot::{BodyElements, LinkMeeting, LinkPairs, MeshModel, Robot, Urdf};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -112,6 +115,35 @@ impl PyRobot {
         Ok(pose_matrix(py, &pose))
     }
 
+    /// Decides for each pair of links with bodies whether they never touch, always, or sometimes, within the limits of all
+    /// joints. "never" and "always" are proofs, and of "sometimes" there are two configurations as witnesses.
+    ///
+    /// Args:
+    ///     max_boxes: the number of boxes of joint positions that are examined for a pair, each of about 10 microseconds.
+    ///     srdf: an SRDF file to write, in which the pairs are disabled that need no check, each with the evidence.
+    ///     name: the name of the robot in that file.
+    ///
+    /// Returns:
+    ///     A table with a row for each pair: `link_a`, `link_b`, `evidence` ("never", "always", "sometimes" or
+    ///     "undecided"), and `apart`, the share of the configurations for which an undecided pair is proven apart.
+    #[pyo3(signature = (max_boxes = 100_000, *, srdf = None, name = "robot"))]
+    fn acm(
+        &self,
+        py: Python<'_>,
+        max_boxes: usize,
+        srdf: Option<PathBuf>,
+        name: &str,
+    ) -> PyResult<PyTable> {
+        let meetings = py.detach(|| self.robot.link_meetings(max_boxes));
+        let meetings = meetings.map_err(input_error)?;
+        if let Some(path) = srdf {
+            let text = self.robot.srdf(name, &meetings);
+            std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
+        }
+        let batch = meeting_table(&self.robot, &meetings).map_err(input_error)?;
+        Ok(PyTable { batch })
+    }
+
     fn __repr__(&self) -> String {
         format!(
             "Robot({} links, joints {})",
@@ -119,6 +151,42 @@ impl PyRobot {
             self.joint_names().join(", ")
         )
     }
+}
+
+fn meeting_table(
+    robot: &Robot,
+    meetings: &[([usize; 2], LinkMeeting)],
+) -> Result<RecordBatch, ArrowError> {
+    let names = |side: usize| -> ArrayRef {
+        let links = meetings.iter().map(|(links, _)| links[side]);
+        let names = links.map(|link| Some(robot.links()[link].name.as_str()));
+        Arc::new(names.collect::<StringArray>())
+    };
+    let evidence = meetings.iter().map(|(_, meeting)| {
+        Some(match meeting {
+            LinkMeeting::Never => "never",
+            LinkMeeting::Always => "always",
+            LinkMeeting::Sometimes { .. } => "sometimes",
+            LinkMeeting::Undecided { .. } => "undecided",
+        })
+    });
+    let apart = meetings.iter().map(|(_, meeting)| match meeting {
+        LinkMeeting::Undecided {
+            proven_apart_share, ..
+        } => Some(*proven_apart_share),
+        _ => None,
+    });
+    let columns: [(&str, ArrayRef, bool); 4] = [
+        ("link_a", names(0), false),
+        ("link_b", names(1), false),
+        (
+            "evidence",
+            Arc::new(evidence.collect::<StringArray>()),
+            false,
+        ),
+        ("apart", Arc::new(apart.collect::<Float64Array>()), true),
+    ];
+    RecordBatch::try_from_iter_with_nullable(columns)
 }
 
 fn unknown(what: &str, given: &str, known: &str) -> PyErr {

@@ -122,6 +122,27 @@ def test_cells_change(robot: Robot) -> None:
     assert "0 obstacles" in repr(cell)
 
 
+def test_pairs_are_proven_and_written(tmp_path: Path) -> None:
+    # The ball of the forearm meets a pillar on the base within the shoulder's limits, and not within smaller ones.
+    pillar = (
+        '<link name="base"><collision><origin xyz="0 1.5 0"/><geometry><sphere radius="0.1"/></geometry>'
+        "</collision></link>"
+    )
+    text = URDF.replace('<link name="base"/>', pillar)
+    for limit, evidence in (("3", "sometimes"), ("1", "never")):
+        file, srdf = tmp_path / "arm.urdf", tmp_path / "arm.srdf"
+        shoulder = text.replace('lower="-3" upper="3"', f'lower="-1" upper="{limit}"', 1)
+        elbow = shoulder.replace('lower="-3" upper="3"', 'lower="-0.1" upper="0.1"')
+        file.write_text(elbow)
+        robot = Robot.from_urdf(file)
+        table = robot.acm(20_000, srdf=srdf, name="arm")
+        pairs = {(a, b): e for a, b, e in zip(table["link_a"], table["link_b"], table["evidence"], strict=True)}
+        assert pairs[("base", "fore")] == evidence
+        again = Robot.from_urdf(file, srdf)
+        assert (("base", "fore") in again.checked_pairs) == (evidence == "sometimes")
+        assert 'robot name="arm"' in srdf.read_text()
+
+
 def test_wrong_input_is_named(robot: Robot, tmp_path: Path) -> None:
     cell = Cell(robot)
     cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))

@@ -232,7 +232,9 @@ impl Cell {
     }
 
     /// Iterates over the pairs of the robot's own parts that are checked, each with the nearest frame above both.
-    pub(crate) fn own_part_pairs_with_frames(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
+    pub(crate) fn checked_own_pairs_with_common_frame(
+        &self,
+    ) -> impl Iterator<Item = ([usize; 2], usize)> {
         let parts = || self.parts[..self.robot_part_count].iter().enumerate();
         let pairs = parts().flat_map(move |(a, part_a)| {
             let earlier = parts().take(a);

@@ -30,7 +30,7 @@ pub enum RobotError {
         /// The name that no attached body has.
         name: String,
     },
-    /// The robot has no links.
+    /// The robot has no links; it needs at least its base.
     #[error("the robot has no links")]
     NoLinks,
     /// Two links have the same name.

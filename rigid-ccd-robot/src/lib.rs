@@ -25,6 +25,7 @@
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `cell` | a robot among obstacles: [`Cell`] |
 //! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine |
+//! | `link_meetings` | whether two links can ever touch, by branch and bound over their joints: [`Robot::link_meetings`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
@@ -32,15 +33,19 @@
 
 mod cell;
 mod error;
+mod link_meetings;
 mod pairs;
 mod robot;
 mod solver;
 mod srdf;
+#[cfg(test)]
+mod test_robots;
 mod tuning;
 mod urdf;
 
 pub use cell::{Cell, Item};
 pub use error::{PathError, RobotError};
+pub use link_meetings::LinkMeeting;
 pub use pairs::{LinkPairs, SkipReason};
 pub use robot::{ChainBetween, Joint, Link, LinkBody, Position, Robot};
 pub use solver::{CellSolver, ClosestApproach, PathContact, PathOutcome, PathPoint};

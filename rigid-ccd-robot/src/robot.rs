@@ -87,6 +87,21 @@ pub(crate) struct PositionSource {
 }
 
 impl PositionSource {
+    /// Returns the index of the position in a configuration.
+    pub(crate) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Returns the factor on that position.
+    pub(crate) fn factor(&self) -> f64 {
+        self.multiplier
+    }
+
+    /// Returns whether the joint turns a whole number of times while that position makes one turn.
+    pub(crate) fn is_whole_turn(&self) -> bool {
+        self.multiplier.fract() == 0.0
+    }
+
     /// Returns the position of the joint in a configuration.
     pub(crate) fn position(&self, configuration: &[f64]) -> f64 {
         self.multiplier * configuration[self.number] + self.offset

@@ -5,10 +5,10 @@ mod displacement;
 mod engine;
 mod exact;
 pub(crate) mod kinematics;
-mod measure;
+pub(crate) mod measure;
 mod open_pairs;
-mod part_pairs;
-mod placement;
+pub(crate) mod part_pairs;
+pub(crate) mod placement;
 mod rounding;
 mod search;
 mod stretch;
@@ -20,10 +20,10 @@ pub use stretch::PathPoint;
 use crate::cell::{Cell, Item};
 use crate::error::PathError;
 use part_pairs::PartPair;
+use placement::pose_of;
 use rigid_ccd::answer::{HitKind, Limit, Unresolved};
-use rigid_ccd::glam::{DQuat, DVec3};
-use rigid_ccd::oracle::Frame;
-use rigid_ccd::{Error, Hit, Outcome, Pose, Settings, Solver};
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::{Error, Hit, Outcome, Settings, Solver};
 use search::Search;
 
 /// Answers questions about paths in a cell, one after another.
@@ -237,11 +237,6 @@ fn witnesses(outcome: &Outcome) -> [DVec3; 2] {
     };
     let hit = Hit { time: 0.0, kind };
     [hit.witness_a(), hit.witness_b()]
-}
-
-fn pose_of(frame: &Frame) -> Result<Pose, Error> {
-    let rotation = DQuat::from_mat3(&frame.rotation).normalize();
-    Ok(Pose::new(frame.translation, rotation)?)
 }
 
 #[cfg(test)]

@@ -1,7 +1,11 @@
-//! Reads from an SRDF file which pairs of links are not checked.
+//! Which pairs of links are not checked: reads them from an SRDF file, and writes one with proofs.
 
+use crate::link_meetings::LinkMeeting;
+use crate::robot::Robot;
 use quick_xml::de::from_str;
+use quick_xml::escape::escape;
 use serde::Deserialize;
+use std::fmt::Write;
 
 /// The pairs that an SRDF file disables. Groups, states and other elements are ignored.
 #[derive(Debug, Deserialize)]
@@ -25,6 +29,42 @@ pub(crate) struct DisabledPair {
 /// Reads the pairs that are not checked from the text of an SRDF file.
 pub(crate) fn disabled_pairs(text: &str) -> Result<Vec<DisabledPair>, quick_xml::DeError> {
     Ok(from_str::<Document>(text)?.pairs)
+}
+
+impl Robot {
+    /// Writes an SRDF file in which all pairs are disabled that need no check: neighbours, and pairs that are proven to touch
+    /// never or always. The reason of each says which.
+    ///
+    /// ```
+    /// use rigid_ccd_robot::{Link, Robot};
+    /// let robot = Robot::new(vec![Link::named("base")], Vec::new())?;
+    /// let srdf = robot.srdf("stone", &robot.link_meetings(100)?);
+    /// assert!(srdf.contains("<robot name=\"stone\">"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn srdf(&self, robot_name: &str, meetings: &[([usize; 2], LinkMeeting)]) -> String {
+        let mut text = format!(
+            "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n",
+            escape(robot_name)
+        );
+        for ([one, other], meeting) in meetings {
+            let are_neighbours =
+                self.parent_link(*one) == Some(*other) || self.parent_link(*other) == Some(*one);
+            let reason = match meeting {
+                LinkMeeting::Never => "Never (proven)",
+                LinkMeeting::Always => "Always (proven)",
+                _ if are_neighbours => "Adjacent",
+                LinkMeeting::Sometimes { .. } | LinkMeeting::Undecided { .. } => continue,
+            };
+            let [one, other] = [one, other].map(|&link| escape(&*self.links()[link].name));
+            writeln!(
+                text,
+                "  <disable_collisions link1=\"{one}\" link2=\"{other}\" reason=\"{reason}\"/>"
+            )
+            .expect("a string takes all text");
+        }
+        text + "</robot>\n"
+    }
 }
 
 #[cfg(test)]

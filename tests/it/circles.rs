@@ -138,7 +138,7 @@ fn module_of_path(
     Some(at)
 }
 
-/// The paths in a file that may lead to another module of the crate.
+/// Collects the Rust paths (`a::b`) in a source file that may name another module of its crate.
 #[derive(Default)]
 struct PathCollector(Vec<Module>);
 

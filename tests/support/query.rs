@@ -12,7 +12,7 @@ use std::rc::Rc;
 pub struct MovingShape {
     /// The shape in the body's frame.
     pub shape: Shape,
-    /// The motion in the world.
+    /// The motion of the body in the world.
     pub motion: Motion,
 }
 

@@ -24,7 +24,7 @@ pub struct TimedReply {
 /// The maximum number of times that a query is answered for timing. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
 const MAX_ANSWER_COUNT: usize = 4;
-/// The total time spent on a query after which it is not answered again for timing.
+/// A query that has taken this long in total is not answered once more to improve its timing.
 const REPEAT_TIME_LIMIT: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.

@@ -35,7 +35,7 @@ fn certainly_pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVect
     side.is_some() && passes(b, c) == side && passes(c, a) == side
 }
 
-/// Returns whether all numbers of an interval are above or all are below 0; `None` if the interval contains 0.
+/// Returns the sign of all numbers of an interval; `None` if it contains 0.
 fn sign(x: Interval) -> Option<Ordering> {
     if x.inf() > 0.0 {
         Some(Ordering::Greater)

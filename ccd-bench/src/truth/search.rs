@@ -172,7 +172,7 @@ impl<'a> Search<'a> {
                 None if greater(a.half_diagonal, b.half_diagonal)
                     < MAX_BOX_TEST_SIZE_PER_TRAVEL * travel =>
                 {
-                    left.push(pair)
+                    left.push(pair);
                 }
                 None if self.are_triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),

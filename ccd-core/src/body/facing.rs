@@ -46,7 +46,7 @@ impl Body {
     }
 
     /// Returns a point inside the solid, near the middle of a piece; `None` if there is none.
-    pub(crate) fn point_inside(&self, piece: u32) -> Option<DVec3> {
+    pub(crate) fn interior_point(&self, piece: u32) -> Option<DVec3> {
         if !self.pieces().get(piece as usize).is_flat() {
             return Some(self.mean_of_points(piece));
         }

@@ -30,7 +30,7 @@ impl Body {
                     face.iter().for_each(|&corner| add(corner - at));
                 }
             });
-            if let Some(inside) = self.point_inside(k).filter(|_| is_near) {
+            if let Some(inside) = self.interior_point(k).filter(|_| is_near) {
                 add(inside - at);
             }
         }

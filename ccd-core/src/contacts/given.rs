@@ -29,7 +29,8 @@ pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
     })
 }
 
-/// Translates a contact at a time to the bodies that the caller gave, as [`outcome_for_given_bodies`] does.
+/// Converts a contact at `time`, found on triangles, to one of the bodies that the caller gave; see
+/// [`outcome_for_given_bodies`].
 pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,

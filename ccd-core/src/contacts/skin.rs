@@ -194,7 +194,7 @@ impl<'a> NearSurface<'a> {
         } else {
             &[]
         };
-        let inside = self.body.point_inside(index);
+        let inside = self.body.interior_point(index);
         let placed = points
             .iter()
             .chain(&inside)

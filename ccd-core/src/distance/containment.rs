@@ -186,7 +186,7 @@ impl Search<'_> {
         if let Some(result) = inside.find(ContainmentResult::is_inside) {
             return result;
         }
-        match body.point_inside(piece) {
+        match body.interior_point(piece) {
             Some(point) => self.classify_first_decided_point([point]),
             // A point of a surface that is on the other's surface is not inside.
             None => match self.classify_point(body.mean_of_points(piece)) {

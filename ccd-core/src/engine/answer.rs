@@ -1,4 +1,4 @@
-//! Runs a search under the query's policy for contacts at the start.
+//! Runs a search, and treats contacts at the start as the query's policy says.
 
 use super::meter::Meter;
 use super::scratch::Scratch;

@@ -313,7 +313,7 @@ pub(crate) fn meet_after_start(found: &Outcome, tolerance: f64) -> bool {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestPair {
     clock: f64,
-    /// The indices of the two pieces in the problem.
+    /// The indices of the nearest pieces: of the problem's body A, and of its body B.
     pieces: [u32; 2],
     pub(crate) contact: Contact,
 }

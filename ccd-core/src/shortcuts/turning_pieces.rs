@@ -185,13 +185,13 @@ impl<'p> PiecePastTurningPlane<'p> {
         )
     }
 
-    /// Returns the least height of the piece's points along the plane's normal at the present clock.
+    /// Returns the least height of the piece's points along the plane's normal at the start of the step.
     fn least_start_height(&self) -> f64 {
         let HeightTerms { height, axis, .. } = self.height_terms_after(0.0);
         height + self.least_height_along(axis)
     }
 
-    /// Returns the least height along a direction of the piece's points, measured from the reference point.
+    /// Returns the least height of the piece's points along a direction, measured from the reference point.
     fn least_height_along(&self, direction: DVec3) -> f64 {
         if self.piece.bounding_ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal_point(-direction) as usize];

@@ -163,7 +163,7 @@ pub(crate) struct MotionThroughPose {
     /// The position of the body's point `middle` at the clock `clock`.
     pub(crate) place: DVec3,
     pub(crate) middle: DVec3,
-    /// The velocity of the centre of rotation, for a duration of 1.
+    /// The velocity of the centre of rotation; the duration is 1.
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
     /// The centre of rotation in the body's frame.

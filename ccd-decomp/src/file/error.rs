@@ -14,7 +14,7 @@ pub enum StoreFault {
     /// The file cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// The file cannot be written.
+    /// The writer, or the file system, failed while the body was written.
     #[error("cannot be written: {0}")]
     Unwritable(#[source] io::Error),
     /// The file does not begin with the magic bytes of a stored body.

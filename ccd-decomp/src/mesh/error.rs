@@ -20,7 +20,7 @@ pub enum MeshFault {
     #[error("is a folder; name a mesh in it, such as a .glb, .obj, .stl, .ply or .off")]
     Folder,
     /// The file's extension is not that of a known format.
-    #[error("{}", extension_advice(.extension))]
+    #[error("{}", file_extension_advice(.extension))]
     UnknownExtension {
         /// The file extension after the last dot; empty without a dot.
         extension: String,
@@ -201,7 +201,7 @@ impl MeshFault {
 /// The maximum length of a syntax message, in characters.
 const MAX_SYNTAX_MESSAGE_CHARS: usize = 200;
 
-fn extension_advice(extension: &str) -> String {
+fn file_extension_advice(extension: &str) -> String {
     let problem = match extension {
         "" => "has no extension, which tells the format of a mesh".into(),
         other => format!("{other:?} is not the extension of a mesh"),

@@ -25,7 +25,7 @@ type OutlineTriangulation =
 pub(super) fn triangulate_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let places = project_to_coordinate_plane(points)?;
     // A fault of the library may panic; the fan is used then.
-    let order = insertion_order(&places)?;
+    let order = corner_insertion_order(&places)?;
     let (plane, at) = catch_unwind(|| triangulate_constrained(&places, &order)).ok()??;
     let mut triangles = triangles_inside(&plane, &at, &order)?;
     triangles.sort_unstable();
@@ -76,7 +76,7 @@ fn triangulate_constrained(
 
 /// Returns the order of insertion: first three corners that span a triangle, then the others in pseudorandom order.
 /// The library scans all points while they are collinear. Returns `None` if all are collinear.
-fn insertion_order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
+fn corner_insertion_order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
     let point = |k: usize| DVec3::new(places[k].x, places[k].y, 0.0);
     let second = (1..places.len()).find(|&k| places[k] != places[0])?;
     let spans = |&k: &usize| !has_zero_area([point(0), point(second), point(k)]);

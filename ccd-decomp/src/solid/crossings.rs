@@ -1,13 +1,13 @@
 //! Finds the self-intersections of a mesh.
 
-mod plates;
+mod fanned_polygons;
 
 use super::manifold::Manifold;
 use crate::exact::triangles::meet_outside_shared_corners;
 use crate::search::region::Region;
 use crate::tolerance::MAX_CROSSINGS;
 use crate::work::{Work, WorkBudgetExhausted};
-use plates::Plates;
+use fanned_polygons::FannedPolygons;
 
 /// Returns the pairs of faces that meet outside shared vertices and edges. The list ends at [a thousand](MAX_CROSSINGS)
 /// pairs.
@@ -19,7 +19,7 @@ pub(crate) fn crossings(
     work: &Work,
 ) -> Result<Vec<(u32, u32)>, WorkBudgetExhausted> {
     let mut found = Vec::new();
-    let plates = Plates::find(manifold);
+    let fanned = FannedPolygons::collect_from(manifold);
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::from_triangle(manifold.triangle(face));
         let mut pair = |other: u32| {
@@ -28,8 +28,8 @@ pub(crate) fn crossings(
             }
             found.len() < MAX_CROSSINGS && work.spend(STEPS_PER_PAIR)
         };
-        let goes_on = match &plates {
-            Some(plates) => plates.all_near_faces_satisfy(face, &near, work, pair),
+        let goes_on = match &fanned {
+            Some(fanned) => fanned.all_near_faces_satisfy(face, &near, work, pair),
             None => manifold
                 .boxes()
                 .all_near_faces_satisfy(&near, work, |other| other <= face || pair(other)),

@@ -180,6 +180,9 @@ class Robot:
     @property
     def checked_pairs(self) -> list[tuple[str, str]]: ...
     def pose(self, link: str, configuration: ArrayLike) -> NDArray[float64]: ...
+    def acm(
+        self, max_boxes: int = 100_000, *, srdf: str | PathLike[str] | None = None, name: str = "robot"
+    ) -> Table: ...
 
 @final
 class Cell:

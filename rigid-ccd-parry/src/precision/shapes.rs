@@ -84,7 +84,7 @@ fn geometry_at_depth(
             form.push_hull_of_points([segment.a, segment.b].map(point), 0.0, 0);
         }
         TypedShape::Triangle(t) => {
-            form.push_triangles([t.a, t.b, t.c].map(point), &SINGLE_TRIANGLE_FACE, 0..)
+            form.push_triangles([t.a, t.b, t.c].map(point), &SINGLE_TRIANGLE_FACE, 0..);
         }
         TypedShape::RoundTriangle(round) => {
             let corners = round.inner_shape.vertices().map(point);

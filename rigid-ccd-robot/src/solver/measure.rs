@@ -41,8 +41,7 @@ pub(crate) fn measure(
     let parts = cell.parts();
     let (a, b) = (&parts[pair.a as usize], &parts[pair.b as usize]);
     let frames = [a, b].map(|part| placement.frames[part.frame]);
-    let displacement = pair.slots.map(|slot| placement.displacements.bound(slot));
-    let displacement = displacement[0] + displacement[1];
+    let displacement = placement.displacement(pair);
     let rounding = 2.0 * placement.rounding;
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
     let centres = [frames[0].point(a.centre), frames[1].point(b.centre)];

@@ -32,7 +32,7 @@ impl OpenPair {
         }
     }
 
-    /// Returns the point at a share of the stretch, rounded towards its start.
+    /// Returns the point of the path after a share of the stretch, 0 at its start and 1 at its end, rounded towards the start.
     pub(crate) fn point(&self, share: f64) -> f64 {
         let at = self.from + share * (self.to - self.from);
         greater(at.next_down(), self.from)

@@ -7,7 +7,7 @@ use crate::cell::Cell;
 use crate::cell::part::Part;
 use rigid_ccd::glam::DVec3;
 
-/// A pair of parts that may touch in a stretch.
+/// A pair of parts that may touch in a stretch of the path, with what is known of it so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PartPair {
     pub(crate) a: u32,
@@ -35,7 +35,7 @@ pub(crate) struct PartPairs<'c> {
 }
 
 impl PartPair {
-    fn new([a, b]: [usize; 2], slots: [Option<u32>; 2], margin: f64) -> Self {
+    pub(crate) fn new([a, b]: [usize; 2], slots: [Option<u32>; 2], margin: f64) -> Self {
         PartPair {
             a: a as u32,
             b: b as u32,
@@ -54,10 +54,12 @@ impl PartPair {
 
 impl<'c> PartPairs<'c> {
     pub(crate) fn new(cell: &'c Cell, displacements: &Displacements) -> Self {
-        let own = cell.own_part_pairs_with_frames().map(|([a, b], frame)| {
-            let slots = [a, b].map(|part| displacements.slot(cell.kinematics(), part, frame));
-            PartPair::new([a, b], slots, 0.0)
-        });
+        let own = cell
+            .checked_own_pairs_with_common_frame()
+            .map(|([a, b], frame)| {
+                let slots = [a, b].map(|part| displacements.slot(cell.kinematics(), part, frame));
+                PartPair::new([a, b], slots, 0.0)
+            });
         let mut pairs = PartPairs {
             boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
             own: own.collect(),

@@ -1,13 +1,18 @@
 //! A stretch of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
 
 use super::displacement::Displacements;
+use super::part_pairs::PartPair;
 use super::rounding::point_error;
 use super::stretch::Stretch;
 use super::waypoints::Waypoints;
 use crate::cell::Cell;
+use crate::robot::PositionSource;
+use rigid_ccd::glam::DQuat;
 use rigid_ccd::oracle::Frame;
+use rigid_ccd::{Error, Pose};
 
-/// The frames of all links in the middle of a stretch, and bounds of how far parts move within it.
+/// The frames of all links in the middle of a stretch of the path, and bounds of how far parts move from there within the
+/// stretch.
 pub(crate) struct Placement {
     pub(crate) frames: Vec<Frame>,
     pub(crate) displacements: Displacements,
@@ -38,6 +43,41 @@ impl Placement {
     pub(crate) fn place(&mut self, cell: &Cell, path: &Waypoints, stretch: &Stretch) {
         self.place_frames(cell, path, stretch.middle());
         path.deviations(stretch, &self.positions, &mut self.deviations);
+        self.update_displacements(cell);
+    }
+
+    /// Computes the frames at a configuration, and the bounds of displacements for other ones: the position of each moving
+    /// joint differs there by at most its `deviation`.
+    pub(crate) fn place_box(
+        &mut self,
+        cell: &Cell,
+        configuration: &[f64],
+        deviation: impl Fn(PositionSource) -> f64,
+    ) {
+        let joints = cell.kinematics().joints().iter();
+        self.positions.clear();
+        self.deviations.clear();
+        for joint in joints {
+            self.positions.push(joint.source.position(configuration));
+            self.deviations.push(deviation(joint.source));
+        }
+        let largest = self.positions.iter().zip(&self.deviations);
+        let largest = largest.map(|(position, deviation)| position.abs() + deviation);
+        self.rounding = point_error(cell.kinematics(), cell.parts(), largest);
+        let positions = self.positions.iter().copied();
+        cell.kinematics().place(positions, &mut self.frames);
+        self.update_displacements(cell);
+    }
+
+    /// Returns a bound of how far both parts of a pair move from the middle, as seen from the nearest frame above both.
+    #[inline(always)]
+    pub(crate) fn displacement(&self, pair: &PartPair) -> f64 {
+        let [a, b] = pair.slots.map(|slot| self.displacements.bound(slot));
+        a + b
+    }
+
+    #[inline(always)]
+    fn update_displacements(&mut self, cell: &Cell) {
         self.displacements.update(
             cell.kinematics(),
             &cell.parts()[..cell.robot_part_count()],
@@ -54,4 +94,10 @@ impl Placement {
         let positions = self.positions.iter().copied();
         cell.kinematics().place(positions, &mut self.frames);
     }
+}
+
+/// Converts a frame to a pose. The rotation is rounded to a unit quaternion.
+pub(crate) fn pose_of(frame: &Frame) -> Result<Pose, Error> {
+    let rotation = DQuat::from_mat3(&frame.rotation).normalize();
+    Ok(Pose::new(frame.translation, rotation)?)
 }

@@ -247,8 +247,7 @@ impl<'c> Search<'c> {
             _ => length <= LAST_LENGTH,
         };
         is_short || {
-            let displacement = |slot| self.placement.displacements.bound(slot);
-            let displacement = displacement(pair.slots[0]) + displacement(pair.slots[1]);
+            let displacement = self.placement.displacement(pair);
             stretch.halvings >= MIN_HALVINGS && displacement < LAST_DISPLACEMENT
         }
     }

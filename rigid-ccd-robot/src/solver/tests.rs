@@ -7,74 +7,14 @@ mod questions;
 use super::*;
 use crate::pairs::LinkPairs;
 use crate::robot::{Joint, Link, Position, Robot};
+use crate::test_robots::{random_body, random_pose, random_robot};
 use ccd_core::order::{greater, lesser};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::body::{Pieces, Volume};
-use rigid_ccd::glam::{DQuat, DVec3};
+use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, Solver, trajectory};
 use std::sync::Arc;
-
-fn random_vector(random: &mut Pcg64, size: f64) -> DVec3 {
-    DVec3::from_array([(); 3].map(|()| random.random_range(-size..size)))
-}
-
-fn random_pose(random: &mut Pcg64, size: f64) -> Pose {
-    let at = random_vector(random, size);
-    Pose::new(at, DQuat::from_scaled_axis(random_vector(random, 2.0))).unwrap()
-}
-
-/// Returns a random body of about the size 0.2: a box, a ball, a capsule, or two triangles that are not in one plane.
-fn random_body(random: &mut Pcg64) -> Body {
-    match random.random_range(0..4) {
-        0 => Body::cuboid([(); 3].map(|()| random.random_range(0.02..0.2))).unwrap(),
-        1 => Body::sphere(random.random_range(0.02..0.2)).unwrap(),
-        2 => Body::capsule(0.05, random.random_range(0.02..0.2)).unwrap(),
-        _ => {
-            let corners: Vec<DVec3> = (0..4).map(|_| random_vector(random, 0.2)).collect();
-            let faces = [[0, 1, 2], [2, 1, 3]];
-            let pieces = Pieces::triangles(&corners, &faces, &[0, 1]).unwrap();
-            Body::new(&pieces, Volume::Surface).unwrap()
-        }
-    }
-}
-
-/// Returns a random tree of links with joints that turn, slide, are fixed, or follow the first one.
-fn random_robot(random: &mut Pcg64) -> Robot {
-    let count = random.random_range(3..8);
-    let links = (0..count).map(|k| {
-        let link = Link::named(format!("link{k}"));
-        let pose = random_pose(random, 0.1);
-        link.with_body(random_body(random), pose)
-    });
-    let links: Vec<Link> = links.collect();
-    let joints = (1..count).map(|k| {
-        let origin = random_pose(random, 0.5);
-        let axis = random_vector(random, 1.0).to_array();
-        let joint = match k % 4 {
-            3 => trajectory::Joint::prismatic(origin, axis),
-            2 if k == 6 => Ok(trajectory::Joint::fixed(origin)),
-            _ => trajectory::Joint::revolute(origin, axis),
-        };
-        let position = match k {
-            4 => Position::Follows {
-                joint: "joint1".into(),
-                multiplier: -1.5,
-                offset: 0.2,
-            },
-            _ => Position::Free,
-        };
-        Joint {
-            name: format!("joint{k}"),
-            parent: format!("link{}", random.random_range(0..k)),
-            child: format!("link{k}"),
-            joint: joint.unwrap(),
-            position,
-        }
-    });
-    let joints = joints.collect();
-    Robot::new(links, joints).unwrap()
-}
 
 fn random_cell(random: &mut Pcg64) -> Cell {
     let robot = random_robot(random);

@@ -1,4 +1,6 @@
 use super::*;
+use crate::robot::{Joint, Link, Position};
+use rigid_ccd::trajectory;
 
 /// An SRDF file with two disabled pairs of links among other elements that MoveIt's setup assistant writes.
 const SRDF: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -26,4 +28,47 @@ fn a_pair_without_a_link_is_an_error() {
     let error = disabled_pairs(r#"<robot><disable_collisions link1="a"/></robot>"#).unwrap_err();
     assert!(error.to_string().contains("link2"), "{error}");
     assert!(disabled_pairs("<robot><disable_collisions").is_err());
+}
+
+/// Tests that what is written is read again, with names that XML has to escape.
+#[test]
+fn proven_pairs_are_written_and_read() {
+    let ball = |name: &str, x: f64| {
+        let pose = rigid_ccd::Pose::at([x, 0.0, 0.0]).unwrap();
+        Link::named(name).with_body(rigid_ccd::Body::sphere(0.1).unwrap(), pose)
+    };
+    let links = vec![
+        ball("a & b", 0.0),
+        ball("c", 0.15),
+        ball("d", 3.0),
+        ball("e", 0.5),
+    ];
+    let joint = |name: &str, parent: &str, child: &str, joint| Joint {
+        name: name.into(),
+        parent: parent.into(),
+        child: child.into(),
+        joint,
+        position: Position::Free,
+    };
+    let fixed = || trajectory::Joint::fixed(rigid_ccd::Pose::IDENTITY);
+    let slide = trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let joints = vec![
+        joint("one", "a & b", "c", fixed()),
+        joint("two", "c", "d", fixed()),
+        joint("three", "d", "e", slide.with_limits(-1.0..=1.0)),
+    ];
+    let robot = Robot::new(links, joints).unwrap();
+    let meetings = robot.link_meetings(1000).unwrap();
+    let read = disabled_pairs(&robot.srdf("<box>", &meetings)).unwrap();
+    let pairs: Vec<[&str; 3]> = read
+        .iter()
+        .map(|pair| [&*pair.link1, &*pair.link2, &*pair.reason])
+        .collect();
+    let expected = [
+        ["a & b", "c", "Always (proven)"],
+        ["a & b", "d", "Never (proven)"],
+        ["c", "d", "Never (proven)"],
+        ["d", "e", "Never (proven)"],
+    ];
+    assert_eq!(pairs, expected);
 }

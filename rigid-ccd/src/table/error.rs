@@ -41,7 +41,7 @@ pub enum TableError {
         /// The known columns, as text.
         known: &'static str,
     },
-    /// The header is not text.
+    /// The header is not valid UTF-8.
     #[error("is not text in UTF-8; export it as CSV, in UTF-8")]
     HeaderNotText,
     /// The cells are not separated by commas.

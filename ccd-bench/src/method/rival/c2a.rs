@@ -53,7 +53,7 @@ struct DescentResult {
     distance: f64,
     /// The nearest triangles; `None` before any are found.
     nearest_triangles: Option<(TriangleIndexPair, RssNodePair)>,
-    /// The least safe step of all pairs at which the descent has stopped so far.
+    /// The least of the safe steps of all pairs at which the descent has stopped so far.
     safe_step: f64,
 }
 

@@ -92,7 +92,7 @@ fn field_of_solids(count: f64) -> Result<FamilyStep> {
     )
 }
 
-/// Makes two cones of which each meets a face of the other with its tip, slightly beside the other's tip.
+/// Makes two cones that meet nearly tip to tip: each tip touches a side of the other cone, slightly beside its tip.
 fn tip_onto_tip(aside: f64) -> Result<FamilyStep> {
     let (sides, radius) = (8, 0.7);
     // After a rotation by half a side, a face looks along x. It rises by 1 up to its middle.

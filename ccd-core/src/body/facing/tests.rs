@@ -19,7 +19,7 @@ fn assert_outward_normals(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
             panic!("{:?}", body.facing(piece));
         };
         assert!(normal.dot(out) > 0.1, "{normal} {out}");
-        let inside = body.point_inside(piece).unwrap();
+        let inside = body.interior_point(piece).unwrap();
         assert!((inside - body.mean_of_points(piece)).dot(out) < 0.0);
     }
 }
@@ -70,7 +70,7 @@ fn faces_back_to_back_and_surfaces_face_neither_way() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let sheet = solid_body(&[triangle, [triangle[0], triangle[2], triangle[1]]]);
     assert_eq!(sheet.facing(0), Facing::NoOutwardSide);
-    assert_eq!(sheet.point_inside(0), None);
+    assert_eq!(sheet.interior_point(0), None);
     let surface = Body::new(&pieces(&cube(1.0, 1)), Volume::Surface).unwrap();
     assert_eq!(surface.facing(0), Facing::NoOutwardSide);
 }

@@ -136,8 +136,8 @@ fn check_and_make_inner_node<'a>(
     let [left, right] = children.map(|(_, child)| child);
     let even = |child: &Node<'_>| child.has_uniform_radius && child.radius == left.radius;
     let has_uniform_radius = even(left) && even(right);
-    let of_left = NumberedChild::new(left, &identity.left_numbers);
-    let of_right = NumberedChild::new(right, &identity.right_numbers);
+    let of_left = NumberedChild::new(left, &identity.left_point_numbers);
+    let of_right = NumberedChild::new(right, &identity.right_point_numbers);
     let radius = greater(left.radius, right.radius);
     Ok(Node {
         facet_data: inherit_facet_data(hull, &identity.positions, [of_left, of_right]),
@@ -160,7 +160,7 @@ fn check_children_inside(
     let container = PreparedHull::new(&hull.points, &hull.facets);
     for (&(child, node), ids) in children
         .iter()
-        .zip([&identity.left_numbers, &identity.right_numbers])
+        .zip([&identity.left_point_numbers, &identity.right_point_numbers])
     {
         let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
         let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();

@@ -2,7 +2,7 @@
 
 use ccd_core::glam::{DVec3, Vec3A};
 
-/// An axis-aligned box in f32.
+/// The axis-aligned box of a node while the hierarchy is built, in f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AabbF32 {
     pub(super) lo: Vec3A,

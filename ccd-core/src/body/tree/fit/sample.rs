@@ -41,7 +41,7 @@ impl PointSample {
             self.point_buffer[self.count..][..size].copy_from_slice(points);
             self.count += size;
         }
-        self.normalize_and_fill_blocks();
+        self.scale_to_unit_and_fill_blocks();
     }
 
     /// Returns the sampled points, moved to the origin and scaled to unit size.
@@ -70,7 +70,7 @@ impl PointSample {
         size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
     }
 
-    fn normalize_and_fill_blocks(&mut self) {
+    fn scale_to_unit_and_fill_blocks(&mut self) {
         let (low, high) = bounding_box(self.points().iter().copied());
         let middle = 0.5 * (low + high);
         // If the length is too short, it has no reciprocal.

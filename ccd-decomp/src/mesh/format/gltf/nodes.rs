@@ -148,7 +148,7 @@ impl SceneTraversal<'_> {
             Some(&shape) => shape,
             None => {
                 let place = || element_name("mesh", mesh, about.name.as_deref());
-                let shape = primitive::read_shape(about, &mut self.accessor_reader)
+                let shape = primitive::read_mesh(about, &mut self.accessor_reader)
                     .map_err(|fault| fault.at_element(place()))?;
                 self.scene.shapes.push(shape);
                 *self

@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 use std::collections::HashMap;
 
 /// Reads the triangles of a mesh, one primitive after the other. Primitives with the same positions share vertices.
-pub(super) fn read_shape(
+pub(super) fn read_mesh(
     mesh: &Mesh,
     accessors: &mut AccessorReader<'_>,
 ) -> Result<Polygons, MeshFault> {

@@ -32,7 +32,7 @@ pub(super) const TOLERANCE_BIT: u8 = 16;
 pub(super) const AIMED_BIT: u8 = 32;
 pub(super) const EXTRA_CHECKS_BIT: u8 = 64;
 
-/// The number of the kind of shape with arbitrary vertices and faces.
+/// The value of the bits of [`SHAPE_KIND_MASK`] that stands for a mesh of arbitrary vertices and faces.
 pub(super) const MESH_SHAPE_KIND: u8 = 0;
 
 pub(super) fn decode_query_and_methods(bytes: &[u8]) -> QueryAndMethods {

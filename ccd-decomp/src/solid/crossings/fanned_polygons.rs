@@ -1,4 +1,4 @@
-//! Plates: convex polygons of many slivers. Their triangles are tested only if another face enters the polygon.
+//! Convex polygons of many slivers, such as fans of triangles. Their triangles are tested only if another face enters the polygon.
 
 use crate::bounds::{Bounds, BoundsTree};
 use crate::exact::predicates::{Projection, side};
@@ -12,24 +12,24 @@ use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// The plates of a surface (convex polygons with a large fan), and the remaining triangles.
+/// The convex polygons of a surface that have a large fan of triangles, and the remaining triangles.
 ///
 /// The triangles of a polygon cover it once: two of them meet only in shared corners and edges.
-pub(super) struct Plates<'a, 'm> {
+pub(super) struct FannedPolygons<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    plates: Vec<Plate>,
-    /// For each face, the number of its plate; [`NO_PLATE`] for a face outside all plates.
-    plate_of_face: Vec<u32>,
-    /// The axis-aligned boxes of the plates.
+    polygons: Vec<FannedPolygon>,
+    /// For each face, the number of its polygon; [`NO_POLYGON`] for a face outside all polygons.
+    polygon_of_face: Vec<u32>,
+    /// The axis-aligned boxes of the polygons.
     bounds: BoundsTree,
-    /// The faces outside all plates.
-    faces_outside_plates: FaceGroup,
+    /// The faces outside all polygons.
+    faces_outside_polygons: FaceGroup,
 }
 
-const NO_PLATE: u32 = u32::MAX;
+const NO_POLYGON: u32 = u32::MAX;
 
 /// A convex polygon of a mesh: its triangles, plane, and boundary.
-struct Plate {
+struct FannedPolygon {
     faces: Vec<u32>,
     plane: [DVec3; 3],
     projection: Projection,
@@ -54,12 +54,12 @@ struct FaceGroup {
 }
 
 /// The approximate number of exact predicates that separate a face from a polygon.
-const STEPS_PER_PLATE: usize = 4;
+const STEPS_PER_POLYGON: usize = 4;
 
-impl<'a, 'm> Plates<'a, 'm> {
-    /// Finds the plates of a surface; `None` if no polygon has a large fan, so that the boxes of all triangles
+impl<'a, 'm> FannedPolygons<'a, 'm> {
+    /// Finds these polygons of a surface; `None` if no polygon has a large fan, so that the boxes of all triangles
     /// suffice. O(n log n), the time of [`ConvexPolygons::new`].
-    pub(super) fn find(manifold: &'a Manifold<'m>) -> Option<Self> {
+    pub(super) fn collect_from(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
             count[v as usize] += 1;
@@ -68,33 +68,36 @@ impl<'a, 'm> Plates<'a, 'm> {
             return None;
         }
         let flats = ConvexPolygons::new(manifold);
-        let mut plates = Vec::new();
-        let mut plate_of = vec![NO_PLATE; manifold.faces().len()];
+        let mut polygons = Vec::new();
+        let mut polygon_of = vec![NO_POLYGON; manifold.faces().len()];
         for number in 0..flats.len() as u32 {
             let flat = flats.get(number);
             let is_large = has_fan(manifold, &flat.faces);
-            let Some(plate) = is_large.then(|| Plate::new(manifold, flat)).flatten() else {
+            let Some(polygon) = is_large
+                .then(|| FannedPolygon::new(manifold, flat))
+                .flatten()
+            else {
                 continue;
             };
-            let number = plates.len() as u32;
-            for &face in &plate.faces {
-                plate_of[face as usize] = number;
+            let number = polygons.len() as u32;
+            for &face in &polygon.faces {
+                polygon_of[face as usize] = number;
             }
-            plates.push(plate);
+            polygons.push(polygon);
         }
-        if plates.is_empty() {
+        if polygons.is_empty() {
             return None;
         }
         let rest = (0..)
-            .zip(&plate_of)
-            .filter(|(_, plate)| **plate == NO_PLATE);
+            .zip(&polygon_of)
+            .filter(|(_, polygon)| **polygon == NO_POLYGON);
         let rest = FaceGroup::new(manifold, rest.map(|(face, _)| face).collect());
-        Some(Plates {
+        Some(FannedPolygons {
             manifold,
-            bounds: BoundsTree::new(plates.iter().map(|plate| plate.bounds).collect()),
-            plates,
-            plate_of_face: plate_of,
-            faces_outside_plates: rest,
+            bounds: BoundsTree::new(polygons.iter().map(|polygon| polygon.bounds).collect()),
+            polygons,
+            polygon_of_face: polygon_of,
+            faces_outside_polygons: rest,
         })
     }
 
@@ -107,13 +110,13 @@ impl<'a, 'm> Plates<'a, 'm> {
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        let own = self.plate_of_face[face as usize];
-        // Pairs with a face of a plate are reported for the other face.
-        if own == NO_PLATE {
-            let faces = &self.faces_outside_plates.faces;
+        let own = self.polygon_of_face[face as usize];
+        // Pairs with a face of a polygon are reported for the other face.
+        if own == NO_POLYGON {
+            let faces = &self.faces_outside_polygons.faces;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
             if !self
-                .faces_outside_plates
+                .faces_outside_polygons
                 .boxes
                 .all_near_faces_satisfy(region, work, later)
             {
@@ -125,42 +128,42 @@ impl<'a, 'm> Plates<'a, 'm> {
                 if number == own {
                     return true;
                 }
-                if !work.spend(STEPS_PER_PLATE) {
+                if !work.spend(STEPS_PER_POLYGON) {
                     return false;
                 }
-                if self.is_separated_from_plate(face, number) {
+                if self.is_separated_from_polygon(face, number) {
                     return true;
                 }
-                let plate = &self.plates[number as usize];
-                let group = plate
+                let polygon = &self.polygons[number as usize];
+                let group = polygon
                     .group
-                    .get_or_init(|| FaceGroup::new(self.manifold, plate.faces.clone()));
+                    .get_or_init(|| FaceGroup::new(self.manifold, polygon.faces.clone()));
                 group.boxes.all_near_faces_satisfy(region, work, |other| {
                     let other = group.faces[other as usize];
-                    // Pairs of faces of two plates are found twice.
-                    own != NO_PLATE && other < face || holds(other)
+                    // Pairs of faces of two polygons are found twice.
+                    own != NO_POLYGON && other < face || holds(other)
                 })
             })
     }
 
-    /// Returns whether a face and a plate share at most a corner or an edge of the plate's boundary.
+    /// Returns whether a face and a polygon share at most a corner or an edge of the polygon's boundary.
     ///
-    /// The part of the face in the plate's plane is then outside the plate's box, or beyond a line along the rim with
+    /// The part of the face in the polygon's plane is then outside the polygon's box, or beyond a line along the rim with
     /// only a shared corner or edge on that line.
-    fn is_separated_from_plate(&self, face: u32, number: u32) -> bool {
-        let plate = &self.plates[number as usize];
+    fn is_separated_from_polygon(&self, face: u32, number: u32) -> bool {
+        let polygon = &self.polygons[number as usize];
         let (corners, points) = (
             self.manifold.faces()[face as usize],
             self.manifold.triangle(face),
         );
-        let sides = points.map(|p| side(plate.plane, p));
+        let sides = points.map(|p| side(polygon.plane, p));
         if sides.contains(&Ordering::Less) && sides.contains(&Ordering::Greater) {
             return false;
         }
         let level = || (0..3).filter(|&k| sides[k] == Ordering::Equal);
         let beyond = |from: u32, to: u32| {
             let [from, to] = [from, to].map(|v| self.manifold.point(v));
-            let turn = |k: usize| plate.projection.turn(from, to, points[k]);
+            let turn = |k: usize| polygon.projection.turn(from, to, points[k]);
             if level().any(|k| turn(k) == Ordering::Greater) {
                 return false;
             }
@@ -171,14 +174,14 @@ impl<'a, 'm> Plates<'a, 'm> {
                 [Some(k), Some(l), None] => {
                     let start = if (k + 1) % 3 == l { k } else { l };
                     let twin = self.manifold.twin(3 * face + start as u32);
-                    self.plate_of_face[twin as usize / 3] == number
+                    self.polygon_of_face[twin as usize / 3] == number
                 }
                 _ => false,
             }
         };
-        let mut level_corners = level().map(|k| plate.rim_vertex(corners[k]));
+        let mut level_corners = level().map(|k| polygon.rim_vertex(corners[k]));
         // The bounds of no points meet no bounds.
-        !Bounds::enclosing(level().map(|k| points[k])).meets(&plate.bounds)
+        !Bounds::enclosing(level().map(|k| points[k])).meets(&polygon.bounds)
             || level_corners.any(|rim_vertex| {
                 rim_vertex.is_some_and(|p| {
                     beyond(p.previous_vertex, p.vertex) || beyond(p.vertex, p.next_vertex)
@@ -199,7 +202,7 @@ fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
     about.any(|about| about.len() >= MIN_FAN_TRIANGLES as usize)
 }
 
-impl Plate {
+impl FannedPolygon {
     fn new(manifold: &Manifold<'_>, flat: &ConvexPolygon) -> Option<Self> {
         let plane = manifold.triangle(*flat.faces.first()?);
         let starts = || flat.rim.iter().map(|&h| manifold.ends(h)[0]);
@@ -214,7 +217,7 @@ impl Plate {
             })
             .collect();
         rim.sort_unstable_by_key(|rim_vertex| rim_vertex.vertex);
-        Some(Plate {
+        Some(FannedPolygon {
             projection: Projection::new(plane)?,
             bounds: Bounds::enclosing(starts().map(|v| manifold.point(v))),
             faces: flat.faces.clone(),

@@ -56,7 +56,7 @@ fn contacts_of_patches_name_the_mesh() {
 
 /// The relation of a contact's feature name to the mesh features that contain the witness.
 #[derive(Clone, Copy)]
-enum NamePrecision {
+enum FeatureNameMatch {
     /// The name is that of the smallest feature that contains the witness: a vertex before an edge, an edge before a
     /// face.
     SmallestFeature,
@@ -67,13 +67,13 @@ enum NamePrecision {
 }
 
 /// Returns how a feature name relates to the mesh features that contain the witness; `None` for a wrong name.
-fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NamePrecision> {
+fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<FeatureNameMatch> {
     match (feature, holding.first()) {
-        (Feature::Piece(_), None) => Some(NamePrecision::None),
-        (named, Some(&least)) if named == least => Some(NamePrecision::SmallestFeature),
+        (Feature::Piece(_), None) => Some(FeatureNameMatch::None),
+        (named, Some(&least)) if named == least => Some(FeatureNameMatch::SmallestFeature),
         (Feature::Face(_), Some(Feature::Edge(..))) => holding
             .contains(&feature)
-            .then_some(NamePrecision::LargerFeature),
+            .then_some(FeatureNameMatch::LargerFeature),
         _ => None,
     }
 }

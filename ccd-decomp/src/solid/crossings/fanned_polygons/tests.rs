@@ -39,68 +39,73 @@ fn whoever_meets_is_reported() {
         turn,
     );
     let mut runner = TestRunner::deterministic();
-    let (mut meeting, mut with_plates, mut asked, mut all) = (0, 0, 0, 0);
+    let (mut meeting, mut with_polygons, mut asked, mut all) = (0, 0, 0, 0);
     for _ in 0..60 {
         let (heights, places, turn) = given.new_tree(&mut runner).unwrap().current();
         let mesh = rotated_comb_with_tetrahedra(&heights, &places, turn);
         let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
-        let Some(plates) = Plates::find(&manifold) else {
+        let Some(polygons) = FannedPolygons::collect_from(&manifold) else {
             continue;
         };
         let faces = mesh.faces().len() as u32;
         let mut reported = Vec::new();
         for face in 0..faces {
             let region = Region::from_triangle(manifold.triangle(face));
-            plates.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
+            polygons.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
                 reported.push((face.min(other), face.max(other)));
                 true
             });
         }
         reported.sort_unstable();
         assert!(reported.windows(2).all(|pair| pair[0] != pair[1]));
-        let on_plate = |face: u32| plates.plate_of_face[face as usize] != NO_PLATE;
+        let on_polygon = |face: u32| polygons.polygon_of_face[face as usize] != NO_POLYGON;
         for (f, g) in (0..faces).flat_map(|f| (f + 1..faces).map(move |g| (f, g))) {
             let is_reported = reported.binary_search(&(f, g)).is_ok();
-            if on_plate(f) || on_plate(g) {
+            if on_polygon(f) || on_polygon(g) {
                 asked += u32::from(is_reported);
                 all += 1;
             }
             if faces_cross(&manifold, f, g) {
                 meeting += 1;
-                with_plates += u32::from(on_plate(f) || on_plate(g));
+                with_polygons += u32::from(on_polygon(f) || on_polygon(g));
                 assert!(is_reported, "{f}, {g}");
             }
         }
     }
     assert!(
-        meeting > 200 && with_plates > 100,
-        "{meeting}, {with_plates}"
+        meeting > 200 && with_polygons > 100,
+        "{meeting}, {with_polygons}"
     );
     assert!(asked < all / 100, "{asked} of {all}");
 }
 
-/// Tests that faces that share an edge or a corner with a plate's boundary are separated from it without building the
-/// search tree over the plate's triangles.
+/// Tests that faces that share an edge or a corner with a polygon's boundary are separated from it without building the
+/// search tree over the polygon's triangles.
 #[test]
-fn a_comb_is_next_to_its_plates() {
+fn a_comb_is_next_to_its_polygons() {
     let mesh = comb(&[5.0; 40]);
     let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
-    let plates = Plates::find(&manifold).unwrap();
-    assert_eq!(plates.plates.len(), 2);
-    assert!(plates.plates.iter().all(|plate| plate.faces.len() == 80));
+    let polygons = FannedPolygons::collect_from(&manifold).unwrap();
+    assert_eq!(polygons.polygons.len(), 2);
+    assert!(
+        polygons
+            .polygons
+            .iter()
+            .all(|polygon| polygon.faces.len() == 80)
+    );
     for face in 0..mesh.faces().len() as u32 {
         let region = Region::from_triangle(manifold.triangle(face));
-        plates.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
-            assert_eq!(plates.plate_of_face[other as usize], NO_PLATE);
+        polygons.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
+            assert_eq!(polygons.polygon_of_face[other as usize], NO_POLYGON);
             true
         });
     }
     assert!(
-        plates
-            .plates
+        polygons
+            .polygons
             .iter()
-            .all(|plate| plate.group.get().is_none())
+            .all(|polygon| polygon.group.get().is_none())
     );
 }

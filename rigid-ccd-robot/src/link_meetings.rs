@@ -1,0 +1,69 @@
+//! Which pairs of links can touch at all, within the limits of all joints.
+
+mod joint_box;
+mod search;
+
+use crate::cell::Cell;
+use crate::pairs::LinkPairs;
+use crate::robot::Robot;
+use rigid_ccd::{Error, ParallelSolver};
+use search::PairSearch;
+
+/// Whether two links touch, over all configurations within the limits of the joints.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LinkMeeting {
+    /// The links never touch: that is proven for all configurations.
+    Never,
+    /// The links touch in every configuration, because no joint moves one against the other.
+    Always,
+    /// The links touch in one configuration, and are apart in another.
+    Sometimes {
+        /// A configuration in which they touch.
+        touching: Vec<f64>,
+        /// A configuration in which they are apart.
+        apart: Vec<f64>,
+    },
+    /// The limit of work was reached first.
+    Undecided {
+        /// The share of the configurations, by volume, for which the links are proven apart.
+        proven_apart_share: f64,
+        /// A configuration in which they touch, if one was found.
+        touching: Option<Vec<f64>>,
+        /// A configuration in which they are apart, if one was found.
+        apart: Option<Vec<f64>>,
+    },
+}
+
+impl Robot {
+    /// Decides for each pair of links with bodies whether they never touch, always, or sometimes.
+    ///
+    /// Branch and bound over the joints between two links: the distance in the middle of a box of positions, against bounds of
+    /// how far both links move within it. Boxes that stay open are halved, the largest first, until `max_boxes` were
+    /// examined for a pair. Pairs are shared by all cores. Joints without limits turn once.
+    ///
+    /// # Guarantee
+    /// [`LinkMeeting::Never`] and [`LinkMeeting::Always`] are proofs, in floating point. The configurations of other answers
+    /// are proofs as well, up to the rounding of positions; bodies that [exceed](rigid_ccd::Body::excess) their shapes count
+    /// as they are.
+    ///
+    /// # Errors
+    /// An error of a query about a distance.
+    pub fn link_meetings(&self, max_boxes: usize) -> Result<Vec<([usize; 2], LinkMeeting)>, Error> {
+        let cell = Cell::new(self.clone(), LinkPairs::from_robot(self));
+        let has_bodies = |link: &usize| !self.links()[*link].bodies.is_empty();
+        let links: Vec<usize> = (0..self.links().len()).filter(has_bodies).collect();
+        let mut pairs = Vec::new();
+        for (k, &one) in links.iter().enumerate() {
+            pairs.extend(links[k + 1..].iter().map(|&other| [one, other]));
+        }
+        let mut solvers = ParallelSolver::new(|| PairSearch::new(&cell));
+        let meetings = solvers.map(&pairs, |search, &pair| search.decide(pair, max_boxes));
+        let meetings = pairs.iter().zip(meetings);
+        meetings
+            .map(|(&pair, meeting)| Ok((pair, meeting?)))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! Boxes of joint positions.
+
+use crate::cell::Cell;
+use crate::robot::PositionSource;
+use rigid_ccd::trajectory::JointKind;
+use std::f64::consts::PI;
+
+/// A range of positions for each joint of a configuration. Those that do not matter have the width 0.
+#[derive(Clone, Debug)]
+pub(crate) struct JointBox {
+    ranges: Vec<[f64; 2]>,
+    /// The share of the volume of the box that was halved first.
+    pub(crate) share: f64,
+}
+
+impl JointBox {
+    /// Returns the box of all positions of the joints that move two links against each other; `None` if a joint without
+    /// limits does not come back to where it was after a turn.
+    pub(crate) fn between(cell: &Cell, links: [usize; 2]) -> Option<Self> {
+        let robot = cell.robot();
+        let limits = robot.limits();
+        let mut ranges: Vec<[f64; 2]> = limits.map(|limits| [at_rest(limits); 2]).collect();
+        let limits: Vec<[f64; 2]> = robot.limits().collect();
+        let between = robot.chain_between(links[0], links[1]);
+        for &joint in between.joint_numbers() {
+            let Some(source) = robot.source(joint) else {
+                continue;
+            };
+            let number = source.number();
+            let [low, high] = limits[number];
+            ranges[number] = if low.is_finite() && high.is_finite() {
+                [low, high]
+            } else {
+                let kind = robot.joints()[joint].joint.kind();
+                let comes_back = matches!(kind, JointKind::Revolute(_)) && source.is_whole_turn();
+                comes_back.then_some([-PI, PI])?
+            };
+        }
+        Some(JointBox { ranges, share: 1.0 })
+    }
+
+    /// Returns the configuration in the middle.
+    pub(crate) fn middle(&self) -> Vec<f64> {
+        let middle = |[low, high]: &[f64; 2]| 0.5 * low + 0.5 * high;
+        self.ranges.iter().map(middle).collect()
+    }
+
+    /// Returns how far the position of a joint is at most from that in the middle.
+    pub(crate) fn deviation(&self, source: PositionSource) -> f64 {
+        let [low, high] = self.ranges[source.number()];
+        let middle = 0.5 * low + 0.5 * high;
+        let half = if high - middle > middle - low {
+            high - middle
+        } else {
+            middle - low
+        };
+        source.factor().abs() * half
+    }
+
+    /// Returns both halves along the joint whose width has the largest effect: its width times a weight for each joint.
+    /// `None` for a box that cannot be halved.
+    pub(crate) fn halves(&self, weights: &[f64]) -> Option<[Self; 2]> {
+        let effect =
+            |joint: usize| weights[joint] * (self.ranges[joint][1] - self.ranges[joint][0]);
+        let joints = 0..self.ranges.len();
+        let widest = joints.max_by(|&a, &b| effect(a).total_cmp(&effect(b)))?;
+        let [low, high] = self.ranges[widest];
+        let middle = 0.5 * low + 0.5 * high;
+        if !(low < middle && middle < high) {
+            return None;
+        }
+        Some([[low, middle], [middle, high]].map(|range| {
+            let mut half = self.clone();
+            half.ranges[widest] = range;
+            half.share *= 0.5;
+            half
+        }))
+    }
+}
+
+/// Returns a position within limits for a joint that does not matter: that nearest to 0.
+fn at_rest([low, high]: [f64; 2]) -> f64 {
+    0.0f64.clamp(low, high)
+}

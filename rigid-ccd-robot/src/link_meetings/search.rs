@@ -1,0 +1,198 @@
+//! The search for proofs about one pair of links after another.
+
+use super::LinkMeeting;
+use super::joint_box::JointBox;
+use crate::cell::Cell;
+use crate::solver::measure::{Measured, Thresholds, measure};
+use crate::solver::part_pairs::PartPair;
+use crate::solver::placement::{Placement, pose_of};
+use ccd_core::order::greater;
+use rigid_ccd::{Error, Pose, Solver};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Memory for searches about pairs of links.
+pub(super) struct PairSearch<'c> {
+    cell: &'c Cell,
+    placement: Placement,
+    solver: Solver,
+}
+
+/// What is known of a box after a look at its middle.
+struct Look {
+    /// Whether the links are apart over the whole box.
+    is_free: bool,
+    /// Whether they touch in the middle; `None` if rounding hides it.
+    touches: Option<bool>,
+}
+
+/// A box that waits to be examined; the largest comes first.
+struct Waiting(JointBox);
+
+impl<'c> PairSearch<'c> {
+    pub(super) fn new(cell: &'c Cell) -> Self {
+        PairSearch {
+            cell,
+            placement: Placement::new(cell),
+            solver: Solver::new(),
+        }
+    }
+
+    /// Decides about a pair of links, with at most `max_boxes` looks.
+    pub(super) fn decide(
+        &mut self,
+        links: [usize; 2],
+        max_boxes: usize,
+    ) -> Result<LinkMeeting, Error> {
+        let (mut touching, mut apart, mut share) = (None, None, 0.0);
+        let undecided = |share, touching, apart| LinkMeeting::Undecided {
+            proven_apart_share: share,
+            touching,
+            apart,
+        };
+        let Some(all) = JointBox::between(self.cell, links) else {
+            return Ok(undecided(0.0, None, None));
+        };
+        let weights = self.weights(&all);
+        let is_rigid = self.cell.robot().are_rigidly_connected(links[0], links[1]);
+        let mut waiting = BinaryHeap::from([Waiting(all)]);
+        let mut pairs = self.part_pairs(links);
+        for _ in 0..max_boxes {
+            let Some(Waiting(joint_box)) = waiting.pop() else {
+                return Ok(LinkMeeting::Never);
+            };
+            let look = self.look(&joint_box, &mut pairs)?;
+            match look.touches {
+                Some(true) if is_rigid => return Ok(LinkMeeting::Always),
+                Some(true) => touching = touching.or_else(|| Some(joint_box.middle())),
+                Some(false) => apart = apart.or_else(|| Some(joint_box.middle())),
+                None => {}
+            }
+            if let (Some(touching), Some(apart)) = (&touching, &apart) {
+                return Ok(LinkMeeting::Sometimes {
+                    touching: Vec::clone(touching),
+                    apart: Vec::clone(apart),
+                });
+            }
+            if look.is_free {
+                share += joint_box.share;
+            } else if let Some(halves) = joint_box.halves(&weights) {
+                waiting.extend(halves.map(Waiting));
+            } else {
+                return Ok(undecided(share, touching, apart));
+            }
+        }
+        if waiting.is_empty() {
+            return Ok(LinkMeeting::Never);
+        }
+        Ok(undecided(share, touching, apart))
+    }
+
+    /// Measures both links in the middle of a box, against how far they move within it.
+    fn look(&mut self, joint_box: &JointBox, pairs: &mut [PartPair]) -> Result<Look, Error> {
+        let middle = joint_box.middle();
+        let deviation = |source| joint_box.deviation(source);
+        self.placement.place_box(self.cell, &middle, deviation);
+        let mut look = Look {
+            is_free: true,
+            touches: Some(false),
+        };
+        for pair in pairs {
+            let thresholds = Thresholds {
+                free: 0.0,
+                near: 0.0,
+            };
+            let found = measure(self.cell, &self.placement, pair, thresholds, false);
+            if matches!(found, Measured::Free) {
+                continue;
+            }
+            // The engine measures the bodies themselves; frames become poses with an error like their own.
+            let rounding = 4.0 * self.placement.rounding;
+            let outcome = {
+                let [a, b] = pair
+                    .owners(self.cell.parts())
+                    .map(|body| self.posed_body(body));
+                let [a, b] = [a?, b?];
+                let bodies = self.cell.bodies();
+                let body = |(number, pose): (usize, Pose)| (&*bodies[number].body, pose);
+                self.solver.distance(body(a), body(b))?.outcome
+            };
+            if outcome.upper() <= 0.0 {
+                look.touches = Some(true);
+            } else if !(outcome.lower() > rounding) && look.touches == Some(false) {
+                look.touches = None;
+            }
+            // Written so that NaN is not free.
+            if !(outcome.lower() > self.placement.displacement(pair) + rounding) {
+                look.is_free = false;
+            }
+            if look.touches == Some(true) {
+                look.is_free = false;
+                break;
+            }
+        }
+        Ok(look)
+    }
+
+    fn posed_body(&self, number: usize) -> Result<(usize, Pose), Error> {
+        let placed = &self.cell.bodies()[number];
+        let frame = pose_of(&self.placement.frames[placed.frame])?;
+        Ok((number, frame.compose(&placed.pose)))
+    }
+
+    /// Returns all pairs of parts of two links.
+    fn part_pairs(&self, [one, other]: [usize; 2]) -> Vec<PartPair> {
+        let (cell, parts) = (self.cell, self.cell.parts());
+        let parts_of = |link: usize| {
+            let all = (0..cell.robot_part_count())
+                .filter(move |&part| cell.link_of(parts[part].owner) == link);
+            all.collect::<Vec<usize>>()
+        };
+        let mut pairs = Vec::new();
+        for &a in &parts_of(one) {
+            for &b in &parts_of(other) {
+                let frame = cell
+                    .kinematics()
+                    .common_frame([a, b].map(|part| parts[part].frame));
+                let slots = [a, b].map(|part| {
+                    self.placement
+                        .displacements
+                        .slot(cell.kinematics(), part, frame)
+                });
+                pairs.push(PartPair::new([a, b], slots, 0.0));
+            }
+        }
+        pairs
+    }
+
+    /// Returns for each joint of a configuration about how far its unit of position moves things.
+    fn weights(&self, joint_box: &JointBox) -> Vec<f64> {
+        let mut weights = vec![0.0; joint_box.middle().len()];
+        for joint in self.cell.kinematics().joints() {
+            let effect = joint.source.factor().abs() * if joint.is_prismatic { 2.0 } else { 1.0 };
+            let number = joint.source.number();
+            weights[number] = greater(weights[number], effect);
+        }
+        weights
+    }
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Waiting {}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.share.total_cmp(&other.0.share)
+    }
+}

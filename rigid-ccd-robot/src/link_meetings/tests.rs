@@ -1,0 +1,101 @@
+//! Tests of proofs about pairs of links against random configurations.
+
+use super::*;
+use crate::robot::{Joint, Link, Position};
+use crate::test_robots::{least_distance_of_links, random_robot, with_limits};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::{Body, Pose, trajectory};
+
+/// Tests random robots: no configuration contradicts a proof, and the configurations that are named prove what they are
+/// to.
+#[test]
+fn no_configuration_contradicts_a_proof() {
+    let mut random = Pcg64::seed_from_u64(21);
+    let (mut never, mut always, mut sometimes, mut undecided) = (0, 0, 0, 0);
+    for _ in 0..40 {
+        let limit = [0.3, 1.2][random.random_range(0..2)];
+        let robot = with_limits(&random_robot(&mut random), limit);
+        for (links, meeting) in robot.link_meetings(300).unwrap() {
+            let distance = |at: &[f64]| least_distance_of_links(&robot, links, at);
+            let samples = (0..60).map(|_| {
+                let limits = robot.limits();
+                let at: Vec<f64> = limits
+                    .map(|[low, high]| random.random_range(low..=high))
+                    .collect();
+                distance(&at)
+            });
+            let samples: Vec<f64> = samples.collect();
+            match meeting {
+                LinkMeeting::Never => {
+                    never += 1;
+                    assert!(samples.iter().all(|&distance| distance > 0.0), "{links:?}");
+                }
+                LinkMeeting::Always => {
+                    always += 1;
+                    assert!(
+                        samples.iter().all(|&distance| distance <= 1e-9),
+                        "{links:?}"
+                    );
+                }
+                LinkMeeting::Sometimes { touching, apart } => {
+                    sometimes += 1;
+                    assert!(
+                        distance(&touching) <= 1e-9 && distance(&apart) > 0.0,
+                        "{links:?}"
+                    );
+                }
+                LinkMeeting::Undecided {
+                    proven_apart_share, ..
+                } => {
+                    undecided += 1;
+                    assert!((0.0..1.0).contains(&proven_apart_share));
+                }
+            }
+        }
+    }
+    let enough = never > 20 && sometimes > 50 && undecided > 5;
+    assert!(enough, "{never} {always} {sometimes} {undecided}");
+}
+
+/// Tests a hinge whose leaf touches the frame beyond a known angle, with limits before and beyond it.
+#[test]
+fn limits_decide_whether_a_hinge_meets_its_stop() {
+    // The rod of half length 0.4 from 0.1 to 0.9, and a post of radius 0.1 at (0, 0.8): they meet at a right angle
+    // less the angle of 0.15 at the distance 0.8.
+    let meet = std::f64::consts::FRAC_PI_2 - (0.15f64 / 0.8).asin();
+    let door = |limit: f64, joint_limit: f64| {
+        let rod = Body::capsule(0.05, 0.35).unwrap();
+        let lying = rigid_ccd::glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
+        let links = vec![
+            Link::named("frame").with_body(
+                Body::capsule(0.1, 0.5).unwrap(),
+                Pose::at([0.0, 0.8, 0.0]).unwrap(),
+            ),
+            Link::named("leaf").with_body(rod, Pose::new([0.5, 0.0, 0.0], lying).unwrap()),
+        ];
+        let hinge = trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap();
+        let joints = vec![Joint {
+            name: "hinge".into(),
+            parent: "frame".into(),
+            child: "leaf".into(),
+            joint: hinge.with_limits(joint_limit..=limit),
+            position: Position::Free,
+        }];
+        let robot = Robot::new(links, joints).unwrap();
+        robot.link_meetings(10_000).unwrap().remove(0).1
+    };
+    assert_eq!(door(meet - 1e-4, 0.0), LinkMeeting::Never);
+    assert!(matches!(
+        door(meet + 1e-2, 0.0),
+        LinkMeeting::Sometimes { .. }
+    ));
+    // A joint that is held at one position.
+    assert_eq!(door(1.0, 1.0), LinkMeeting::Never);
+    // Without limits it turns once.
+    let turning = door(f64::INFINITY, f64::NEG_INFINITY);
+    assert!(
+        matches!(turning, LinkMeeting::Sometimes { .. }),
+        "{turning:?}"
+    );
+}
