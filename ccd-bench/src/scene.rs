@@ -38,7 +38,7 @@ pub struct SceneBody {
     mesh: Arc<TriangleMesh>,
     /// The same body made of other kinds of pieces, one slot for each kind, filled on first use; `None` in a slot if
     /// the mesh does not allow the kind.
-    bodies_by_pieces: Arc<[OnceLock<Option<Body>>; PieceKind::Patches as usize + 1]>,
+    bodies_by_piece_kind: Arc<[OnceLock<Option<Body>>; PieceKind::Patches as usize + 1]>,
 }
 
 /// The kind of convex pieces that a body is made of.
@@ -64,7 +64,7 @@ impl SceneBody {
         if pieces == PieceKind::FewestPieces {
             return Some(&self.body);
         }
-        let made = &self.bodies_by_pieces[pieces as usize];
+        let made = &self.bodies_by_piece_kind[pieces as usize];
         made.get_or_init(|| pieces.make_body(&self.mesh).ok())
             .as_ref()
     }
@@ -143,7 +143,7 @@ impl ModelCache {
         let body = SceneBody {
             body: Arc::new(prepared.body),
             mesh: Arc::new(mesh),
-            bodies_by_pieces: Arc::default(),
+            bodies_by_piece_kind: Arc::default(),
         };
         self.bodies.insert(model, body.clone());
         Ok(body)

@@ -306,7 +306,7 @@ impl Body {
 
 /// Builds the search structure for extremal points of a piece with many points.
 #[cfg(not(feature = "hull-tree"))]
-fn support_of(piece: &Piece<'_>) -> Support {
+fn build_support_map(piece: &Piece<'_>) -> Support {
     Support::from_points(piece.points)
 }
 

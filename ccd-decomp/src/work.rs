@@ -45,6 +45,6 @@ impl Work {
     }
 }
 
-/// The error for a work budget that is spent.
+/// The error of a computation that has used all steps it was allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct WorkBudgetExhausted;

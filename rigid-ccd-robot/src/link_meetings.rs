@@ -19,18 +19,18 @@ pub enum LinkMeeting {
     /// The links touch in one configuration, and are apart in another.
     Sometimes {
         /// A configuration in which they touch.
-        touching: Vec<f64>,
+        touching_configuration: Vec<f64>,
         /// A configuration in which they are apart.
-        apart: Vec<f64>,
+        apart_configuration: Vec<f64>,
     },
     /// The limit of work was reached first.
     Undecided {
         /// The share of the configurations, by volume, for which the links are proven apart.
         proven_apart_share: f64,
         /// A configuration in which they touch, if one was found.
-        touching: Option<Vec<f64>>,
+        touching_configuration: Option<Vec<f64>>,
         /// A configuration in which they are apart, if one was found.
-        apart: Option<Vec<f64>>,
+        apart_configuration: Option<Vec<f64>>,
     },
 }
 

@@ -92,7 +92,7 @@ impl PositionSource {
         self.number
     }
 
-    /// Returns the factor on that position.
+    /// Returns the factor from the position in a configuration to that of the joint.
     pub(crate) fn factor(&self) -> f64 {
         self.multiplier
     }

@@ -164,7 +164,7 @@ fn contacts_of_random_cases_hold() {
 
 type Names = [Feature; 2];
 
-/// Returns true if `names` and `exact`, the names for triangles, name the same features. A corner or an edge without a
+/// Returns whether `names` denote the same features as `exact`, the names on bodies of single triangles. A corner or an edge without a
 /// number in a patch may have the name of an adjacent face.
 fn are_equivalent_feature_names(
     query: &Query,

@@ -235,7 +235,7 @@ impl<'s> Case<'s> {
         self.check_closest_approach(&closest.outcome, tally)?;
         if self
             .scene
-            .trajectory_kind_indices
+            .trajectory_kinds
             .iter()
             .all(|&kind| courses::is_motion_kind(kind))
         {
@@ -271,7 +271,7 @@ fn no_bound_is_above_a_sampled_distance() {
         let scene = Scene::draw(&mut rng);
         let case = Case::draw(&mut rng, &scene);
         if let Err(why) = case.check(&mut solver, &mut tally) {
-            let kinds = scene.trajectory_kind_indices.map(|kind| KINDS[kind]);
+            let kinds = scene.trajectory_kinds.map(|kind| KINDS[kind]);
             wrong.push(format!(
                 "{seed}: {kinds:?}, {:?}, {:?}: {why}",
                 scene.solids, case.config

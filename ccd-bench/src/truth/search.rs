@@ -351,7 +351,7 @@ struct UndecidedTimes {
     first: Option<f64>,
     /// The time before which the search examines no further intervals.
     skipped_until: f64,
-    /// The number of undecided times so far.
+    /// The number of intervals so far in which neither a contact nor a gap was proven.
     undecided_count: u32,
 }
 

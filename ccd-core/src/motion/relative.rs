@@ -141,7 +141,7 @@ impl RelativePath {
         }
     }
 
-    /// Returns the centre of rotation of the seeing body, in its frame.
+    /// Returns the centre of rotation of the body in whose frame the motion is seen.
     #[inline(always)]
     pub(crate) fn centre<L: Simd>(&self, level: L) -> PackedVector<L> {
         PackedVector::load(level, &self.centre)

@@ -190,7 +190,7 @@ impl RotatingVector {
         self.start + self.perpendicular_part * angle.cos_minus_one + self.cross_product * angle.sin
     }
 
-    /// Returns the derivative of the vector, per radian.
+    /// Returns the derivative of the rotating vector with respect to its angle.
     #[inline]
     pub(crate) fn derivative_at(&self, angle: AngleSinCos) -> DVec3 {
         self.cross_product * angle.cos - self.perpendicular_part * angle.sin

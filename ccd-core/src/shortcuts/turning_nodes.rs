@@ -33,7 +33,7 @@ struct NodePastTurningPlane<L: Simd> {
 impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     /// Returns times for which planes that turn with the body of the split node certainly keep the eight pairs apart.
     #[inline(always)]
-    pub(crate) fn free_times_with_split_body(&self, axis: AxesX8<L>) -> f32x8<L> {
+    pub(crate) fn free_times_turning_with_split_body(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, other) = (self.motion, self.other_node);
         let level = axis.n.simd_level();
         let at = Vec3x8::splat(level, other.centre());
@@ -58,7 +58,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
 
     /// Returns times for which planes that turn with the body of the unsplit node certainly keep the eight pairs apart.
     #[inline(always)]
-    pub(crate) fn free_times_with_other_body(&self, axis: AxesX8<L>) -> f32x8<L> {
+    pub(crate) fn free_times_turning_with_other_body(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
         let level = axis.n.simd_level();
         let at = children.centre(level);

@@ -139,7 +139,7 @@ impl Part {
         }
     }
 
-    /// Returns the half extents of the box along the base's axes around the part, for its frame in the base.
+    /// Returns the half extents of the part's bounding box along the axes of the base, when the part's frame is at `frame`.
     #[inline(always)]
     pub(crate) fn box_extents(&self, frame: &Frame) -> DVec3 {
         let (rotation, extents) = (&frame.rotation, self.half_extents);

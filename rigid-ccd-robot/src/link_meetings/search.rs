@@ -47,8 +47,8 @@ impl<'c> PairSearch<'c> {
         let (mut touching, mut apart, mut share) = (None, None, 0.0);
         let undecided = |share, touching, apart| LinkMeeting::Undecided {
             proven_apart_share: share,
-            touching,
-            apart,
+            touching_configuration: touching,
+            apart_configuration: apart,
         };
         let Some(all) = JointBox::between(self.cell, links) else {
             return Ok(undecided(0.0, None, None));
@@ -70,8 +70,8 @@ impl<'c> PairSearch<'c> {
             }
             if let (Some(touching), Some(apart)) = (&touching, &apart) {
                 return Ok(LinkMeeting::Sometimes {
-                    touching: Vec::clone(touching),
-                    apart: Vec::clone(apart),
+                    touching_configuration: Vec::clone(touching),
+                    apart_configuration: Vec::clone(apart),
                 });
             }
             if look.is_free {

@@ -38,7 +38,10 @@ fn no_configuration_contradicts_a_proof() {
                         "{links:?}"
                     );
                 }
-                LinkMeeting::Sometimes { touching, apart } => {
+                LinkMeeting::Sometimes {
+                    touching_configuration: touching,
+                    apart_configuration: apart,
+                } => {
                     sometimes += 1;
                     assert!(
                         distance(&touching) <= 1e-9 && distance(&apart) > 0.0,

@@ -15,8 +15,9 @@ pub(crate) struct Kinematics {
     links: Vec<(usize, Pose)>,
     /// For each joint of the robot, its number among those that move; `None` for a fixed one.
     numbers: Vec<Option<usize>>,
-    /// The sum of the lengths of all joints' origins, and the number of all joints.
+    /// The sum of the distances of all joints from the frames that hold them.
     pub(crate) arm_length_sum: f64,
+    /// The number of all joints, fixed ones included.
     pub(crate) joint_count: usize,
 }
 

@@ -184,7 +184,8 @@ impl GapSampler<'_> {
         Ok(GapSample { time, lower, upper })
     }
 
-    /// Bounds the closing speed of the bodies between two times, and their deviation from the motions there.
+    /// Bounds the closing speed of the bodies between two times, and how far their trajectories deviate from the motions that
+    /// approximate them there.
     fn approach_bounds(&self, from: f64, to: f64) -> Result<ApproachBounds, InputError> {
         let [a, b] = self.movements.trajectories();
         let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);

@@ -51,7 +51,7 @@ pub enum TableError {
     WrongSeparator {
         /// The character that separates the cells.
         found: char,
-        /// The text of the header.
+        /// The header line, as in the file.
         header: String,
     },
     /// The header has a column that is not known. If it were ignored, a part of a motion could be lost silently.

@@ -17,7 +17,7 @@ pub(super) const ROUNDING: f64 = 2e-14;
 
 /// Two solids on trajectories over the times 0 to 1.
 pub(super) struct Scene {
-    pub(super) trajectory_kind_indices: [usize; 2],
+    pub(super) trajectory_kinds: [usize; 2],
     pub(super) solids: [Solid; 2],
     pub(super) bodies: [Body; 2],
     pub(super) trajectories: [Box<dyn Trajectory>; 2],
@@ -30,7 +30,7 @@ impl Scene {
         Scene {
             bodies: [0, 1].map(|k| solids[k].body()),
             trajectories: kinds.map(|kind| courses::draw(rng, kind, SCENE_RADIUS)),
-            trajectory_kind_indices: kinds,
+            trajectory_kinds: kinds,
             solids,
         }
     }

@@ -147,7 +147,7 @@ struct ChildFacets<'a> {
     facet_at_edge: EdgeMap,
 }
 
-/// The corners of the two sides of a single triangle, in the order of each side.
+/// The corners of the front and the back face of a hull that is a single triangle, in the order of each face.
 const TRIANGLE_SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> ChildFacets<'a> {

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// The sums of a ray's signed crossings with a surface: 1 where the ray leaves the solid, −1 where it enters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RayCrossingSums {
-    /// The sum of the crossings beyond the ray's start. For a closed surface this is the winding number about points
+    /// The sum of the signs of the crossings beyond the ray's start. For a closed surface this is the winding number about points
     /// just ahead of the start.
     pub(crate) sum_ahead: i32,
     /// The sum of the crossings that coincide with the start up to rounding.

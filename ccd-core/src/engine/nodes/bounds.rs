@@ -104,7 +104,7 @@ impl<L: Simd> PassingPairs<L> {
         let level = pairs.simd_level();
         match motion.larger_body? {
             LargerBody::SplitBody => Some(PassingPairs {
-                turning_plane_time: pairs.free_times_with_split_body(axis),
+                turning_plane_time: pairs.free_times_turning_with_split_body(axis),
                 spin: motion.split_rotation.rate,
                 arm_length: splat(
                     level,
@@ -115,7 +115,7 @@ impl<L: Simd> PassingPairs<L> {
                 large_is_piece: children.pieces(level),
             }),
             LargerBody::OtherBody => Some(PassingPairs {
-                turning_plane_time: pairs.free_times_with_other_body(axis),
+                turning_plane_time: pairs.free_times_turning_with_other_body(axis),
                 spin: motion.other_rotation.rate,
                 arm_length: motion
                     .other_rotation

@@ -32,7 +32,7 @@ pub(super) struct Node<C> {
     pub(super) clock: f64,
     /// Whether pieces or bridges own the pair's nearest features.
     pub(super) feature_owners: FeatureOwners,
-    /// The distance of the bodies below which joining the pair's children is tried again.
+    /// The children are joined only while the bodies are nearer than this; each attempt that fails lowers it.
     pub(super) join_distance: f64,
 }
 

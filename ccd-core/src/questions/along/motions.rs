@@ -99,7 +99,7 @@ impl StretchMotions {
             && far(b) <= most
     }
 
-    /// Estimates the length of a stretch that has a given deviation. Deviations shrink with a power of the length.
+    /// Estimates how long a stretch of time may be for its motions to deviate so far from the trajectories. Deviations shrink with a power of the length.
     pub(super) fn length_for_deviation(&self, stray: f64) -> f64 {
         self.span.length()
             * (stray / self.total_deviation_bound).powf(1.0 / self.deviation_exponent())

@@ -119,8 +119,8 @@ fn first_contacts_hold_at_sampled_times() {
     );
 }
 
-/// Tests that the naive schedule, which does not support accelerations, finds the same contacts as the best-first
-/// schedule, and none late.
+/// Tests that the naive schedule, which knows no accelerations of motions, finds the same first contacts as the
+/// best-first schedule, and none of them late.
 #[test]
 fn every_schedule_finds_first_contacts_along_trajectories() {
     let mut rng = rng(31);

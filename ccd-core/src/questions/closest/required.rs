@@ -115,7 +115,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         Ok(answer)
     }
 
-    /// Returns the remaining work of the budget.
+    /// Returns the budget less the work of the queries so far.
     fn remaining_work(&self) -> u64 {
         self.clearance.budget.saturating_sub(self.stats.work())
     }

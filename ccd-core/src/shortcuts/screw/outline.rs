@@ -14,7 +14,8 @@ use glam::{DVec2, DVec3};
 /// The projection of a triangle along a screw motion to the plane of `r` and `ζ`.
 #[derive(Debug)]
 pub(crate) struct Outline {
-    /// The projected corners (`r`, `ζ`), with the distance from the axis as `r`.
+    /// The corners as (`r`, `ζ`), distance from the axis and height along the screw. Their triangle reaches at least as far out
+    /// as the triangle itself.
     outer_corners: [DVec2; 3],
     /// The projected corners with a lower bound of the distance from the axis as `r`; the bound is a linear function
     /// over the triangle.

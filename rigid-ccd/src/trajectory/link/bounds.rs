@@ -17,7 +17,7 @@ pub(super) struct LinkBounds {
     axis: Option<DVec3>,
     /// The number of joints so far; a reversed joint counts twice, because its pose is rounded once more.
     pub(super) joint_count: f64,
-    /// The sum of the lengths of the arms from joint to joint; those of a reversed joint count twice.
+    /// The sum of the lengths of the arms between joints; that of a joint which is passed backward counts twice.
     pub(super) arm_length_sum: f64,
     /// The sum of the joints' largest angles, in radians.
     pub(super) max_angle_sum: f64,

@@ -22,7 +22,7 @@ pub(super) struct Segment {
 pub(crate) const MAX_RESIDUAL_ROTATION: f64 = FRAC_PI_2;
 
 impl Segment {
-    /// Creates the segment with the number of turns nearest to that of the angular velocity `spin`; zero stands for the
+    /// Creates the segment with the number of turns nearest to what the angular velocity `spin` makes; a zero `spin` asks for the
     /// shortest rotation.
     pub(super) fn new(
         [from, to]: [Pose; 2],

@@ -66,12 +66,12 @@ fn check(bytes: &[u8], table: &MotionTable) {
     table.errors.iter().for_each(|error| {
         assert!(!error.to_string().is_empty());
     });
-    check_skipped_rows(bytes, table, all.len());
+    check_rows_after_skip(bytes, table, all.len());
     check_written_rows(table);
 }
 
 /// Checks that skipping rows does not affect the rows after them.
-fn check_skipped_rows(bytes: &[u8], table: &MotionTable, rows: usize) {
+fn check_rows_after_skip(bytes: &[u8], table: &MotionTable, rows: usize) {
     let half = rows / 2;
     let mut rest = MotionRows::new(bytes).expect("a header that was read");
     assert_eq!(rest.skip_rows(half).ok(), Some(half));

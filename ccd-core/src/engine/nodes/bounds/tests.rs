@@ -225,8 +225,8 @@ fn values_along_axis<L: Simd, C: Children, P: OtherNode>(
         cross_product_lengths: [*m.length(), *o.length()],
         free_times: [
             fixed_plane_times(pairs, axis),
-            free_times_with_split_body(pairs, axis),
-            free_times_with_other_body(pairs, axis),
+            free_times_turning_with_split_body(pairs, axis),
+            free_times_turning_with_other_body(pairs, axis),
         ],
     }
 }
@@ -240,19 +240,19 @@ fn fixed_plane_times<L: Simd, C: Children, P: OtherNode>(
 }
 
 #[inline(never)]
-fn free_times_with_split_body<L: Simd, C: Children, P: OtherNode>(
+fn free_times_turning_with_split_body<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
-    *pairs.free_times_with_split_body(axis)
+    *pairs.free_times_turning_with_split_body(axis)
 }
 
 #[inline(never)]
-fn free_times_with_other_body<L: Simd, C: Children, P: OtherNode>(
+fn free_times_turning_with_other_body<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
-    *pairs.free_times_with_other_body(axis)
+    *pairs.free_times_turning_with_other_body(axis)
 }
 
 /// Returns the [free times](clock::free_time) of eight pairs with these gaps, rates and second derivatives.

@@ -18,7 +18,7 @@ struct Tally {
     lanes_without_free_time: usize,
     /// The number of free times that are more than 1.5 times as long as those of fixed planes.
     times_lengthened_by_turning_plane: usize,
-    /// The number of lanes without a free time whose pieces are within the gap to keep at the clock.
+    /// The number of lanes without a free time because their pieces are within the gap to keep already.
     lanes_within_gap: usize,
     /// The number of samples at which one axis separates all triangles.
     samples_proven_by_axis: usize,

@@ -48,7 +48,7 @@ fn upper_bounds_have_the_excess_added_once() {
     );
 }
 
-/// Tests that a required clearance is reported as violated only if the bodies come nearer than it by more than their
+/// Tests that a required clearance is reported as violated only if the distance is smaller by more than the bodies'
 /// excess over the shapes.
 #[test]
 fn a_clearance_is_violated_by_more_than_the_excess_only() {

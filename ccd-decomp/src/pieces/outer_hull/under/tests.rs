@@ -7,7 +7,7 @@ use crate::worst::{RandomCase, WorstCaseSearch, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Draws an edge, which may be far from the origin.
+/// Returns a random edge, which may be far from the origin.
 fn edge(tape: &mut RandomCase) -> [DVec3; 2] {
     let scale = tape.size(-200..=39);
     let middle = DVec3::from(tape.vector(-8..=0));
