@@ -123,7 +123,7 @@ impl<'c> PairSearch<'c> {
                 look.touches = None;
             }
             // Written so that NaN is not free.
-            if !(outcome.lower() > self.placement.displacement(pair) + rounding) {
+            if !(outcome.lower() > pair.displacement(&self.placement) + rounding) {
                 look.is_free = false;
             }
             if look.touches == Some(true) {

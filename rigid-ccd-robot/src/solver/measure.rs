@@ -41,7 +41,7 @@ pub(crate) fn measure(
     let parts = cell.parts();
     let (a, b) = (&parts[pair.a as usize], &parts[pair.b as usize]);
     let frames = [a, b].map(|part| placement.frames[part.frame]);
-    let displacement = placement.displacement(pair);
+    let displacement = pair.displacement(placement);
     let rounding = 2.0 * placement.rounding;
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
     let centres = [frames[0].point(a.centre), frames[1].point(b.centre)];

@@ -46,6 +46,13 @@ impl PartPair {
         }
     }
 
+    /// Returns a bound of how far both parts move from the middle of the stretch, as seen from the nearest frame above both.
+    #[inline(always)]
+    pub(crate) fn displacement(&self, placement: &Placement) -> f64 {
+        let [a, b] = self.slots.map(|slot| placement.displacements.bound(slot));
+        a + b
+    }
+
     /// Returns the numbers of both bodies.
     pub(crate) fn owners(&self, parts: &[Part]) -> [usize; 2] {
         [self.a, self.b].map(|part| parts[part as usize].owner)

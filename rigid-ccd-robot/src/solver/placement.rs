@@ -1,7 +1,6 @@
 //! A stretch of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
 
 use super::displacement::Displacements;
-use super::part_pairs::PartPair;
 use super::rounding::point_error;
 use super::stretch::Stretch;
 use super::waypoints::Waypoints;
@@ -67,13 +66,6 @@ impl Placement {
         let positions = self.positions.iter().copied();
         cell.kinematics().place(positions, &mut self.frames);
         self.update_displacements(cell);
-    }
-
-    /// Returns a bound of how far both parts of a pair move from the middle, as seen from the nearest frame above both.
-    #[inline(always)]
-    pub(crate) fn displacement(&self, pair: &PartPair) -> f64 {
-        let [a, b] = pair.slots.map(|slot| self.displacements.bound(slot));
-        a + b
     }
 
     #[inline(always)]

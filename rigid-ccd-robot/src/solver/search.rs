@@ -247,7 +247,7 @@ impl<'c> Search<'c> {
             _ => length <= LAST_LENGTH,
         };
         is_short || {
-            let displacement = self.placement.displacement(pair);
+            let displacement = pair.displacement(&self.placement);
             stretch.halvings >= MIN_HALVINGS && displacement < LAST_DISPLACEMENT
         }
     }
