@@ -25,17 +25,29 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 ///     robot: the robot, as `Robot.from_urdf` makes it.
 #[pyclass(name = "Cell", module = "rigid_ccd", frozen)]
 pub(crate) struct PyCell {
+    robot: Py<PyRobot>,
     solved: Mutex<SolvedCell>,
 }
 
 #[pymethods]
 impl PyCell {
     #[new]
-    fn new(robot: &PyRobot) -> Self {
-        let cell = Cell::new((*robot.robot).clone(), robot.pairs.clone());
+    fn new(robot: &Bound<'_, PyRobot>) -> Self {
+        let PyRobot {
+            robot: links,
+            pairs,
+        } = robot.get();
+        let cell = Cell::new((**links).clone(), pairs.clone());
         PyCell {
+            robot: robot.clone().unbind(),
             solved: Mutex::new(SolvedCell::new(cell)),
         }
+    }
+
+    /// The robot, as it was given.
+    #[getter]
+    fn robot(&self, py: Python<'_>) -> Py<PyRobot> {
+        self.robot.clone_ref(py)
     }
 
     /// Adds an obstacle at a pose in the frame of the robot's base.

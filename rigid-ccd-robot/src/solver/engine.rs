@@ -45,9 +45,10 @@ impl Search<'_> {
         if question == Question::ClosestApproach {
             return Ok(self.keep_distance(&open, &answer.outcome));
         }
-        Ok(match answer.outcome.hit()? {
-            Some(_) => self.keep_contact(pair, at),
-            None => Continue(()),
+        // A pair that a limit leaves undecided here stays a candidate.
+        Ok(match answer.outcome.hit() {
+            Ok(Some(_)) => self.keep_contact(pair, at),
+            Ok(None) | Err(_) => Continue(()),
         })
     }
 

@@ -152,7 +152,7 @@ fn a_cut_edge_is_the_same_edge() {
 fn a_deadline_leaves_a_free_start() {
     let mut random = Pcg64::seed_from_u64(14);
     let mut unresolved = 0;
-    for nanos in [0, 20_000, 50_000, 100_000].repeat(15) {
+    for nanos in [0, 3_000, 10_000, 20_000, 50_000, 100_000].repeat(25) {
         let cell = random_cell(&mut random);
         let settings = Settings {
             deadline: Some(Duration::from_nanos(nanos)),
@@ -178,6 +178,40 @@ fn a_deadline_leaves_a_free_start() {
         }
     }
     assert!(unresolved >= 15, "{unresolved}");
+}
+
+/// Tests that a spent budget is no error, and that the path is free before the point that is named.
+#[test]
+fn a_budget_leaves_a_free_start() {
+    let mut random = Pcg64::seed_from_u64(16);
+    let mut unresolved = 0;
+    for _ in 0..150 {
+        let cell = random_cell(&mut random);
+        let settings = Settings {
+            budget: 1,
+            ..Settings::DEFAULT
+        };
+        let path = random_path(&mut random, cell.robot());
+        let mut solver = cell.solver().with_settings(settings);
+        let end = match solver.first_contact(&path).unwrap() {
+            PathOutcome::Free => None,
+            PathOutcome::Contact(contact) => Some(contact.at),
+            PathOutcome::Unresolved { free_until, limit } => {
+                unresolved += 1;
+                assert_eq!(limit, Limit::Budget);
+                Some(free_until)
+            }
+        };
+        for at in sampled_points(&path) {
+            let distance = || least_distance(&cell, &configuration_at(&path, at));
+            let is_before = end.is_none_or(|end| at < end);
+            assert!(!is_before || distance() > 0.0, "{at:?} {end:?}");
+        }
+        let closest = solver.closest_approach(&path).unwrap();
+        let least = least_distance(&cell, &path[0]);
+        assert!(closest.lower <= least && closest.lower <= closest.upper);
+    }
+    assert!(unresolved > 5, "{unresolved}");
 }
 
 /// Tests a configuration alone, and that a path without any is refused.

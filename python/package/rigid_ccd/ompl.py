@@ -1,0 +1,114 @@
+"""Certified motions for planners of OMPL 2 (``pip install ompl``).
+
+>>> from ompl import base, geometric
+>>> from rigid_ccd.ompl import MotionValidator, StateValidityChecker, space_of
+>>> space = space_of(cell)                                        # doctest: +SKIP
+>>> setup = geometric.SimpleSetup(space)                          # doctest: +SKIP
+>>> information = setup.getSpaceInformation()                     # doctest: +SKIP
+>>> setup.setStateValidityChecker(StateValidityChecker(information, cell))  # doctest: +SKIP
+>>> information.setMotionValidator(MotionValidator(information, cell))      # doctest: +SKIP
+
+Each edge of a path that a planner returns is then proven free, between all steps.
+"""
+
+from collections.abc import Mapping
+from typing import Any, Unpack
+
+import numpy as np
+from numpy.typing import NDArray
+from ompl import base
+
+from ._rigid_ccd import Cell
+from ._settings import OfContacts
+
+
+class _Configurations:
+    """Converts states of a real vector space to configurations of a robot."""
+
+    def __init__(self, cell: Cell, held: Mapping[str, float] | None) -> None:
+        held = held or {}
+        names = cell.robot.joint_names
+        if unknown := set(held) - set(names):
+            raise ValueError(f"held: the robot has no joint {', '.join(sorted(unknown))}")
+        self.planned = [k for k, name in enumerate(names) if name not in held]
+        self._configuration = np.array([held.get(name, 0.0) for name in names])
+
+    def of(self, state: Any) -> NDArray[np.float64]:
+        configuration = self._configuration.copy()
+        for k, joint in enumerate(self.planned):
+            configuration[joint] = state[k]
+        return configuration
+
+
+def space_of(cell: Cell, held: Mapping[str, float] | None = None) -> Any:
+    """Returns the real vector space of a robot's joints within their limits.
+
+    Args:
+        cell: the cell with the robot.
+        held: positions of joints that do not move, by their names.
+    """
+    planned = _Configurations(cell, held).planned
+    limits = cell.robot.limits[planned]
+    if not np.isfinite(limits).all():
+        raise ValueError("a joint without limits: make the space, with bounds of your own")
+    space, bounds = base.RealVectorStateSpace(len(planned)), base.RealVectorBounds(len(planned))
+    for k, (low, high) in enumerate(limits):
+        bounds.setLow(k, float(low))
+        bounds.setHigh(k, float(high))
+    space.setBounds(bounds)
+    return space
+
+
+class StateValidityChecker(base.StateValidityChecker):  # type: ignore[misc, unused-ignore]
+    """Finds a state valid if the robot touches nothing there.
+
+    Args:
+        information: the space information, of a real vector space with a dimension for each joint that is not held.
+        cell: the cell, which may change between calls.
+        held: positions of joints that do not move, by their names.
+        settings: those of `Cell.is_free`.
+    """
+
+    def __init__(
+        self,
+        information: Any,
+        cell: Cell,
+        held: Mapping[str, float] | None = None,
+        **settings: Unpack[OfContacts],
+    ) -> None:
+        super().__init__(information)
+        self._cell, self._configurations, self._settings = cell, _Configurations(cell, held), settings
+
+    def isValid(self, state: Any) -> bool:  # noqa: N802
+        return self._cell.is_free(self._configurations.of(state), **self._settings)
+
+
+class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore]
+    """Finds a motion valid if the robot touches nothing between its two states: proven, not sampled.
+
+    The arguments are those of `StateValidityChecker`.
+    """
+
+    def __init__(
+        self,
+        information: Any,
+        cell: Cell,
+        held: Mapping[str, float] | None = None,
+        **settings: Unpack[OfContacts],
+    ) -> None:
+        super().__init__(information)
+        self._cell, self._configurations, self._settings = cell, _Configurations(cell, held), settings
+
+    def checkMotion(self, start: Any, end: Any) -> bool:  # noqa: N802
+        return self._cell.is_free(self._edge(start, end), **self._settings)
+
+    def last_valid(self, start: Any, end: Any) -> float:
+        """Returns the share of the motion before which nothing touches; 1 if all of it is free.
+
+        OMPL's interface to Python has no third argument of `checkMotion`, which asks for this.
+        """
+        contact = self._cell.first_contact(self._edge(start, end), **self._settings)
+        return 1.0 if contact is None else contact.share
+
+    def _edge(self, start: Any, end: Any) -> NDArray[np.float64]:
+        return np.array([self._configurations.of(start), self._configurations.of(end)])
