@@ -9,12 +9,17 @@ use crate::robot::Robot;
 use rigid_ccd::{Error, ParallelSolver};
 use search::PairSearch;
 
+/// The distance, in metres, at which a body holds a point of a joint's axis. Two bodies that hold it are at most twice as
+/// far apart.
+const TOUCHING_DISTANCE: f64 = 1e-9;
+
 /// Whether two links touch, over all configurations within the limits of the joints.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkMeeting {
     /// The links never touch: that is proven for all configurations.
     Never,
-    /// The links touch in every configuration, because no joint moves one against the other.
+    /// The links touch in every configuration, to within two nanometres: no joint moves one against the other, or both hold a
+    /// point on the axis of the one joint between them.
     Always,
     /// The links touch in one configuration, and are apart in another.
     Sometimes {

@@ -1,13 +1,14 @@
 //! The search for proofs about one pair of links after another.
 
-use super::LinkMeeting;
 use super::joint_box::JointBox;
+use super::{LinkMeeting, TOUCHING_DISTANCE};
 use crate::cell::Cell;
 use crate::solver::measure::{Measured, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
 use crate::solver::placement::{Placement, pose_of};
+use crate::tuning::HINGE_POINTS;
 use ccd_core::order::greater;
-use rigid_ccd::{Error, Pose, Solver};
+use rigid_ccd::{Body, Error, Pose, Solver};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -53,6 +54,9 @@ impl<'c> PairSearch<'c> {
         let Some(all) = JointBox::between(self.cell, links) else {
             return Ok(undecided(0.0, None, None));
         };
+        if self.meet_on_hinge(links, &all)? {
+            return Ok(LinkMeeting::Always);
+        }
         let weights = self.weights(&all);
         let is_rigid = self.cell.robot().are_rigidly_connected(links[0], links[1]);
         let mut waiting = BinaryHeap::from([Waiting(all)]);
@@ -86,6 +90,52 @@ impl<'c> PairSearch<'c> {
             return Ok(LinkMeeting::Never);
         }
         Ok(undecided(share, touching, apart))
+    }
+
+    /// Returns whether one joint that turns is between two links, with a point on its axis that both links hold. That point
+    /// rests in both frames.
+    fn meet_on_hinge(&mut self, links: [usize; 2], all: &JointBox) -> Result<bool, Error> {
+        let (cell, kinematics) = (self.cell, self.cell.kinematics());
+        let between = cell.robot().chain_between(links[0], links[1]);
+        let joints = between.joint_numbers().iter();
+        let moving: Vec<usize> = joints
+            .filter_map(|&joint| kinematics.number(joint))
+            .collect();
+        let &[number] = &*moving else {
+            return Ok(false);
+        };
+        let joint = &kinematics.joints()[number];
+        if joint.is_prismatic {
+            return Ok(false);
+        }
+        self.placement.place_box(cell, &all.middle(), |_| 0.0);
+        let point = Body::sphere(TOUCHING_DISTANCE)?;
+        let parts = cell.parts()[..cell.robot_part_count()].iter();
+        let own = parts.filter(|part| links.contains(&cell.link_of(part.owner)));
+        let reach = own.map(|part| part.reach()).fold(0.0, greater);
+        for k in 0..=HINGE_POINTS {
+            let along = reach * (2.0 * f64::from(k) / f64::from(HINGE_POINTS) - 1.0);
+            let parent = self.placement.frames[joint.parent];
+            let at = Pose::at(parent.point(joint.origin + along * joint.axis))?;
+            if self.holds(links[0], (&point, at))? && self.holds(links[1], (&point, at))? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Returns whether a body of a link touches another body.
+    fn holds(&mut self, link: usize, other: (&Body, Pose)) -> Result<bool, Error> {
+        for number in 0..self.cell.robot_body_count() {
+            if self.cell.link_of(number) == link {
+                let (_, pose) = self.posed_body(number)?;
+                let body = &*self.cell.bodies()[number].body;
+                if self.solver.distance((body, pose), other)?.outcome.upper() <= 0.0 {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
     }
 
     /// Measures both links in the middle of a box, against how far they move within it.

@@ -34,7 +34,7 @@ fn no_configuration_contradicts_a_proof() {
                 LinkMeeting::Always => {
                     always += 1;
                     assert!(
-                        samples.iter().all(|&distance| distance <= 1e-9),
+                        samples.iter().all(|&distance| distance <= 3e-9),
                         "{links:?}"
                     );
                 }
@@ -57,7 +57,7 @@ fn no_configuration_contradicts_a_proof() {
             }
         }
     }
-    let enough = never > 20 && sometimes > 50 && undecided > 5;
+    let enough = never > 20 && always > 0 && sometimes > 40 && undecided > 5;
     assert!(enough, "{never} {always} {sometimes} {undecided}");
 }
 
@@ -101,4 +101,30 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
         matches!(turning, LinkMeeting::Sometimes { .. }),
         "{turning:?}"
     );
+}
+
+/// Tests that two links which both hold a point of the hinge between them always touch, and that links which overlap in
+/// most configurations, but do not hold the hinge, are not said to.
+#[test]
+fn links_that_hold_their_hinge_always_touch() {
+    let meeting = |offset: f64| {
+        let ball = || Body::sphere(0.3).unwrap();
+        let at = Pose::at([offset, 0.0, 0.7]).unwrap();
+        let links = vec![
+            Link::named("base").with_body(ball(), at),
+            Link::named("arm").with_body(ball(), at),
+        ];
+        let joints = vec![Joint {
+            name: "hinge".into(),
+            parent: "base".into(),
+            child: "arm".into(),
+            joint: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+            position: Position::Free,
+        }];
+        let robot = Robot::new(links, joints).unwrap();
+        robot.link_meetings(2_000).unwrap().remove(0).1
+    };
+    assert_eq!(meeting(0.29), LinkMeeting::Always);
+    // Half a turn brings the balls 0.62 apart at their centres.
+    assert!(matches!(meeting(0.31), LinkMeeting::Sometimes { .. }));
 }
