@@ -164,7 +164,8 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Guarantee
     /// No pair is ever nearer than the lower bound, and the nearest one comes at least as near as the upper bound. They
-    /// differ by at most the tolerance, unless a limit is reached.
+    /// differ by at most the tolerance, and by what the nearest bodies [exceed](rigid_ccd::Body::excess) their shapes by, unless
+    /// a limit is reached.
     ///
     /// # Errors
     /// [`PathError`].

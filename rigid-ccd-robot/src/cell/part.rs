@@ -43,6 +43,8 @@ pub(crate) struct Part {
     pub(crate) radius: f64,
     /// Whether the grown hull is the body itself.
     pub(crate) is_convex: bool,
+    /// By how much the body exceeds the shape that it encloses.
+    pub(crate) excess: f64,
     /// The centre and the half extents of the box along the frame's axes around the grown hull.
     pub(crate) centre: DVec3,
     pub(crate) half_extents: DVec3,
@@ -133,6 +135,7 @@ impl Part {
             points,
             radius,
             is_convex: placed.body.pieces().len() == 1,
+            excess: placed.body.excess(),
             centre,
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
             ball_radius: farthest + radius,

@@ -130,9 +130,11 @@ impl Search<'_> {
     fn keep_distance(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
         if let Some(limit) = outcome.limit() {
             self.found.limit = Some((limit, 0.0));
-            self.found.lower = lesser(self.found.lower, outcome.lower());
         }
-        let upper = outcome.upper() + 2.0 * self.placement.rounding;
+        let rounding = 2.0 * self.placement.rounding;
+        // The bounds of bodies that exceed their shapes may differ by more than the tolerance.
+        self.found.lower = lesser(self.found.lower, outcome.lower() - rounding);
+        let upper = outcome.upper() + rounding;
         if upper < self.found.upper {
             let at = open.point(outcome.time().unwrap_or(0.0));
             self.keep_nearest(&open.pair, at, upper);

@@ -75,7 +75,8 @@ pub(crate) fn measure(
     }
     pair.axis = bounds.axis;
     pair.proof_distance_share = (bounds.lower - radii) / required;
-    let upper = bounds.upper - radii + rounding;
+    // The shapes that both bodies enclose may be farther apart.
+    let upper = bounds.upper - radii + rounding + a.excess + b.excess;
     if bounds.upper <= until.upper {
         Measured::Near
     } else {

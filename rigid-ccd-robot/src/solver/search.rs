@@ -57,7 +57,7 @@ pub(crate) struct Found {
     pub(crate) end: f64,
     /// The limit that ended the search, and the point up to which everything was searched.
     pub(crate) limit: Option<(Limit, f64)>,
-    /// A lower bound of the distance of what a limit left open.
+    /// A lower bound of the distance of what the engine measured, and of what a limit left open.
     pub(crate) lower: f64,
 }
 
@@ -293,7 +293,9 @@ impl<'c> Search<'c> {
     /// Keeps a contact of a pair at a point. The search ends unless an earlier contact is looked for.
     pub(super) fn keep_contact(&mut self, pair: &PartPair, at: f64) -> ControlFlow<()> {
         self.found.nearest = Some((at, *pair));
-        self.found.upper = 0.0;
+        let parts = self.cell.parts();
+        self.found.upper = parts[pair.a as usize].excess + parts[pair.b as usize].excess;
+        self.found.lower = 0.0;
         self.found.end = at;
         match self.question {
             Question::FirstContact => Continue(()),

@@ -234,3 +234,46 @@ fn a_configuration_is_a_path() {
         ));
     }
 }
+
+/// Tests that the lower bound holds for a cylinder, which a polytope encloses, and the upper bound as well.
+#[test]
+fn bounds_hold_for_the_shapes_that_bodies_enclose() {
+    let slide = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let cylinder = Body::cylinder(0.1, 0.5).unwrap();
+    assert!(cylinder.excess() > 1e-6);
+    let links = vec![
+        Link::named("base"),
+        Link::named("rod").with_body(cylinder, Pose::IDENTITY),
+    ];
+    let joint = Joint {
+        name: "rail".into(),
+        parent: "base".into(),
+        child: "rod".into(),
+        joint: slide,
+        position: Position::Free,
+    };
+    let robot = Robot::new(links, vec![joint]).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    for k in 0..60 {
+        let angle = f64::from(k) / 60.0 * std::f64::consts::FRAC_PI_2;
+        let at = DVec3::new(0.3 * angle.cos(), 0.3 * angle.sin(), 0.0);
+        let mut cell = Cell::new(robot.clone(), pairs.clone());
+        let ball = Body::sphere(0.05).unwrap();
+        cell.add_obstacle("ball", ball, Pose::at(at).unwrap())
+            .unwrap();
+        for tolerance in [1e-6, 1e-9] {
+            let settings = Settings {
+                tolerance,
+                ..Settings::DEFAULT
+            };
+            let mut solver = cell.solver().with_settings(settings);
+            for path in [&[[-0.9], [0.0]][..], &[[0.0]], &[[-1.1], [0.7]]] {
+                let nearest = at.x.clamp(path[0][0], path[path.len() - 1][0]);
+                let exact = (at.x - nearest).hypot(at.y) - 0.15;
+                let found = solver.closest_approach(path).unwrap();
+                let is_bracketed = found.lower <= exact + 1e-12 && found.upper >= exact - 1e-12;
+                assert!(exact < 1e-3 || is_bracketed, "{found:?} {exact}");
+            }
+        }
+    }
+}
