@@ -1,6 +1,6 @@
 //! The Python class `Robot`.
 
-use crate::arrays::float64_array;
+use crate::arrays::flat_numbers;
 use crate::errors::{file_error, input_error};
 use crate::motion::pose_matrix;
 use crate::table::PyTable;
@@ -109,8 +109,7 @@ impl PyRobot {
         configuration: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let py = configuration.py();
-        let positions = float64_array(configuration, "configuration")?;
-        let positions: Vec<f64> = positions.call_method0("ravel")?.extract()?;
+        let positions = flat_numbers(configuration, "configuration")?;
         let pose = self.robot.pose(link, &positions).map_err(input_error)?;
         Ok(pose_matrix(py, &pose))
     }

@@ -231,20 +231,14 @@ impl Cell {
         }
     }
 
-    /// Iterates over the pairs of the robot's own parts that are checked, each with the nearest frame above both.
-    pub(crate) fn checked_own_pairs_with_common_frame(
-        &self,
-    ) -> impl Iterator<Item = ([usize; 2], usize)> {
+    /// Iterates over the pairs of the robot's own parts that are checked.
+    pub(crate) fn checked_own_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let parts = || self.parts[..self.robot_part_count].iter().enumerate();
-        let pairs = parts().flat_map(move |(a, part_a)| {
+        parts().flat_map(move |(a, part_a)| {
             let earlier = parts().take(a);
             let checked =
                 earlier.filter(move |(_, part_b)| self.is_checked(part_a.owner, part_b.owner));
             checked.map(move |(b, _)| [a, b])
-        });
-        pairs.map(move |pair| {
-            let frames = pair.map(|part| self.parts[part].frame);
-            (pair, self.kinematics.common_frame(frames))
         })
     }
 

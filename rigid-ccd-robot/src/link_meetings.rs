@@ -54,13 +54,9 @@ impl Robot {
     /// # Errors
     /// An error of a query about a distance.
     pub fn link_meetings(&self, max_boxes: usize) -> Result<Vec<([usize; 2], LinkMeeting)>, Error> {
-        let cell = Cell::new(self.clone(), LinkPairs::from_robot(self));
-        let has_bodies = |link: &usize| !self.links()[*link].bodies.is_empty();
-        let links: Vec<usize> = (0..self.links().len()).filter(has_bodies).collect();
-        let mut pairs = Vec::new();
-        for (k, &one) in links.iter().enumerate() {
-            pairs.extend(links[k + 1..].iter().map(|&other| [one, other]));
-        }
+        let link_pairs = LinkPairs::from_robot(self);
+        let pairs: Vec<[usize; 2]> = link_pairs.all_pairs().collect();
+        let cell = Cell::new(self.clone(), link_pairs);
         let mut solvers = ParallelSolver::new(|| PairSearch::new(&cell));
         let meetings = solvers.map(&pairs, |search, &pair| search.decide(pair, max_boxes));
         let meetings = pairs.iter().zip(meetings);

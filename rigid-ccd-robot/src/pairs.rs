@@ -37,8 +37,7 @@ impl LinkPairs {
             links_with_bodies: links,
         };
         for [one, other] in pairs.all_pairs().collect::<Vec<_>>() {
-            let is_parent = |link, other| robot.parent_link(link) == Some(other);
-            let reason = if is_parent(one, other) || is_parent(other, one) {
+            let reason = if robot.are_neighbours(one, other) {
                 Some(SkipReason::Adjacent)
             } else {
                 let is_rigid = robot.are_rigidly_connected(one, other);
@@ -84,7 +83,7 @@ impl LinkPairs {
     }
 
     /// Iterates over all pairs of links with bodies.
-    fn all_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+    pub(crate) fn all_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let links = self.links_with_bodies.iter().enumerate();
         links.flat_map(|(k, &one)| {
             self.links_with_bodies[k + 1..]

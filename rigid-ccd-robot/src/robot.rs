@@ -230,6 +230,11 @@ impl Robot {
             .all(|step| self.position_sources[step.joint].is_none())
     }
 
+    /// Returns whether a joint connects two links directly.
+    pub(crate) fn are_neighbours(&self, one: usize, other: usize) -> bool {
+        self.parent_link(one) == Some(other) || self.parent_link(other) == Some(one)
+    }
+
     /// Returns the number of a link's parent link; `None` for the base.
     pub(crate) fn parent_link(&self, link: usize) -> Option<usize> {
         self.tree.parent(link)

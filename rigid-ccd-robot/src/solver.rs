@@ -20,7 +20,6 @@ pub use stretch::PathPoint;
 use crate::cell::{Cell, Item};
 use crate::error::PathError;
 use part_pairs::PartPair;
-use placement::pose_of;
 use rigid_ccd::answer::{HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Hit, Outcome, Settings, Solver};
@@ -214,13 +213,12 @@ impl<'c> CellSolver<'c> {
     /// Measures a pair at a point of the path.
     fn contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
         let bodies = pair.owners(self.cell.parts());
-        let frames = &self.search.place_frames(at).frames;
-        let placed = bodies.map(|body| &self.cell.bodies()[body]);
-        let [a, b] = placed.map(|placed| {
-            let pose = pose_of(&frames[placed.frame])?.compose(&placed.pose);
-            Ok::<_, Error>((&*placed.body, pose))
-        });
-        let outcome = self.distance.distance(a?, b?)?.outcome;
+        let placement = self.search.place_frames(at);
+        let (a, b) = (
+            placement.body(self.cell, bodies[0])?,
+            placement.body(self.cell, bodies[1])?,
+        );
+        let outcome = self.distance.distance(a, b)?.outcome;
         Ok(PathContact {
             at: PathPoint::of(at, self.search.segments()),
             between: bodies.map(|body| self.cell.item(body)),

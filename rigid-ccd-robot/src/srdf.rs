@@ -48,12 +48,10 @@ impl Robot {
             escape(robot_name)
         );
         for ([one, other], meeting) in meetings {
-            let are_neighbours =
-                self.parent_link(*one) == Some(*other) || self.parent_link(*other) == Some(*one);
             let reason = match meeting {
                 LinkMeeting::Never => "Never (proven)",
                 LinkMeeting::Always => "Always (proven)",
-                _ if are_neighbours => "Adjacent",
+                _ if self.are_neighbours(*one, *other) => "Adjacent",
                 LinkMeeting::Sometimes { .. } | LinkMeeting::Undecided { .. } => continue,
             };
             let [one, other] = [one, other].map(|&link| escape(&*self.links()[link].name));

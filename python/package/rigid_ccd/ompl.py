@@ -18,26 +18,35 @@ import numpy as np
 from numpy.typing import NDArray
 from ompl import base
 
+from ._answers import PathContact
 from ._rigid_ccd import Cell
 from ._settings import OfContacts
 
 
-class _Configurations:
-    """Converts states of a real vector space to configurations of a robot."""
+class _States:
+    """The states of a real vector space as configurations of a robot, and questions about them."""
 
-    def __init__(self, cell: Cell, held: Mapping[str, float] | None) -> None:
+    def __init__(self, cell: Cell, held: Mapping[str, float] | None, settings: OfContacts) -> None:
         held = held or {}
         names = cell.robot.joint_names
         if unknown := set(held) - set(names):
             raise ValueError(f"held: the robot has no joint {', '.join(sorted(unknown))}")
         self.planned = [k for k, name in enumerate(names) if name not in held]
         self._configuration = np.array([held.get(name, 0.0) for name in names])
+        self._cell, self._settings = cell, settings
 
-    def of(self, state: Any) -> NDArray[np.float64]:
-        configuration = self._configuration.copy()
-        for k, joint in enumerate(self.planned):
-            configuration[joint] = state[k]
-        return configuration
+    def is_free(self, *states: Any) -> bool:
+        return self._cell.is_free(self._path(states), **self._settings)
+
+    def first_contact(self, *states: Any) -> PathContact | None:
+        return self._cell.first_contact(self._path(states), **self._settings)
+
+    def _path(self, states: tuple[Any, ...]) -> NDArray[np.float64]:
+        path = np.tile(self._configuration, (len(states), 1))
+        for configuration, state in zip(path, states, strict=True):
+            for k, joint in enumerate(self.planned):
+                configuration[joint] = state[k]
+        return path
 
 
 def space_of(cell: Cell, held: Mapping[str, float] | None = None) -> Any:
@@ -47,7 +56,7 @@ def space_of(cell: Cell, held: Mapping[str, float] | None = None) -> Any:
         cell: the cell with the robot.
         held: positions of joints that do not move, by their names.
     """
-    planned = _Configurations(cell, held).planned
+    planned = _States(cell, held, {}).planned
     limits = cell.robot.limits[planned]
     if not np.isfinite(limits).all():
         raise ValueError("a joint without limits: make the space, with bounds of your own")
@@ -77,10 +86,10 @@ class StateValidityChecker(base.StateValidityChecker):  # type: ignore[misc, unu
         **settings: Unpack[OfContacts],
     ) -> None:
         super().__init__(information)
-        self._cell, self._configurations, self._settings = cell, _Configurations(cell, held), settings
+        self._states = _States(cell, held, settings)
 
     def isValid(self, state: Any) -> bool:  # noqa: N802
-        return self._cell.is_free(self._configurations.of(state), **self._settings)
+        return self._states.is_free(state)
 
 
 class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore]
@@ -97,18 +106,15 @@ class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore
         **settings: Unpack[OfContacts],
     ) -> None:
         super().__init__(information)
-        self._cell, self._configurations, self._settings = cell, _Configurations(cell, held), settings
+        self._states = _States(cell, held, settings)
 
     def checkMotion(self, start: Any, end: Any) -> bool:  # noqa: N802
-        return self._cell.is_free(self._edge(start, end), **self._settings)
+        return self._states.is_free(start, end)
 
     def last_valid(self, start: Any, end: Any) -> float:
         """Returns the share of the motion before which nothing touches; 1 if all of it is free.
 
         OMPL's interface to Python has no third argument of `checkMotion`, which asks for this.
         """
-        contact = self._cell.first_contact(self._edge(start, end), **self._settings)
+        contact = self._states.first_contact(start, end)
         return 1.0 if contact is None else contact.share
-
-    def _edge(self, start: Any, end: Any) -> NDArray[np.float64]:
-        return np.array([self._configurations.of(start), self._configurations.of(end)])

@@ -18,9 +18,8 @@ impl JointBox {
     /// limits does not come back to where it was after a turn.
     pub(crate) fn between(cell: &Cell, links: [usize; 2]) -> Option<Self> {
         let robot = cell.robot();
-        let limits = robot.limits();
-        let mut ranges: Vec<[f64; 2]> = limits.map(|limits| [at_rest(limits); 2]).collect();
         let limits: Vec<[f64; 2]> = robot.limits().collect();
+        let mut ranges: Vec<[f64; 2]> = limits.iter().map(|&limits| [at_rest(limits); 2]).collect();
         let between = robot.chain_between(links[0], links[1]);
         for &joint in between.joint_numbers() {
             let Some(source) = robot.source(joint) else {
@@ -41,14 +40,13 @@ impl JointBox {
 
     /// Returns the configuration in the middle.
     pub(crate) fn middle(&self) -> Vec<f64> {
-        let middle = |[low, high]: &[f64; 2]| 0.5 * low + 0.5 * high;
         self.ranges.iter().map(middle).collect()
     }
 
     /// Returns how far the position of a joint is at most from that in the middle.
     pub(crate) fn deviation(&self, source: PositionSource) -> f64 {
-        let [low, high] = self.ranges[source.number()];
-        let middle = 0.5 * low + 0.5 * high;
+        let range = &self.ranges[source.number()];
+        let ([low, high], middle) = (*range, middle(range));
         let half = if high - middle > middle - low {
             high - middle
         } else {
@@ -65,7 +63,7 @@ impl JointBox {
         let joints = 0..self.ranges.len();
         let widest = joints.max_by(|&a, &b| effect(a).total_cmp(&effect(b)))?;
         let [low, high] = self.ranges[widest];
-        let middle = 0.5 * low + 0.5 * high;
+        let middle = middle(&self.ranges[widest]);
         if !(low < middle && middle < high) {
             return None;
         }
@@ -76,6 +74,10 @@ impl JointBox {
             half
         }))
     }
+}
+
+fn middle([low, high]: &[f64; 2]) -> f64 {
+    0.5 * low + 0.5 * high
 }
 
 /// Returns a position within limits for a joint that does not matter: that nearest to 0.

@@ -5,7 +5,7 @@ use super::{LinkMeeting, TOUCHING_DISTANCE};
 use crate::cell::Cell;
 use crate::solver::measure::{Measured, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
-use crate::solver::placement::{Placement, pose_of};
+use crate::solver::placement::Placement;
 use crate::tuning::HINGE_POINTS;
 use ccd_core::order::greater;
 use rigid_ccd::{Body, Error, Pose, Solver};
@@ -57,7 +57,7 @@ impl<'c> PairSearch<'c> {
         if self.meet_on_hinge(links, &all)? {
             return Ok(LinkMeeting::Always);
         }
-        let weights = self.weights(&all);
+        let weights = self.weights();
         let is_rigid = self.cell.robot().are_rigidly_connected(links[0], links[1]);
         let mut waiting = BinaryHeap::from([Waiting(all)]);
         let mut pairs = self.part_pairs(links);
@@ -128,9 +128,8 @@ impl<'c> PairSearch<'c> {
     fn holds(&mut self, link: usize, other: (&Body, Pose)) -> Result<bool, Error> {
         for number in 0..self.cell.robot_body_count() {
             if self.cell.link_of(number) == link {
-                let (_, pose) = self.posed_body(number)?;
-                let body = &*self.cell.bodies()[number].body;
-                if self.solver.distance((body, pose), other)?.outcome.upper() <= 0.0 {
+                let body = self.placed_body(number)?;
+                if self.solver.distance(body, other)?.outcome.upper() <= 0.0 {
                     return Ok(true);
                 }
             }
@@ -158,15 +157,9 @@ impl<'c> PairSearch<'c> {
             }
             // The engine measures the bodies themselves; frames become poses with an error like their own.
             let rounding = 4.0 * self.placement.rounding;
-            let outcome = {
-                let [a, b] = pair
-                    .owners(self.cell.parts())
-                    .map(|body| self.posed_body(body));
-                let [a, b] = [a?, b?];
-                let bodies = self.cell.bodies();
-                let body = |(number, pose): (usize, Pose)| (&*bodies[number].body, pose);
-                self.solver.distance(body(a), body(b))?.outcome
-            };
+            let [a, b] = pair.owners(self.cell.parts());
+            let (a, b) = (self.placed_body(a)?, self.placed_body(b)?);
+            let outcome = self.solver.distance(a, b)?.outcome;
             if outcome.upper() <= 0.0 {
                 look.touches = Some(true);
             } else if !(outcome.lower() > rounding) && look.touches == Some(false) {
@@ -184,10 +177,8 @@ impl<'c> PairSearch<'c> {
         Ok(look)
     }
 
-    fn posed_body(&self, number: usize) -> Result<(usize, Pose), Error> {
-        let placed = &self.cell.bodies()[number];
-        let frame = pose_of(&self.placement.frames[placed.frame])?;
-        Ok((number, frame.compose(&placed.pose)))
+    fn placed_body(&self, number: usize) -> Result<(&'c Body, Pose), Error> {
+        self.placement.body(self.cell, number)
     }
 
     /// Returns all pairs of parts of two links.
@@ -201,23 +192,16 @@ impl<'c> PairSearch<'c> {
         let mut pairs = Vec::new();
         for &a in &parts_of(one) {
             for &b in &parts_of(other) {
-                let frame = cell
-                    .kinematics()
-                    .common_frame([a, b].map(|part| parts[part].frame));
-                let slots = [a, b].map(|part| {
-                    self.placement
-                        .displacements
-                        .slot(cell.kinematics(), part, frame)
-                });
-                pairs.push(PartPair::new([a, b], slots, 0.0));
+                let displacements = &self.placement.displacements;
+                pairs.push(PartPair::of_robot(cell, displacements, [a, b]));
             }
         }
         pairs
     }
 
     /// Returns for each joint of a configuration about how far its unit of position moves things.
-    fn weights(&self, joint_box: &JointBox) -> Vec<f64> {
-        let mut weights = vec![0.0; joint_box.middle().len()];
+    fn weights(&self) -> Vec<f64> {
+        let mut weights = vec![0.0; self.cell.robot().limits().len()];
         for joint in self.cell.kinematics().joints() {
             let effect = joint.source.factor().abs() * if joint.is_prismatic { 2.0 } else { 1.0 };
             let number = joint.source.number();

@@ -2,7 +2,7 @@
 
 use super::Question;
 use super::open_pairs::OpenPair;
-use super::part_pairs::PartPair;
+use super::part_pairs::{PartPair, sort_by_share};
 use super::search::Search;
 use super::stretch::Step;
 use ccd_core::order::{greater, lesser};
@@ -17,7 +17,7 @@ impl Search<'_> {
             return Ok(Continue(()));
         }
         let mut suspects = std::mem::take(&mut self.suspects);
-        suspects.sort_unstable_by(|a, b| a.proof_distance_share.total_cmp(&b.proof_distance_share));
+        sort_by_share(&mut suspects);
         let mut step = Ok(Continue(()));
         for (k, pair) in suspects.iter().enumerate() {
             let bodies = pair.owners(self.cell.parts());

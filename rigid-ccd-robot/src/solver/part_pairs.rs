@@ -35,7 +35,15 @@ pub(crate) struct PartPairs<'c> {
 }
 
 impl PartPair {
-    pub(crate) fn new([a, b]: [usize; 2], slots: [Option<u32>; 2], margin: f64) -> Self {
+    /// Creates a pair of two of the robot's own parts, which the nearest frame above both sees move.
+    pub(crate) fn of_robot(cell: &Cell, displacements: &Displacements, parts: [usize; 2]) -> Self {
+        let kinematics = cell.kinematics();
+        let frame = kinematics.common_frame(parts.map(|part| cell.parts()[part].frame));
+        let slots = parts.map(|part| displacements.slot(kinematics, part, frame));
+        PartPair::new(parts, slots, 0.0)
+    }
+
+    fn new([a, b]: [usize; 2], slots: [Option<u32>; 2], margin: f64) -> Self {
         PartPair {
             a: a as u32,
             b: b as u32,
@@ -62,11 +70,8 @@ impl PartPair {
 impl<'c> PartPairs<'c> {
     pub(crate) fn new(cell: &'c Cell, displacements: &Displacements) -> Self {
         let own = cell
-            .checked_own_pairs_with_common_frame()
-            .map(|([a, b], frame)| {
-                let slots = [a, b].map(|part| displacements.slot(cell.kinematics(), part, frame));
-                PartPair::new([a, b], slots, 0.0)
-            });
+            .checked_own_pairs()
+            .map(|parts| PartPair::of_robot(cell, displacements, parts));
         let mut pairs = PartPairs {
             boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
             own: own.collect(),
@@ -116,4 +121,9 @@ impl<'c> PartPairs<'c> {
         }
         pairs.extend_from_slice(&self.own);
     }
+}
+
+/// Sorts pairs by their share, that of the nearest first.
+pub(crate) fn sort_by_share(pairs: &mut [PartPair]) {
+    pairs.sort_unstable_by(|a, b| a.proof_distance_share.total_cmp(&b.proof_distance_share));
 }

@@ -8,7 +8,7 @@ use crate::cell::Cell;
 use crate::robot::PositionSource;
 use rigid_ccd::glam::DQuat;
 use rigid_ccd::oracle::Frame;
-use rigid_ccd::{Error, Pose};
+use rigid_ccd::{Body, Error, Pose};
 
 /// The frames of all links in the middle of a stretch of the path, and bounds of how far parts move from there within the
 /// stretch.
@@ -86,10 +86,17 @@ impl Placement {
         let positions = self.positions.iter().copied();
         cell.kinematics().place(positions, &mut self.frames);
     }
-}
 
-/// Converts a frame to a pose. The rotation is rounded to a unit quaternion.
-pub(crate) fn pose_of(frame: &Frame) -> Result<Pose, Error> {
-    let rotation = DQuat::from_mat3(&frame.rotation).normalize();
-    Ok(Pose::new(frame.translation, rotation)?)
+    /// Returns a body of the cell at its pose in the base. The rotation of its frame is rounded to a unit quaternion.
+    pub(crate) fn body<'c>(
+        &self,
+        cell: &'c Cell,
+        number: usize,
+    ) -> Result<(&'c Body, Pose), Error> {
+        let placed = &cell.bodies()[number];
+        let frame = &self.frames[placed.frame];
+        let rotation = DQuat::from_mat3(&frame.rotation).normalize();
+        let pose = Pose::new(frame.translation, rotation)?;
+        Ok((&placed.body, pose.compose(&placed.pose)))
+    }
 }

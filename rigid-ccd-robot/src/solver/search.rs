@@ -8,7 +8,7 @@ use super::Question;
 use super::exact::ExactPairs;
 use super::measure::{Measured, Thresholds, measure, volume_gap};
 use super::open_pairs::OpenPairs;
-use super::part_pairs::{PartPair, PartPairs};
+use super::part_pairs::{PartPair, PartPairs, sort_by_share};
 use super::placement::Placement;
 use super::stretch::{Step, Stretch};
 use super::time_limit::TimeLimit;
@@ -161,8 +161,7 @@ impl<'c> Search<'c> {
         }
         let undecided = first..self.candidates.len();
         if !undecided.is_empty() {
-            self.candidates[first..]
-                .sort_unstable_by(|a, b| a.proof_distance_share.total_cmp(&b.proof_distance_share));
+            sort_by_share(&mut self.candidates[first..]);
             let [earlier, later] = stretch.halves();
             let halves = match self.question {
                 Question::FirstContact => [earlier, later],
@@ -265,9 +264,10 @@ impl<'c> Search<'c> {
             .append_near(&self.placement, allowance, &mut self.candidates);
         if self.question == Question::ClosestApproach {
             // The nearest bodies first: others are then farther apart than these by their bounding volumes.
-            let (cell, placement) = (self.cell, &self.placement);
-            let gap = |pair: &PartPair| volume_gap(cell, placement, pair);
-            self.candidates[first..].sort_unstable_by(|a, b| gap(a).total_cmp(&gap(b)));
+            for pair in &mut self.candidates[first..] {
+                pair.proof_distance_share = volume_gap(self.cell, &self.placement, pair);
+            }
+            sort_by_share(&mut self.candidates[first..]);
         }
     }
 

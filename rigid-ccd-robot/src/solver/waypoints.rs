@@ -1,7 +1,7 @@
 //! The positions of all moving joints along a path of configurations.
 
 use super::kinematics::Kinematics;
-use super::stretch::Stretch;
+use super::stretch::{PathPoint, Stretch};
 use ccd_core::order::greater;
 
 /// A path, as positions of all moving joints at its configurations. Between two of them all joints move at constant rates.
@@ -42,7 +42,7 @@ impl Waypoints {
     /// Computes the positions of all joints at a point of the path.
     #[inline(always)]
     pub(crate) fn interpolate(&self, at: f64, positions: &mut Vec<f64>) {
-        let segment = (at as usize).min(self.segments().saturating_sub(1));
+        let segment = PathPoint::of(at, self.segments()).segment;
         self.interpolate_in(segment, at, positions);
     }
 
@@ -74,7 +74,7 @@ impl Waypoints {
         } else if stretch.is_within_segment() {
             // The middle is at the same distance from both ends.
             let half = 0.5 * (stretch.to - stretch.from);
-            let segment = (stretch.from as usize).min(self.segments() - 1);
+            let segment = PathPoint::of(stretch.from, self.segments()).segment;
             let ends = self.at(segment).iter().zip(self.at(segment + 1));
             deviations.extend(ends.map(|(from, to)| half * (to - from).abs()));
         } else {
