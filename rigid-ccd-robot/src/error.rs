@@ -125,6 +125,16 @@ pub enum PathError {
         /// The reason why it does not fit.
         error: RobotError,
     },
+    /// A number of the [`RangeSettings`](crate::RangeSettings) is out of its range.
+    #[error("{name}: {value} is not {allowed}")]
+    RangeSetting {
+        /// The name of the number.
+        name: &'static str,
+        /// The number.
+        value: f64,
+        /// The values that are allowed.
+        allowed: &'static str,
+    },
     /// A query is invalid, or reached a limit.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),

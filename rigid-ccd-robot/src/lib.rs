@@ -24,7 +24,7 @@
 //! |---|---|
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `cell` | a robot among obstacles: [`Cell`] |
-//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine |
+//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept |
 //! | `link_meetings` | whether two links can ever touch, by branch and bound over their joints: [`Robot::link_meetings`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
@@ -48,7 +48,9 @@ pub use error::{PathError, RobotError};
 pub use link_meetings::LinkMeeting;
 pub use pairs::{LinkPairs, SkipReason};
 pub use robot::{ChainBetween, Joint, Link, LinkBody, Position, Robot};
-pub use solver::{CellSolver, ClosestApproach, PathContact, PathOutcome, PathPoint};
+pub use solver::{
+    CellSolver, ClearanceRange, ClosestApproach, PathContact, PathOutcome, PathPoint, RangeSettings,
+};
 pub use urdf::{BodyElements, MeshModel, Urdf, UrdfError};
 
 /// The example in the README, run as a doctest.

@@ -1,6 +1,7 @@
 //! Questions about paths: a robot moves through configurations, between two of them all joints at constant rates.
 
 mod boxes;
+mod clearance_ranges;
 mod displacement;
 mod engine;
 mod exact;
@@ -13,8 +14,10 @@ mod rounding;
 mod search;
 mod stretch;
 mod time_limit;
+mod violation;
 mod waypoints;
 
+pub use clearance_ranges::{ClearanceRange, RangeSettings};
 pub use stretch::PathPoint;
 
 use crate::cell::{Cell, Item};
@@ -199,6 +202,13 @@ impl<'c> CellSolver<'c> {
     }
 
     fn answer<Q: AsRef<[f64]>>(&mut self, question: Question, path: &[Q]) -> Result<(), PathError> {
+        self.begin(path)?;
+        let whole = self.search.whole_path();
+        Ok(self.search.answer(question, whole)?)
+    }
+
+    /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
+    fn begin<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<(), PathError> {
         if path.is_empty() {
             return Err(PathError::Empty);
         }
@@ -207,7 +217,8 @@ impl<'c> CellSolver<'c> {
             checked.map_err(|error| PathError::Configuration { number, error })?;
         }
         self.search.settings().check().map_err(Error::from)?;
-        Ok(self.search.answer(question, path)?)
+        self.search.begin(path);
+        Ok(())
     }
 
     /// Measures a pair at a point of the path.

@@ -117,7 +117,7 @@ fn gap_of_volumes(
 
 /// Returns the first direction in which a pair is measured: to the nearest point of an obstacle's box, or between centres.
 #[inline(always)]
-fn first_axis(b: &Part, [centre_a, centre_b]: [DVec3; 2], is_obstacle: bool) -> DVec3 {
+pub(super) fn first_axis(b: &Part, [centre_a, centre_b]: [DVec3; 2], is_obstacle: bool) -> DVec3 {
     if is_obstacle {
         let nearest = centre_a.clamp(centre_b - b.half_extents, centre_b + b.half_extents);
         let axis = nearest - centre_a;
@@ -130,7 +130,7 @@ fn first_axis(b: &Part, [centre_a, centre_b]: [DVec3; 2], is_obstacle: bool) -> 
 
 /// Returns the vertex of the Minkowski difference of two hulls with the least height along a direction.
 #[inline(always)]
-fn vertex([a, b]: [&Part; 2], frames: &[Frame; 2], direction: DVec3) -> Vertex {
+pub(super) fn vertex([a, b]: [&Part; 2], frames: &[Frame; 2], direction: DVec3) -> Vertex {
     let in_a = frames[0].inverse_vector(direction);
     let in_b = -frames[1].inverse_vector(direction);
     let (index_a, index_b) = (

@@ -30,6 +30,8 @@ pub(crate) struct PartPairs<'c> {
     own: Vec<PartPair>,
     /// The margin of pairs without one of their own.
     margin: f64,
+    /// What is added to the margins of all pairs.
+    growth: f64,
     /// The largest margin of a pair of a part and an obstacle.
     largest_margin: f64,
 }
@@ -77,18 +79,35 @@ impl<'c> PartPairs<'c> {
             own: own.collect(),
             cell,
             margin: 0.0,
+            growth: 0.0,
             largest_margin: 0.0,
         };
-        pairs.set_margin(0.0);
+        pairs.update_margins();
         pairs
     }
 
     /// Sets the margin of all pairs that have none of their own.
     pub(crate) fn set_margin(&mut self, margin: f64) {
         self.margin = margin;
-        self.largest_margin = self.cell.largest_obstacle_margin(margin);
+        self.update_margins();
+    }
+
+    /// Adds a distance to the margins of all pairs, instead of the one before.
+    pub(crate) fn set_growth(&mut self, growth: f64) {
+        self.growth = growth;
+        self.update_margins();
+    }
+
+    /// Returns what is added to the margins of all pairs.
+    pub(crate) fn growth(&self) -> f64 {
+        self.growth
+    }
+
+    fn update_margins(&mut self) {
+        let (cell, margin, growth) = (self.cell, self.margin, self.growth);
+        self.largest_margin = cell.largest_obstacle_margin(margin) + growth;
         for pair in &mut self.own {
-            pair.margin = self.cell.margin(pair.owners(self.cell.parts()), margin);
+            pair.margin = cell.margin(pair.owners(cell.parts()), margin) + growth;
         }
     }
 
@@ -116,6 +135,7 @@ impl<'c> PartPairs<'c> {
                 .for_each_meeting(centre - extents, centre + extents, |obstacle| {
                     let b = robot_parts + obstacle;
                     let margin = cell.margin([part.owner, parts[b].owner], self.margin);
+                    let margin = margin + self.growth;
                     pairs.push(PartPair::new([a, b], [slot, None], margin));
                 });
         }

@@ -115,24 +115,28 @@ impl<'c> Search<'c> {
         self.path.segments()
     }
 
-    /// Answers a question about a path of at least one configuration; the answer is in `found`.
-    pub(crate) fn answer<Q: AsRef<[f64]>>(
-        &mut self,
-        question: Question,
-        path: &[Q],
-    ) -> Result<(), Error> {
-        self.question = question;
+    /// Takes a path of at least one configuration, which the questions that follow are about. Their time starts now.
+    pub(crate) fn begin<Q: AsRef<[f64]>>(&mut self, path: &[Q]) {
         self.time_limit = TimeLimit::starting_now(&self.settings);
-        self.found = Found::NOTHING;
         self.path.set(self.cell.kinematics(), path);
         self.placement.begin(self.cell, &self.path);
+    }
+
+    /// Answers a question about a stretch of the path; the answer is in `found`.
+    pub(crate) fn answer(&mut self, question: Question, stretch: Stretch) -> Result<(), Error> {
+        self.question = question;
+        self.found = Found::NOTHING;
         self.candidates.clear();
         self.open_pairs.clear();
-        let whole = Stretch::whole(self.path.segments());
-        match self.search(whole, None)? {
+        match self.search(stretch, None)? {
             Break(()) => Ok(()),
             Continue(()) => self.ask_engine(),
         }
+    }
+
+    /// Returns the whole path as a stretch.
+    pub(crate) fn whole_path(&self) -> Stretch {
+        Stretch::whole(self.path.segments())
     }
 
     /// Places the frames of all links at a point of the path, and returns them.
@@ -253,7 +257,7 @@ impl<'c> Search<'c> {
 
     /// Appends all pairs that may come near each other in the stretch that is placed.
     #[inline(always)]
-    fn append_all_pairs(&mut self) {
+    pub(super) fn append_all_pairs(&mut self) {
         let first = self.candidates.len();
         let allowance = match self.question {
             Question::AnyContact | Question::FirstContact => self.settings.tolerance,
@@ -271,7 +275,7 @@ impl<'c> Search<'c> {
         }
     }
 
-    fn is_convex(&self, pair: &PartPair) -> bool {
+    pub(super) fn is_convex(&self, pair: &PartPair) -> bool {
         let parts = self.cell.parts();
         [pair.a, pair.b]
             .iter()

@@ -16,7 +16,7 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, Solver, trajectory};
 use std::sync::Arc;
 
-fn random_cell(random: &mut Pcg64) -> Cell {
+pub(super) fn random_cell(random: &mut Pcg64) -> Cell {
     let robot = random_robot(random);
     let pairs = LinkPairs::from_robot(&robot);
     let mut cell = Cell::new(robot, pairs);
@@ -28,14 +28,14 @@ fn random_cell(random: &mut Pcg64) -> Cell {
     cell
 }
 
-fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
+pub(super) fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
     let names = robot.free_joint_names();
     names.map(|_| random.random_range(-1.5..1.5)).collect()
 }
 
 /// Returns the least distance of all pairs that are checked at a configuration, by poses and distances of one pair after
 /// another.
-fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
+pub(super) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     let robot = cell.robot();
     let mut solver = Solver::new();
     let pose = |link: usize| {
@@ -70,7 +70,7 @@ fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     least
 }
 
-fn configuration_between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+pub(super) fn configuration_between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
     let ends = from.iter().zip(to);
     ends.map(|(from, to)| from + share * (to - from)).collect()
 }

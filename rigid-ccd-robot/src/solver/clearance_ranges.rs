@@ -1,0 +1,165 @@
+//! The ranges of a path in which all pairs keep their distance, and those in which one of them certainly does not.
+
+use super::stretch::{PathPoint, Stretch};
+use super::{CellSolver, Question};
+use crate::error::PathError;
+use rigid_ccd::Error;
+use rigid_ccd::answer::Clearance;
+
+/// A range of a path, and whether all pairs keep their distance in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClearanceRange {
+    /// The start of the range.
+    pub from: PathPoint,
+    /// The end of the range, where the next one starts.
+    pub to: PathPoint,
+    /// Whether all pairs keep their distance everywhere in the range, or one of them is nearer everywhere in the range, or
+    /// neither is proven.
+    pub clearance: Clearance,
+}
+
+/// How finely a path is examined, and how far the robot may be from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RangeSettings {
+    /// The length, in segments of the path, of the shortest ranges that are examined. What is not proven there is
+    /// unverified. At least 1e-9.
+    pub resolution: f64,
+    /// A bound of how far points of links are from where the path places them. It is 0 for a robot that follows the path
+    /// exactly. A closed loop of joints is a path of configurations in which the loop is closed; between these, points
+    /// differ by the error of the interpolation.
+    pub pose_error: f64,
+}
+
+impl RangeSettings {
+    /// A resolution of 1/4096 of a segment, and no error of poses.
+    pub const DEFAULT: Self = RangeSettings {
+        resolution: 1.0 / 4096.0,
+        pose_error: 0.0,
+    };
+
+    // Written so that NaN is refused.
+    fn check(&self) -> Result<(), PathError> {
+        let error = |name, value, allowed| {
+            Err(PathError::RangeSetting {
+                name,
+                value,
+                allowed,
+            })
+        };
+        if !(self.resolution >= 1e-9) {
+            return error("resolution", self.resolution, "at least 1e-9");
+        }
+        if !(self.pose_error >= 0.0 && self.pose_error.is_finite()) {
+            return error("pose error", self.pose_error, "finite and at least 0");
+        }
+        Ok(())
+    }
+}
+
+impl CellSolver<'_> {
+    /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the
+    /// rest. The distance of a pair is its clearance, or the margin of the settings with paddings.
+    ///
+    /// # Guarantee
+    /// In a range that is kept all pairs that are checked stay apart by more than their distance, at all configurations. At
+    /// each configuration of a range that is violated some pair is nearer than its distance; at a distance of 0 it overlaps.
+    /// Unverified are at most about twice the resolution around each border, where a distance is kept by less than the
+    /// tolerance, and, of bodies that are not convex, overlaps at a distance of 0. When time runs out the rest of the path is
+    /// unverified.
+    ///
+    /// # Errors
+    /// [`PathError`].
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Pose, Settings, answer::Clearance, trajectory};
+    /// use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, Position, RangeSettings, Robot};
+    ///
+    /// let slider = Joint {
+    ///     name: "slider".into(),
+    ///     parent: "rail".into(),
+    ///     child: "ball".into(),
+    ///     joint: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
+    ///     position: Position::Free,
+    /// };
+    /// let ball = Link::named("ball").with_body(Body::sphere(0.5)?, Pose::IDENTITY);
+    /// let robot = Robot::new(vec![Link::named("rail"), ball], vec![slider])?;
+    /// let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+    /// cell.add_obstacle("wall", Body::cuboid([0.5, 2.0, 2.0])?, Pose::at([3.0, 0.0, 0.0])?)?;
+    ///
+    /// let settings = Settings { margin: 1.0, ..Settings::DEFAULT };
+    /// let mut solver = cell.solver().with_settings(settings);
+    /// // The distance is 2 - x.
+    /// let ranges = solver.clearance_ranges(&[[0.0], [2.0]], RangeSettings::DEFAULT)?;
+    /// let [kept, unverified, violated] = ranges[..] else { panic!("{ranges:?}") };
+    /// assert_eq!(kept.clearance, Clearance::Kept);
+    /// assert_eq!(violated.clearance, Clearance::Violated);
+    /// assert!(kept.to.share <= 0.5 && violated.from.share >= 0.5);
+    /// assert!(violated.from.share - kept.to.share < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn clearance_ranges<Q: AsRef<[f64]>>(
+        &mut self,
+        path: &[Q],
+        ranges: RangeSettings,
+    ) -> Result<Vec<ClearanceRange>, PathError> {
+        ranges.check()?;
+        // Both bodies of a pair may be away from where they are placed.
+        self.search.pairs.set_growth(2.0 * ranges.pose_error);
+        let found = self.find_ranges(path, ranges.resolution);
+        self.search.pairs.set_growth(0.0);
+        found
+    }
+
+    fn find_ranges<Q: AsRef<[f64]>>(
+        &mut self,
+        path: &[Q],
+        resolution: f64,
+    ) -> Result<Vec<ClearanceRange>, PathError> {
+        self.begin(path)?;
+        let mut found = Vec::new();
+        self.examine(self.search.whole_path(), resolution, &mut found)?;
+        let segments = self.search.segments();
+        let ranges = found.iter().map(|(from, to, clearance)| ClearanceRange {
+            from: PathPoint::of(*from, segments),
+            to: PathPoint::of(*to, segments),
+            clearance: *clearance,
+        });
+        Ok(ranges.collect())
+    }
+
+    /// Appends the ranges of a stretch.
+    fn examine(
+        &mut self,
+        stretch: Stretch,
+        resolution: f64,
+        found: &mut Vec<(f64, f64, Clearance)>,
+    ) -> Result<(), Error> {
+        let is_in_time = self.search.time_limit.reached().is_none();
+        let clearance = if is_in_time && self.is_kept(stretch)? {
+            Clearance::Kept
+        } else if is_in_time && self.search.is_violated(&stretch)? {
+            Clearance::Violated
+        } else if is_in_time && stretch.to - stretch.from > resolution {
+            for half in stretch.halves() {
+                self.examine(half, resolution, found)?;
+            }
+            return Ok(());
+        } else {
+            Clearance::Unverified
+        };
+        match found.last_mut() {
+            Some((_, to, last)) if *last == clearance => *to = stretch.to,
+            _ => found.push((stretch.from, stretch.to, clearance)),
+        }
+        Ok(())
+    }
+
+    fn is_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
+        self.search.answer(Question::AnyContact, stretch)?;
+        let found = &self.search.found;
+        Ok(found.nearest.is_none() && found.limit.is_none())
+    }
+}
+
+#[cfg(test)]
+mod tests;

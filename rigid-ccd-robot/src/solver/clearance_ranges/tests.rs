@@ -1,0 +1,222 @@
+//! Tests ranges of paths against sampled configurations, and against mechanisms with exact answers.
+
+use super::*;
+use crate::solver::tests::{
+    configuration_between, least_distance, random_cell, random_configuration,
+};
+use crate::{Cell, Joint, Link, LinkPairs, Position, Robot};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::{Body, Pose, Settings, trajectory};
+use std::f64::consts::PI;
+use std::time::Duration;
+
+fn with_margin(margin: f64) -> Settings {
+    Settings {
+        margin,
+        tolerance: 1e-6,
+        ..Settings::DEFAULT
+    }
+}
+
+/// Tests random cells: sampled distances in a range are on the side of the margin that is proven, ranges follow each other
+/// without gaps, and little is unverified.
+#[test]
+fn sampled_distances_are_on_the_proven_side() {
+    let mut random = Pcg64::seed_from_u64(21);
+    let (mut kept, mut violated, mut unverified, mut length) = (0, 0, 0.0, 0.0);
+    for number in 0..120 {
+        let cell = random_cell(&mut random);
+        let margin = [0.0, 0.05, 0.2][number % 3];
+        let path: Vec<Vec<f64>> = (0..random.random_range(2..4))
+            .map(|_| random_configuration(&mut random, cell.robot()))
+            .collect();
+        let mut solver = cell.solver().with_settings(with_margin(margin));
+        let ranges = solver
+            .clearance_ranges(&path, RangeSettings::DEFAULT)
+            .unwrap();
+        let at = |point: PathPoint| point.segment as f64 + point.share;
+        assert_eq!(at(ranges[0].from), 0.0);
+        assert_eq!(at(ranges[ranges.len() - 1].to), (path.len() - 1) as f64);
+        length += (path.len() - 1) as f64;
+        for (k, range) in ranges.iter().enumerate() {
+            if k > 0 {
+                assert_eq!(at(ranges[k - 1].to), at(range.from));
+                assert_ne!(ranges[k - 1].clearance, range.clearance);
+            }
+            if range.clearance == Clearance::Unverified {
+                unverified += at(range.to) - at(range.from);
+            }
+            for sample in 0..=8 {
+                let there =
+                    at(range.from) + f64::from(sample) / 8.0 * (at(range.to) - at(range.from));
+                let there = PathPoint::of(there, path.len() - 1);
+                let ends = [&path[there.segment], &path[there.segment + 1]];
+                let distance =
+                    least_distance(&cell, &configuration_between(ends[0], ends[1], there.share));
+                match range.clearance {
+                    Clearance::Kept => {
+                        assert!(distance > margin, "{distance} of {margin} in {range:?}")
+                    }
+                    Clearance::Violated if margin > 0.0 => {
+                        assert!(distance < margin, "{distance} in {range:?}")
+                    }
+                    Clearance::Violated => assert!(distance <= 0.0, "{distance} in {range:?}"),
+                    Clearance::Unverified => {}
+                }
+                kept += usize::from(range.clearance == Clearance::Kept);
+                violated += usize::from(range.clearance == Clearance::Violated);
+            }
+        }
+    }
+    assert!(kept > 500 && violated > 500, "{kept} {violated}");
+    // Of bodies that are not convex, overlaps at a margin of 0 are not proven.
+    assert!(unverified < 0.1 * length, "{unverified} of {length}");
+}
+
+/// Tests that a path is unverified from where time runs out.
+#[test]
+fn without_time_nothing_is_verified() {
+    let mut random = Pcg64::seed_from_u64(22);
+    let cell = random_cell(&mut random);
+    let settings = Settings {
+        deadline: Some(Duration::ZERO),
+        ..Settings::DEFAULT
+    };
+    let path = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
+    let mut solver = cell.solver().with_settings(settings);
+    let ranges = solver
+        .clearance_ranges(&path, RangeSettings::DEFAULT)
+        .unwrap();
+    let [
+        ClearanceRange {
+            clearance: Clearance::Unverified,
+            to,
+            ..
+        },
+    ] = ranges[..]
+    else {
+        panic!("{ranges:?}");
+    };
+    assert_eq!(to.share, 1.0);
+}
+
+fn joint(
+    name: &str,
+    [parent, child]: [&str; 2],
+    joint: trajectory::Joint,
+    position: Position,
+) -> Joint {
+    Joint {
+        name: name.into(),
+        parent: parent.into(),
+        child: child.into(),
+        joint,
+        position,
+    }
+}
+
+fn hinge_at(at: [f64; 3]) -> trajectory::Joint {
+    trajectory::Joint::revolute(Pose::at(at).unwrap(), [0.0, 0.0, 1.0]).unwrap()
+}
+
+/// A lid of a hinge, whose end is a ball about 1 from the axis, and a stop: a ball of the same distance at an angle.
+fn lid_with_stop(stop_angle: f64) -> Cell {
+    let ball = || Body::sphere(0.1).unwrap();
+    let lid = Link::named("lid").with_body(ball(), Pose::at([1.0, 0.0, 0.0]).unwrap());
+    let hinge = joint(
+        "hinge",
+        ["frame", "lid"],
+        hinge_at([0.0; 3]),
+        Position::Free,
+    );
+    let robot = Robot::new(vec![Link::named("frame"), lid], vec![hinge]).unwrap();
+    let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+    let (sine, cosine) = stop_angle.sin_cos();
+    cell.add_obstacle("stop", ball(), Pose::at([cosine, sine, 0.0]).unwrap())
+        .unwrap();
+    cell
+}
+
+/// Returns the angle at which two balls of radius 0.1, each about 1 from a hinge, are so far apart.
+fn angle_of_gap(gap: f64) -> f64 {
+    2.0 * f64::asin(0.5 * (gap + 0.2))
+}
+
+/// Tests the borders of the ranges of a hinge with a stop, and that an overlap without a margin is proven.
+#[test]
+fn a_stop_of_a_hinge_limits_it() {
+    let cell = lid_with_stop(2.0);
+    for gap in [0.0, 0.003, 0.4] {
+        let mut solver = cell.solver().with_settings(with_margin(gap));
+        let ranges = solver
+            .clearance_ranges(&[[0.0], [PI]], RangeSettings::DEFAULT)
+            .unwrap();
+        let verdicts: Vec<Clearance> = ranges.iter().map(|range| range.clearance).collect();
+        use Clearance::{Kept, Unverified, Violated};
+        assert_eq!(verdicts, [Kept, Unverified, Violated, Unverified, Kept]);
+        let borders = [2.0 - angle_of_gap(gap), 2.0 + angle_of_gap(gap)];
+        for (border, range) in borders.iter().zip([ranges[1], ranges[3]]) {
+            let [from, to] = [range.from, range.to].map(|at| PI * at.share);
+            assert!(from <= *border && *border <= to, "{border} in {range:?}");
+            assert!(to - from <= 2.001 * PI / 4096.0, "{range:?}");
+        }
+    }
+}
+
+/// Tests that an error of poses moves the borders on both sides.
+#[test]
+fn an_error_of_poses_is_kept_on_both_sides() {
+    let cell = lid_with_stop(2.0);
+    let mut solver = cell.solver().with_settings(with_margin(0.1));
+    let settings = RangeSettings {
+        pose_error: 0.01,
+        ..RangeSettings::DEFAULT
+    };
+    let ranges = solver.clearance_ranges(&[[0.0], [2.0]], settings).unwrap();
+    let [kept, unverified, violated] = ranges[..] else {
+        panic!("{ranges:?}")
+    };
+    assert_eq!(
+        [kept.clearance, violated.clearance],
+        [Clearance::Kept, Clearance::Violated]
+    );
+    // Both balls may be away from their places.
+    let [from, to] = [unverified.from, unverified.to].map(|at| 2.0 * at.share);
+    assert!(
+        (from - (2.0 - angle_of_gap(0.12))).abs() < 1e-3,
+        "{unverified:?}"
+    );
+    assert!(
+        (to - (2.0 - angle_of_gap(0.08))).abs() < 1e-3,
+        "{unverified:?}"
+    );
+    // The questions that follow are about poses without errors.
+    assert!(
+        solver
+            .is_free(&[[0.0], [2.0 - angle_of_gap(0.101)]])
+            .unwrap()
+    );
+}
+
+/// Tests that settings which make no sense are refused.
+#[test]
+fn settings_of_ranges_are_checked() {
+    let cell = lid_with_stop(2.0);
+    let mut solver = cell.solver();
+    for (resolution, pose_error) in [
+        (0.0, 0.0),
+        (f64::NAN, 0.0),
+        (0.1, -1.0),
+        (0.1, f64::INFINITY),
+    ] {
+        let settings = RangeSettings {
+            resolution,
+            pose_error,
+        };
+        let error = solver
+            .clearance_ranges(&[[0.0], [1.0]], settings)
+            .unwrap_err();
+        assert!(matches!(error, PathError::RangeSetting { .. }), "{error}");
+    }
+}
