@@ -105,12 +105,6 @@ pub(crate) fn row_indices(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i
     }
 }
 
-/// Converts an integer from Python to an index, or to an error if it is negative.
-pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
-    usize::try_from(value)
-        .map_err(|_| input_error(format!("{what} is {value}, but must be at least 0")))
-}
-
 /// Returns the shape of the array that NumPy makes of some values.
 pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize>> {
     numpy_array(values, what)?.getattr("shape")?.extract()

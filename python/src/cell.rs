@@ -12,8 +12,9 @@ use crate::settings::{CONTACT_SETTING_NAMES, DISTANCE_SETTING_NAMES, read, read_
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rigid_ccd::answer::Clearance;
 use rigid_ccd::{Error, Pose, Settings};
-use rigid_ccd_robot::{Cell, Item, PathError, RobotError};
+use rigid_ccd_robot::{Cell, Item, PathError, PathPoint, RangeSettings, RobotError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A robot among obstacles that rest in the frame of its base.
@@ -22,7 +23,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// of shape (joints,) is a configuration alone.
 ///
 /// Args:
-///     robot: the robot, as `Robot.from_urdf` makes it.
+///     robot: the robot.
 #[pyclass(name = "Cell", module = "rigid_ccd", frozen)]
 pub(crate) struct PyCell {
     robot: Py<PyRobot>,
@@ -36,6 +37,7 @@ impl PyCell {
         let PyRobot {
             robot: links,
             pairs,
+            ..
         } = robot.get();
         let cell = Cell::new((**links).clone(), pairs.clone());
         PyCell {
@@ -176,6 +178,51 @@ impl PyCell {
         let row = found.map_err(|error| path_error(py, error))?;
         let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
         class.call1((row.lower, row.upper, row.contact(py)?))
+    }
+
+    /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the rest.
+    /// The distance is the setting `margin` with the paddings, or the clearance of a pair.
+    ///
+    /// Args:
+    ///     path: the path; for a mechanism with one joint `[[low], [high]]`.
+    ///     resolution: the length of the shortest ranges that are examined, in segments of the path.
+    ///     pose_error: how far points of links may be from where the path places them. A closed loop of joints is a path of
+    ///         configurations in which the loop is closed; between these, points differ by the error of the interpolation.
+    ///
+    /// Returns:
+    ///     A list of `PathRange`, in the order of the path.
+    #[pyo3(signature = (path, *, resolution = RangeSettings::DEFAULT.resolution, pose_error = 0.0, **settings))]
+    fn clearance_ranges<'py>(
+        &self,
+        py: Python<'py>,
+        path: &Bound<'py, PyAny>,
+        resolution: f64,
+        pose_error: f64,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        let path = PathArray::read(path, "path")?;
+        let how = RangeSettings {
+            resolution,
+            pose_error,
+        };
+        let ranges = py.detach(|| {
+            self.lock().ask(settings, |solver| {
+                solver.clearance_ranges(&path.configurations(), how)
+            })
+        });
+        let class = py.import("rigid_ccd")?.getattr("PathRange")?;
+        let at = |point: PathPoint| point.segment as f64 + point.share;
+        let ranges = ranges.map_err(|error| path_error(py, error))?;
+        let ranges = ranges.iter().map(|range| {
+            let clearance = match range.clearance {
+                Clearance::Kept => "kept",
+                Clearance::Violated => "violated",
+                Clearance::Unverified => "unverified",
+            };
+            class.call1((at(range.from), at(range.to), clearance))
+        });
+        ranges.collect()
     }
 
     /// Answers a question about many edges, on all cores: `start` and `end` are arrays of shape (N, joints).

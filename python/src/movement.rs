@@ -1,7 +1,7 @@
-//! The movement of a body in a query: a motion, a link of an arm, or a path.
+//! The movement of a body in a query: a motion, the motion of a robot's link, or a path.
 
-use crate::chain::PyLink;
 use crate::errors::{input_error, wrong_type_error};
+use crate::link_motion::PyLinkMotion;
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
@@ -24,7 +24,7 @@ impl<'c> GivenMovement<'c> {
         if let Ok(motion) = given.cast::<PyMotion>() {
             return Ok(GivenMovement::Motion(motion.get().motion));
         }
-        if let Ok(link) = given.cast::<PyLink>() {
+        if let Ok(link) = given.cast::<PyLinkMotion>() {
             return Ok(GivenMovement::Link(
                 link.get().link()?,
                 link.get().duration(),
@@ -35,7 +35,7 @@ impl<'c> GivenMovement<'c> {
         }
         Err(wrong_type_error(
             what,
-            "a Motion, a Path or a link of a Chain",
+            "a Motion, a Path or a LinkMotion",
             given,
         ))
     }

@@ -162,7 +162,7 @@ fn distance_of_answer<'py>(
 ///
 /// Args:
 ///     a, b: the bodies.
-///     motion_a, motion_b: a Motion, a Path, or a link of a Chain; None rests at the world's origin.
+///     motion_a, motion_b: a Motion, a Path, or a LinkMotion; None rests at the world's origin.
 ///     duration: the end, in the motions' unit of time; by default that of a path or a link, else 1.
 ///     tolerance: a contact is reported at a distance of at most margin + tolerance, in your unit of length; 0.001 by
 ///         default.

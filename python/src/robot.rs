@@ -1,29 +1,95 @@
 //! The Python class `Robot`.
 
 use crate::arrays::flat_numbers;
+use crate::body::{PyBody, extract_body};
 use crate::errors::{file_error, input_error};
-use crate::motion::pose_matrix;
+use crate::joint::PyJoint;
+use crate::link_motion::PyLinkMotion;
+use crate::motion::{pose_matrix, read_pose};
+use crate::pickle::{ConstructorCall, Reduced};
 use crate::table::PyTable;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyType;
-use rigid_ccd_robot::{BodyElements, LinkMeeting, LinkPairs, MeshModel, Robot, Urdf};
+use pyo3::types::{PyDict, PyType};
+use rigid_ccd::Pose;
+use rigid_ccd_robot::{
+    BodyElements, Joint, Link, LinkBody, LinkMeeting, LinkPairs, MeshModel, Robot, SkipReason, Urdf,
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A robot: a tree of links and joints, and the pairs of links that are checked.
 ///
-/// A configuration has one position for each of `joint_names`, in that order: radians, or metres for joints that slide.
+/// A configuration has one position for each of `joint_names`, in that order: radians, or metres for joints that slide. A
+/// robot comes from a file, `Robot.from_urdf`, or from its joints:
+///
+/// Args:
+///     joints: the joints, in the order in which configurations have positions.
+///     bodies: a dict of what is fixed to links: a Body, or a list of pairs of a Body and its pose in the link.
+///     may_touch: pairs of links that are not checked, besides neighbours.
+///
+/// >>> from rigid_ccd import Body, Joint, Robot, first_contact
+/// >>> shoulder = Joint.revolute("shoulder", "base", "upper arm")
+/// >>> elbow = Joint.revolute("elbow", "upper arm", "forearm", ([1, 0, 0], [1, 0, 0, 0]))
+/// >>> arm = Robot([shoulder, elbow], {"forearm": Body.sphere(0.1)})
+/// >>> turns = arm.motion("forearm", [0.3, 0.5], [1.3, -1.5])
+/// >>> bool((turns.pose(1) == arm.pose("forearm", [1.3, -1.5])).all())
+/// True
+/// >>> first_contact(Body.sphere(0.1), Body.box(0.1, 0.1, 1), turns) is None
+/// True
 #[pyclass(name = "Robot", module = "rigid_ccd", frozen)]
 pub(crate) struct PyRobot {
     pub(crate) robot: Arc<Robot>,
     pub(crate) pairs: LinkPairs,
+    made: ConstructorCall,
 }
 
 #[pymethods]
 impl PyRobot {
+    #[new]
+    #[pyo3(signature = (joints, bodies = None, may_touch = Vec::new()))]
+    fn new(
+        py: Python<'_>,
+        joints: &Bound<'_, PyAny>,
+        bodies: Option<Bound<'_, PyDict>>,
+        may_touch: Vec<(String, String)>,
+    ) -> PyResult<Self> {
+        // Collect one by one, because an object may report a wrong length.
+        let given = joints
+            .try_iter()?
+            .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));
+        let given: Vec<Py<PyJoint>> = given.collect::<PyResult<_>>()?;
+        let joints: Vec<Joint> = given
+            .iter()
+            .map(|joint| joint.get().joint.clone())
+            .collect();
+        let mut links: Vec<Link> = Vec::new();
+        for name in joints
+            .iter()
+            .flat_map(|joint| [&joint.parent, &joint.child])
+        {
+            link_named(&mut links, name);
+        }
+        let bodies = bodies.unwrap_or_else(|| PyDict::new(py));
+        for (name, held) in &bodies {
+            let link = link_named(&mut links, &name.extract::<String>()?);
+            link.bodies.extend(read_held(&held)?);
+        }
+        let robot = Robot::new(links, joints).map_err(input_error)?;
+        let mut pairs = LinkPairs::from_robot(&robot);
+        for (a, b) in &may_touch {
+            let [a, b] = [a, b].map(|name| robot.link_number(name).map_err(input_error));
+            pairs.skip(a?, b?, SkipReason::Disabled("may touch".into()));
+        }
+        Ok(PyRobot {
+            robot: Arc::new(robot),
+            pairs,
+            made: ConstructorCall::new(py, None, (given, bodies, may_touch))?,
+        })
+    }
+
     /// Reads a robot from a URDF file and the mesh files that it names.
     ///
     /// Args:
@@ -37,7 +103,7 @@ impl PyRobot {
     /// Raises:
     ///     InputError: the file is no robot, or a mesh is missing; the message names the link or the joint.
     #[classmethod]
-    #[pyo3(signature = (path, srdf = None, packages = None, *, geometry = "collision", meshes = "exact"))]
+    #[pyo3(signature = (path, srdf = None, packages = None, geometry = "collision", meshes = "exact"))]
     fn from_urdf(
         class: &Bound<'_, PyType>,
         path: PathBuf,
@@ -46,6 +112,8 @@ impl PyRobot {
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
+        let arguments = (&path, &srdf, &packages, geometry, meshes);
+        let made = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
         let geometry = match geometry {
             "collision" => BodyElements::Collision,
             "visual" => BodyElements::Visual,
@@ -69,6 +137,7 @@ impl PyRobot {
             Ok(PyRobot {
                 pairs: pairs.map_err(input_error)?,
                 robot: Arc::new(robot),
+                made,
             })
         })
     }
@@ -114,6 +183,36 @@ impl PyRobot {
         Ok(pose_matrix(py, &pose))
     }
 
+    /// Returns the motion of a link while each joint moves at a constant rate from its position in `start` to that in `end`,
+    /// as along an edge of a motion planner's roadmap.
+    ///
+    /// It stands for a `Motion` in all queries: the proof is about the link's own curve, not about steps of it.
+    ///
+    /// Args:
+    ///     link: the name of the link.
+    ///     start, end: configurations; no rates.
+    ///     duration: the time from one to the other.
+    ///     seen_from: a link in whose frame the motion is; None for the base. Query it against that link's body at rest:
+    ///         witnesses and normals are in that frame, too.
+    ///
+    /// Raises:
+    ///     InputError: a position is outside of its joint's limits, or there are more or fewer than joints.
+    #[pyo3(signature = (link, start, end, duration = 1.0, seen_from = None))]
+    fn motion(
+        slf: &Bound<'_, Self>,
+        link: String,
+        start: &Bound<'_, PyAny>,
+        end: &Bound<'_, PyAny>,
+        duration: f64,
+        seen_from: Option<String>,
+    ) -> PyResult<PyLinkMotion> {
+        PyLinkMotion::new(slf, link, [start, end], duration, seen_from)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        slf.get().made.reduce_tuple(slf.get_type())
+    }
+
     /// Decides for each pair of links with bodies whether they never touch, always, or sometimes, within the limits of all
     /// joints. "never" and "always" are proofs, and of "sometimes" there are two configurations as witnesses.
     ///
@@ -150,6 +249,32 @@ impl PyRobot {
             self.joint_names().join(", ")
         )
     }
+}
+
+/// Returns the link that has a name, which is new if there is none.
+fn link_named<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
+    let number = links.iter().position(|link| link.name == name);
+    let number = number.unwrap_or_else(|| {
+        links.push(Link::named(name));
+        links.len() - 1
+    });
+    &mut links[number]
+}
+
+/// Reads what is fixed to a link: a body, or pairs of a body and its pose.
+fn read_held(held: &Bound<'_, PyAny>) -> PyResult<Vec<LinkBody>> {
+    let link_body = |body: &Bound<'_, PyAny>, pose| {
+        let body = Arc::new(extract_body(body, "bodies")?.clone());
+        Ok(LinkBody { body, pose })
+    };
+    if held.is_instance_of::<PyBody>() {
+        return Ok(vec![link_body(held, Pose::IDENTITY)?]);
+    }
+    let pairs = held.try_iter()?.map(|pair| {
+        let (body, pose): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair?.extract()?;
+        link_body(&body, read_pose(&pose, "bodies")?)
+    });
+    pairs.collect()
 }
 
 fn meeting_table(

@@ -1,4 +1,4 @@
-"""Chains and paths, against closed forms and sampled poses."""
+"""Robots from joints, and paths, against closed forms and sampled poses."""
 
 import copy
 import math
@@ -10,11 +10,12 @@ import pytest
 
 from rigid_ccd import (
     Body,
-    Chain,
+    Cell,
     InputError,
     Joint,
     Motion,
     Path,
+    Robot,
     closest_approach,
     distance,
     first_contact,
@@ -25,11 +26,11 @@ HERE: Any = ([0, 0, 0], [1, 0, 0, 0])
 BALL = Body.sphere(0.1)
 
 
-def arm() -> Chain:
+def arm() -> Robot:
     """Two links of length 1 and 2 in the plane; the third link is the tip."""
-    hinge = Joint.revolute(HERE, [0, 0, 1], limits=(-4, 4))
-    elbow = Joint.revolute(([1, 0, 0], [1, 0, 0, 0]), [0, 0, 2])
-    return Chain([hinge, elbow, Joint.fixed(([2, 0, 0], [1, 0, 0, 0]))])
+    hinge = Joint.revolute("hinge", "base", "upper", limits=(-4, 4))
+    elbow = Joint.revolute("elbow", "upper", "fore", ([1, 0, 0], [1, 0, 0, 0]), [0, 0, 2])
+    return Robot([hinge, elbow, Joint.fixed("wrist", "fore", "tip", ([2, 0, 0], [1, 0, 0, 0]))])
 
 
 def tip(shoulder: float, elbow: float) -> list[float]:
@@ -39,13 +40,14 @@ def tip(shoulder: float, elbow: float) -> list[float]:
 
 def test_links_are_where_trigonometry_says() -> None:
     chain = arm()
-    assert len(chain) == 3
-    assert chain.pose(3, [0.3, -1.1, 0])[:3, 3] == pytest.approx(tip(0.3, -1.1))
-    moves = chain.link(3, [0, 0, 0], [1, -2, 0], duration=2)
+    assert chain.joint_names == ["hinge", "elbow"]
+    assert chain.pose("tip", [0.3, -1.1])[:3, 3] == pytest.approx(tip(0.3, -1.1))
+    moves = chain.motion("tip", [0, 0], [1, -2], duration=2)
     for time in (0, 0.7, 2):
         assert moves.pose(time)[:3, 3] == pytest.approx(tip(time / 2, -time))
     # In the frame of the forearm, the tip is at rest.
-    assert moves.seen_from(2).pose(0.7) == pytest.approx(moves.seen_from(2).pose(0))
+    rests = chain.motion("tip", [0, 0], [1, -2], 2, seen_from="fore")
+    assert rests.pose(0.7) == pytest.approx(rests.pose(0))
 
 
 def test_the_tip_of_an_arm_touches_a_post() -> None:
@@ -53,8 +55,8 @@ def test_the_tip_of_an_arm_touches_a_post() -> None:
     post = Body.sphere(0.05)
     for angle in np.linspace(0.2, 1.4, 7):
         # Both joints turn: the tip meets a post that stands on its curve, and not the one beside it.
-        begin, end = [0.0, 0, 0], [1.5, 1.5, 0]
-        moves = chain.link(3, begin, end)
+        begin, end = [0.0, 0], [1.5, 1.5]
+        moves = chain.motion("tip", begin, end)
         place = tip(angle, angle)
         hit = first_contact(BALL, post, moves, Motion(place), tolerance=1e-6)
         assert hit is not None and hit.time < angle / 1.5
@@ -72,7 +74,7 @@ def test_the_tip_of_an_arm_touches_a_post() -> None:
 def test_links_see_each_other() -> None:
     chain = arm()
     # The tip folds back onto the shoulder: 3 away when stretched, 1 when folded.
-    folds = chain.link(3, [0, 0, 0], [0, math.pi, 0]).seen_from(0)
+    folds = chain.motion("tip", [0, 0], [0, math.pi], seen_from="base")
     assert first_contact(BALL, Body.sphere(0.8), folds) is None
     hit = first_contact(BALL, Body.sphere(1), folds)
     assert hit is not None and 0.5 < hit.time < 1
@@ -80,24 +82,63 @@ def test_links_see_each_other() -> None:
 
 def test_positions_are_checked() -> None:
     chain = arm()
-    for link, positions in ((4, [0, 0, 0]), (1, [0, 0]), (1, [5, 0, 0]), (1, [math.nan, 0, 0])):
+    for link, positions in (("toe", [0, 0]), ("upper", [0]), ("upper", [5, 0]), ("upper", [math.nan, 0])):
         with pytest.raises(InputError):
-            chain.link(link, positions, positions)
+            chain.motion(link, positions, positions)
     with pytest.raises(InputError):
-        chain.link(3, [0, 0, 0], [0, 0, 0], duration=0)
-    with pytest.raises(InputError):
-        chain.link(1, [0, 0, 0], [1, 0, 0]).seen_from(2)
+        chain.motion("tip", [0, 0], [0, 0], duration=0)
+    with pytest.raises(InputError, match="there is no link `toe`"):
+        chain.motion("upper", [0, 0], [1, 0], seen_from="toe")
     with pytest.raises(InputError, match="limits"):
-        Joint.revolute(HERE, [0, 0, 1], limits=(1, 0))
+        Joint.revolute("hinge", "base", "upper", limits=(1, 0))
     with pytest.raises(InputError):
-        Joint.prismatic(HERE, [0, 0, 0])
+        Joint.prismatic("slide", "base", "upper", axis=[0, 0, 0])
     with pytest.raises(TypeError):
-        Chain([HERE])
-    with pytest.raises(InputError, match="link is -1"):
-        chain.link(-1, [0, 0, 0], [0, 0, 0])
-    with pytest.raises(InputError, match="joint 0 is at 5, but its limits are -4 and 4"):
-        chain.pose(1, [5, 0, 0])
-    assert Joint.prismatic(HERE, [1, 0, 0], limits=(0, 1)).limits == (0, 1)
+        Robot([HERE])
+    with pytest.raises(InputError, match="start: joint `hinge`: the joint is at 5, but its limits are -4 and 4"):
+        chain.motion("upper", [5, 0], [0, 0])
+    assert Joint.prismatic("slide", "base", "upper", limits=(0, 1)).limits == (0, 1)
+
+
+def test_a_robot_is_made_of_joints_and_bodies() -> None:
+    fingers = [
+        Joint.prismatic("left", "hand", "left finger", ([0, 0.5, 0], [1, 0, 0, 0]), [0, 1, 0], (-0.4, 0)),
+        Joint.prismatic("right", "hand", "right finger", ([0, -0.5, 0], [1, 0, 0, 0]), [0, -1, 0], mimic=("left", 1, 0)),
+    ]
+    tips: Any = {"left finger": BALL, "right finger": [(BALL, HERE), (BALL, ([1, 0, 0], [1, 0, 0, 0]))]}
+    gripper = Robot(fingers, tips)
+    assert gripper.joint_names == ["left"] and gripper.checked_pairs == [("left finger", "right finger")]
+    assert Cell(gripper).closest_approach([[0.0], [-0.3]]).upper == pytest.approx(0.2)
+    assert not Cell(gripper).is_free([[0.0], [-0.4]])
+    assert Cell(Robot(fingers, tips, [("right finger", "left finger")])).is_free([[0.0], [-0.4]])
+    # As the left finger sees it, the right one comes at twice the rate.
+    comes = gripper.motion("right finger", [0.0], [-0.4], seen_from="left finger")
+    hit = first_contact(BALL, BALL, comes)
+    assert hit is not None and hit.time == pytest.approx(1, abs=1e-3)
+    wrong: Any
+    for wrong in ({"left finger": 3}, {"left finger": [BALL]}, {3: BALL}):
+        with pytest.raises((TypeError, ValueError)):
+            Robot(fingers, wrong)
+    with pytest.raises(InputError, match="two joints are named `left`"):
+        Robot([fingers[0], fingers[0]])
+    with pytest.raises(InputError, match="no link `thumb`"):
+        Robot(fingers, tips, [("thumb", "hand")])
+
+
+def test_a_stop_limits_a_hinge() -> None:
+    hinge = Joint.revolute("hinge", "frame", "lid")
+    cell = Cell(Robot([hinge], {"lid": [(BALL, ([1, 0, 0], [1, 0, 0, 0]))]}))
+    cell.add("stop", BALL, ([math.cos(2), math.sin(2), 0], [1, 0, 0, 0]))
+    kept, _, violated, _, again = cell.clearance_ranges([[0], [3]], margin=0.01)
+    assert (kept.clearance, violated.clearance, again.clearance) == ("kept", "violated", "kept")
+    half = 2 * math.asin(0.5 * 0.21)
+    borders = [kept.end, violated.start, violated.end, again.start]
+    assert np.multiply(3, borders) == pytest.approx([2 - half] * 2 + [2 + half] * 2, abs=2e-3)
+    assert 3 * kept.end < 2 - half < 3 * violated.start
+    shorter = cell.clearance_ranges([[0], [3]], margin=0.01, pose_error=0.01)[0]
+    assert 3 * shorter.end == pytest.approx(2 - 2 * math.asin(0.5 * 0.23), abs=2e-3)
+    with pytest.raises(InputError, match="resolution: 0 is not at least 1e-9"):
+        cell.clearance_ranges([[0], [3]], resolution=0)
 
 
 def test_a_path_is_followed_from_pose_to_pose() -> None:
@@ -134,7 +175,7 @@ def test_a_path_turns_as_often_as_its_spins_say() -> None:
 
 
 def test_what_is_no_motion_is_refused() -> None:
-    with pytest.raises(TypeError, match="motion_a: a Motion, a Path or a link of a Chain is needed, not list"):
+    with pytest.raises(TypeError, match="motion_a: a Motion, a Path or a LinkMotion is needed, not list"):
         first_contact(BALL, BALL, [1, 2, 3])  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="motion_b"):
         is_free(BALL, BALL, None, arm())  # type: ignore[arg-type]
@@ -142,7 +183,7 @@ def test_what_is_no_motion_is_refused() -> None:
 
 def test_bodies_may_be_the_same_object() -> None:
     chain = arm()
-    moves = chain.link(3, [0, 0, 0], [1, 1, 0])
+    moves = chain.motion("tip", [0, 0], [1, 1])
     del chain
     assert distance(BALL, BALL, moves.pose(0)).upper == pytest.approx(2.8)
     assert first_contact(BALL, BALL, moves, moves).kind == "overlapping"  # type: ignore[union-attr]
@@ -150,14 +191,14 @@ def test_bodies_may_be_the_same_object() -> None:
 
 def test_a_query_is_as_long_as_what_moves() -> None:
     chain = arm()
-    folds = chain.link(3, [0, 0, 0], [0, math.pi, 0], duration=5).seen_from(0)
+    folds = chain.motion("tip", [0, 0], [0, math.pi], duration=5, seen_from="base")
     hit = first_contact(BALL, Body.sphere(1), folds)
     assert hit is not None and 2.5 < hit.time < 5
     with pytest.raises(InputError, match="duration: 6 is later than 5"):
         first_contact(BALL, BALL, folds, duration=6)
     with pytest.raises(InputError, match="different times"):
-        first_contact(BALL, BALL, folds, chain.link(1, [0, 0, 0], [1, 0, 0]))
-    assert first_contact(BALL, BALL, folds, chain.link(1, [0, 0, 0], [1, 0, 0]), 0.5) is None
+        first_contact(BALL, BALL, folds, chain.motion("upper", [0, 0], [1, 0]))
+    assert first_contact(BALL, BALL, folds, chain.motion("upper", [0, 0], [1, 0]), 0.5) is None
 
 
 def test_everything_that_moves_is_pickled() -> None:
@@ -166,21 +207,26 @@ def test_everything_that_moves_is_pickled() -> None:
         turned: list[float] = random.normal(size=4).tolist()
         origin: Any = (random.normal(size=3), turned)
         joints = [
-            Joint.revolute(origin, random.normal(size=3), [-4, 4]),
-            Joint.prismatic(origin, random.normal(size=3)),
-            Joint.fixed(origin),
+            Joint.fixed("mount", "world", "base", origin),
+            Joint.revolute("hinge", "base", "upper", origin, random.normal(size=3), [-4, 4]),
+            Joint.prismatic("slide", "upper", "fore", origin, random.normal(size=3)),
+            Joint.prismatic("follower", "upper", "shield", origin, mimic=("slide", 2, 0.1)),
         ]
-        chain = Chain(joints, origin)
-        link = chain.link(3, [0, 0, 0], [1, 2, 0], 3)
+        robot = Robot(joints, {"fore": BALL, "base": [(BALL, origin)]}, [("fore", "base")])
+        link = robot.motion("fore", [0, 0], [1, 2], 3)
+        seen = robot.motion("fore", [0, 0], [1, 2], 3, "shield")
         motion = Motion(origin[0], turned, *random.normal(size=(3, 3)))
         between = Motion.between(origin, (random.normal(size=3), random.normal(size=4)), 2, [1, 2, 3])
         path = Path([1, 2], [origin, motion.pose(3)], [1, 2, 3])
-        for moves in (link, link.seen_from(1), motion, between, path, Motion.still(origin)):
+        for moves in (link, seen, motion, between, path, Motion.still(origin)):
             again = pickle.loads(pickle.dumps(moves))
             assert repr(again) == repr(moves)
             assert np.array_equal(again.pose(0.7), moves.pose(0.7))
-        assert [repr(joint) for joint in pickle.loads(pickle.dumps(chain)).joints] == [repr(joint) for joint in joints]
-        assert copy.deepcopy(chain).pose(3, [1, 1, 1]).tolist() == chain.pose(3, [1, 1, 1]).tolist()
+        copied = copy.deepcopy(robot)
+        assert repr(copied) == repr(robot) and copied.checked_pairs == robot.checked_pairs
+        assert [repr(joint) for joint in pickle.loads(pickle.dumps(joints))] == [repr(joint) for joint in joints]
+        for place in ("shield", "fore", "base"):
+            assert copied.pose(place, [1, 1]).tolist() == robot.pose(place, [1, 1]).tolist()
 
 
 def test_poses_of_float32_are_taken() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, Chain, Joint, Motion, Path, closest_approach, distance, first_contact, first_contacts, is_free
+from rigid_ccd import Body, Joint, Motion, Path, Robot, closest_approach, distance, first_contact, first_contacts, is_free
 
 BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 PART = Body.sphere(0.0005)
@@ -27,7 +27,7 @@ PART = Body.sphere(0.0005)
         ("far from unit length", lambda: Motion.still(([0, 0, 0], [1e-200, 0, 0, 0]))),
         ("far from unit length", lambda: first_contacts(BALL, WALL, quaternions(2.0))),
         ("far from unit length", lambda: first_contacts(BALL, WALL, {"t": [0.0, 1.0], **quaternions(2.0)})),
-        ("a joint's position", lambda: arm().link(1, [0, 0], [90, 0])),
+        ("a joint's position", lambda: arm().motion("upper", [0, 0], [90, 0])),
     ],
 )
 def test_traps_are_warned_of_once(words: str, ask: Any) -> None:
@@ -51,7 +51,7 @@ def test_what_is_usual_is_not() -> None:
         first_contact(Body.sphere(0.01), WALL)
         first_contact(Body.sphere(0), WALL, Motion([3, 0, 0]))
         first_contact(Body.box(1, 1, 1e-6), WALL, Motion([3, 0, 0]))
-        arm().link(1, [0, 0], [2 * math.pi, 90])
+        arm().motion("upper", [0, 0], [2 * math.pi, 90])
         Path([0, 1], np.tile(np.eye(4), (2, 1, 1)))
 
 
@@ -74,6 +74,7 @@ def quaternions(length: float) -> dict[str, list[float]]:
     return {"a_qw": [length] * 2, "a_qx": [0.0] * 2, "a_qy": [0.0] * 2, "a_qz": [0.0] * 2}
 
 
-def arm() -> Chain:
+def arm() -> Robot:
     """Returns a revolute and a prismatic joint."""
-    return Chain([Joint.revolute(np.eye(4), [0, 0, 1]), Joint.prismatic(np.eye(4), [1, 0, 0])])
+    hinge = Joint.revolute("hinge", "base", "upper")
+    return Robot([hinge, Joint.prismatic("slide", "upper", "fore", axis=[1, 0, 0])])

@@ -18,10 +18,10 @@ import pytest
 
 from rigid_ccd import (
     Body,
-    Chain,
     InputError,
     Joint,
     Motion,
+    Robot,
     Table,
     Unresolved,
     closest_approach,
@@ -65,7 +65,7 @@ GOOD: list[Callable[[], Any]] = [
     lambda: any_table(BALL, WALL, {"a_px": ODD, "id": ["x"] * 6})["id"],
     lambda: any_table(BALL, WALL, {"a_px": [math.nan, math.inf, -3]}, threads=2).take([2, 0])["reason"],
     lambda: Table(Table({"a_px": np.arange(9.0)})).keys(),
-    lambda: Chain([Joint.revolute(ORIGIN, [0, 0, 1])]).link(1, [0], [1]).pose(0.5),
+    lambda: Robot([Joint.revolute("hinge", "base", "lid")]).motion("lid", [0], [1]).pose(0.5),
 ]
 
 BAD: list[tuple[type[BaseException], Callable[[], Any]]] = [

@@ -20,16 +20,15 @@ Lengths are in any one unit, times in the motions' unit, angles in radians. Quat
 tables of the command ``ccd``.
 """
 
-from ._answers import Contact, Distance, PathContact, PathDistance
+from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
     Cell,
-    Chain,
     InputError,
     Interrupted,
     Joint,
-    Link,
+    LinkMotion,
     Motion,
     Path,
     Robot,
@@ -51,17 +50,17 @@ from ._tables import (
 __all__ = [
     "Body",
     "Cell",
-    "Chain",
     "Contact",
     "Distance",
     "InputError",
     "Interrupted",
     "Joint",
-    "Link",
+    "LinkMotion",
     "Motion",
     "Path",
     "PathContact",
     "PathDistance",
+    "PathRange",
     "Robot",
     "Table",
     "TableQuery",

@@ -93,3 +93,18 @@ class PathDistance:
     lower: float
     upper: float
     nearest: PathContact | None
+
+
+@dataclass(frozen=True)
+class PathRange:
+    """A range of a path, and whether all pairs keep their distance in it.
+
+    Attributes:
+        start, end: where on the path, in segments: 1.5 is the middle of the second one.
+        clearance: "kept", if all pairs keep their distance everywhere in the range; "violated", if some pair is nearer
+            everywhere in it; "unverified", if neither is proven.
+    """
+
+    start: float
+    end: float
+    clearance: str

@@ -5,7 +5,7 @@ from typing import Any, Literal, Protocol, TypeAlias, Unpack, final
 from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
-from ._answers import Contact, Distance, PathContact, PathDistance
+from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
 from ._settings import OfApproaches as _OfApproaches
 from ._settings import OfContacts as _OfContacts
 from ._settings import OfDistances as _OfDistances
@@ -13,11 +13,10 @@ from ._settings import OfDistances as _OfDistances
 __all__ = [
     "Body",
     "Cell",
-    "Chain",
     "InputError",
     "Interrupted",
     "Joint",
-    "Link",
+    "LinkMotion",
     "Motion",
     "Path",
     "Robot",
@@ -44,7 +43,7 @@ _Rotation: TypeAlias = ArrayLike | _ScipyRotation
 _Pose: TypeAlias = ArrayLike | tuple[ArrayLike, _Rotation]
 _Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull"]
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
-_Course: TypeAlias = Motion | Path | Link
+_Course: TypeAlias = Motion | Path | LinkMotion
 
 class InputError(ValueError):
     results: Table | None
@@ -133,41 +132,54 @@ class Path:
 @final
 class Joint:
     @classmethod
-    def revolute(cls, origin: _Pose, axis: ArrayLike, limits: ArrayLike | None = None) -> Joint: ...
+    def revolute(
+        cls,
+        name: str,
+        parent: str,
+        child: str,
+        origin: _Pose | None = None,
+        axis: ArrayLike | None = None,
+        limits: ArrayLike | None = None,
+        mimic: tuple[str, float, float] | None = None,
+    ) -> Joint: ...
     @classmethod
-    def prismatic(cls, origin: _Pose, axis: ArrayLike, limits: ArrayLike | None = None) -> Joint: ...
+    def prismatic(
+        cls,
+        name: str,
+        parent: str,
+        child: str,
+        origin: _Pose | None = None,
+        axis: ArrayLike | None = None,
+        limits: ArrayLike | None = None,
+        mimic: tuple[str, float, float] | None = None,
+    ) -> Joint: ...
     @classmethod
-    def fixed(cls, origin: _Pose) -> Joint: ...
+    def fixed(cls, name: str, parent: str, child: str, origin: _Pose | None = None) -> Joint: ...
+    @property
+    def name(self) -> str: ...
     @property
     def limits(self) -> tuple[float, float]: ...
 
 @final
-class Chain:
-    def __new__(cls, joints: Iterable[Joint], base: _Pose | None = None) -> Chain: ...
-    def __len__(self) -> int: ...
-    @property
-    def joints(self) -> list[Joint]: ...
-    def pose(self, link: int, positions: ArrayLike) -> NDArray[float64]: ...
-    def link(self, link: int, start: ArrayLike, end: ArrayLike, duration: float = 1.0) -> Link: ...
-
-@final
-class Link:
-    @classmethod
-    def _from_parts(cls, chain: Chain, moves: dict[str, Any]) -> Link: ...
+class LinkMotion:
     @property
     def duration(self) -> float: ...
-    def seen_from(self, link: int) -> Link: ...
     def pose(self, time: float) -> NDArray[float64]: ...
 
 @final
 class Robot:
+    def __new__(
+        cls,
+        joints: Iterable[Joint],
+        bodies: dict[str, Body | list[tuple[Body, _Pose]]] | None = None,
+        may_touch: Sequence[tuple[str, str]] = ...,
+    ) -> Robot: ...
     @classmethod
     def from_urdf(
         cls,
         path: str | PathLike[str],
         srdf: str | PathLike[str] | None = None,
         packages: Sequence[str | PathLike[str]] | None = None,
-        *,
         geometry: Literal["collision", "visual"] = "collision",
         meshes: Literal["exact", "hull"] = "exact",
     ) -> Robot: ...
@@ -180,6 +192,14 @@ class Robot:
     @property
     def checked_pairs(self) -> list[tuple[str, str]]: ...
     def pose(self, link: str, configuration: ArrayLike) -> NDArray[float64]: ...
+    def motion(
+        self,
+        link: str,
+        start: ArrayLike,
+        end: ArrayLike,
+        duration: float = 1.0,
+        seen_from: str | None = None,
+    ) -> LinkMotion: ...
     def acm(
         self, max_boxes: int = 100_000, *, srdf: str | PathLike[str] | None = None, name: str = "robot"
     ) -> Table: ...
@@ -218,6 +238,14 @@ class Cell:
         path: ArrayLike,
         **settings: Unpack[_OfDistances],
     ) -> PathDistance: ...
+    def clearance_ranges(
+        self,
+        path: ArrayLike,
+        *,
+        resolution: float = ...,
+        pose_error: float = 0.0,
+        **settings: Unpack[_OfContacts],
+    ) -> list[PathRange]: ...
     def edges(
         self,
         start: ArrayLike,

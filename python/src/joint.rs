@@ -1,0 +1,183 @@
+//! The Python class `Joint`.
+
+use crate::arrays::{finite_numbers, numbers};
+use crate::errors::input_error;
+use crate::motion::{GivenPose, read_given_pose};
+use crate::pickle::{ConstructorCall, Reduced};
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+use rigid_ccd::trajectory;
+use rigid_ccd_robot::{Joint, Position};
+
+/// A joint of a `Robot`, as in URDF: `Joint.revolute`, `Joint.prismatic` or `Joint.fixed`. It holds the link `child` on the
+/// link `parent`.
+#[pyclass(name = "Joint", module = "rigid_ccd", frozen)]
+pub(crate) struct PyJoint {
+    pub(crate) joint: Joint,
+    kind: &'static str,
+    made: ConstructorCall,
+}
+
+/// A joint that follows another one: its name, the multiplier and the offset.
+type Mimic = (String, f64, f64);
+
+/// What joints with a degree of freedom are made of, besides their names.
+type Moving<'a, 'py> = (
+    Option<&'a Bound<'py, PyAny>>,
+    Option<&'a Bound<'py, PyAny>>,
+    Option<&'a Bound<'py, PyAny>>,
+    Option<Mimic>,
+);
+
+#[pymethods]
+impl PyJoint {
+    /// Makes a joint that rotates about an axis; its position is an angle in radians.
+    ///
+    /// Args:
+    ///     name, parent, child: the names of the joint and of both links.
+    ///     origin: the pose of the joint's frame in that of the parent, as `Motion.between` takes poses; None is no offset.
+    ///     axis: in the joint's frame, of any length; None is z.
+    ///     limits: the least and the greatest position; None allows any.
+    ///     mimic: the name of a joint that this one follows, a multiplier and an offset.
+    #[classmethod]
+    #[pyo3(signature = (name, parent, child, origin = None, axis = None, limits = None, mimic = None))]
+    #[expect(clippy::too_many_arguments, reason = "arguments with names")]
+    fn revolute(
+        class: &Bound<'_, PyType>,
+        name: &str,
+        parent: &str,
+        child: &str,
+        origin: Option<&Bound<'_, PyAny>>,
+        axis: Option<&Bound<'_, PyAny>>,
+        limits: Option<&Bound<'_, PyAny>>,
+        mimic: Option<Mimic>,
+    ) -> PyResult<Self> {
+        let moving = (origin, axis, limits, mimic);
+        PyJoint::moving(class.py(), "revolute", [name, parent, child], moving)
+    }
+
+    /// Makes a joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
+    #[classmethod]
+    #[pyo3(signature = (name, parent, child, origin = None, axis = None, limits = None, mimic = None))]
+    #[expect(clippy::too_many_arguments, reason = "arguments with names")]
+    fn prismatic(
+        class: &Bound<'_, PyType>,
+        name: &str,
+        parent: &str,
+        child: &str,
+        origin: Option<&Bound<'_, PyAny>>,
+        axis: Option<&Bound<'_, PyAny>>,
+        limits: Option<&Bound<'_, PyAny>>,
+        mimic: Option<Mimic>,
+    ) -> PyResult<Self> {
+        let moving = (origin, axis, limits, mimic);
+        PyJoint::moving(class.py(), "prismatic", [name, parent, child], moving)
+    }
+
+    /// Makes a joint without a degree of freedom, which has no position.
+    #[classmethod]
+    #[pyo3(signature = (name, parent, child, origin = None))]
+    fn fixed(
+        class: &Bound<'_, PyType>,
+        name: &str,
+        parent: &str,
+        child: &str,
+        origin: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let origin = read_origin(origin)?;
+        let joint = trajectory::Joint::fixed(origin.pose("origin")?);
+        let names = [name, parent, child];
+        Ok(PyJoint {
+            joint: named_joint(names, joint, None),
+            kind: "fixed",
+            made: ConstructorCall::new(class.py(), Some("fixed"), (name, parent, child, origin))?,
+        })
+    }
+
+    /// The name of the joint.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.joint.name
+    }
+
+    /// The least and the greatest allowed position of the joint.
+    #[getter]
+    fn limits(&self) -> (f64, f64) {
+        let limits = self.joint.joint.limits();
+        (*limits.start(), *limits.end())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        slf.get().made.reduce_tuple(slf.get_type())
+    }
+
+    fn __repr__(&self) -> String {
+        let Joint {
+            name,
+            parent,
+            child,
+            ..
+        } = &self.joint;
+        format!("Joint.{}('{name}', '{parent}', '{child}')", self.kind)
+    }
+}
+
+impl PyJoint {
+    /// Makes a joint that turns or slides; `kind` is the name of its constructor.
+    fn moving(
+        py: Python<'_>,
+        kind: &'static str,
+        names: [&str; 3],
+        (origin, axis, limits, mimic): Moving<'_, '_>,
+    ) -> PyResult<Self> {
+        let origin = read_origin(origin)?;
+        let pose = origin.pose("origin")?;
+        let axis = axis.map_or(Ok([0.0, 0.0, 1.0]), |axis| finite_numbers(axis, "axis"))?;
+        let joint = match kind {
+            "revolute" => trajectory::Joint::revolute(pose, axis),
+            _ => trajectory::Joint::prismatic(pose, axis),
+        };
+        let mut joint = joint.map_err(input_error)?;
+        let limits: Option<[f64; 2]> =
+            limits.map(|limits| numbers(limits, "limits")).transpose()?;
+        if let Some([low, high]) = limits {
+            // Written so that NaN is refused.
+            if !(low <= high) {
+                return Err(input_error(format!("limits: {low} is not at most {high}")));
+            }
+            joint = joint.with_limits(low..=high);
+        }
+        let [name, parent, child] = names;
+        let arguments = (name, parent, child, origin, axis, limits, mimic.clone());
+        Ok(PyJoint {
+            joint: named_joint(names, joint, mimic),
+            kind,
+            made: ConstructorCall::new(py, Some(kind), arguments)?,
+        })
+    }
+}
+
+fn read_origin(origin: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
+    origin.map_or(Ok(GivenPose::IDENTITY), |origin| {
+        read_given_pose(origin, "origin")
+    })
+}
+
+fn named_joint(names: [&str; 3], joint: trajectory::Joint, mimic: Option<Mimic>) -> Joint {
+    let [name, parent, child] = names.map(str::to_owned);
+    let position = match mimic {
+        Some((joint, multiplier, offset)) => Position::Follows {
+            joint,
+            multiplier,
+            offset,
+        },
+        None => Position::Free,
+    };
+    Joint {
+        name,
+        parent,
+        child,
+        joint,
+        position,
+    }
+}

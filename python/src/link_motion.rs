@@ -1,0 +1,105 @@
+//! The Python class `LinkMotion`.
+
+use crate::arrays::flat_numbers;
+use crate::errors::{input_error, warn};
+use crate::motion::pose_matrix;
+use crate::pickle::Reduced;
+use crate::robot::PyRobot;
+use pyo3::prelude::*;
+use rigid_ccd::Remark;
+use rigid_ccd::trajectory::{JointKind, Link, Trajectory};
+use rigid_ccd_robot::ChainBetween;
+
+/// The motion of a link of a `Robot` while all joints move at constant rates; `Robot.motion` makes it.
+///
+/// It stands for a `Motion` in all queries. Times and distances are as certain as those of a `Motion`. Witnesses are within
+/// the tolerance of where they are said to be.
+#[pyclass(name = "LinkMotion", module = "rigid_ccd", frozen)]
+pub(crate) struct PyLinkMotion {
+    robot: Py<PyRobot>,
+    given: GivenMotion,
+    chain: ChainBetween,
+    /// The positions of the chain's joints at both ends.
+    ends: [Vec<f64>; 2],
+}
+
+/// The arguments of `Robot.motion`.
+#[derive(Clone, IntoPyObject)]
+pub(crate) struct GivenMotion(String, Vec<f64>, Vec<f64>, f64, Option<String>);
+
+#[pymethods]
+impl PyLinkMotion {
+    /// Returns the pose of the link at a time, as a matrix of shape (4, 4).
+    fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+        let pose = Trajectory::pose(&self.link()?, time);
+        Ok(pose_matrix(py, &pose.map_err(input_error)?))
+    }
+
+    /// The time at which the joints reach their positions in `end`.
+    #[getter]
+    pub(crate) fn duration(&self) -> f64 {
+        self.given.3
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let make = slf.get().robot.bind(slf.py()).getattr("motion")?;
+        Ok((make, slf.get().given.clone().into_pyobject(slf.py())?))
+    }
+
+    fn __repr__(&self) -> String {
+        let GivenMotion(link, start, end, duration, seen_from) = &self.given;
+        let seen = seen_from
+            .as_ref()
+            .map_or_else(String::new, |link| format!(", seen_from='{link}'"));
+        format!("LinkMotion('{link}', start={start:?}, end={end:?}, duration={duration}{seen})")
+    }
+}
+
+impl PyLinkMotion {
+    /// Makes the motion of a link, or an error if positions are missing or outside their joints' limits.
+    pub(crate) fn new(
+        robot: &Bound<'_, PyRobot>,
+        link: String,
+        [start, end]: [&Bound<'_, PyAny>; 2],
+        duration: f64,
+        seen_from: Option<String>,
+    ) -> PyResult<Self> {
+        let links = &robot.get().robot;
+        let to = links.link_number(&link).map_err(input_error)?;
+        let from = seen_from
+            .as_ref()
+            .map_or(Ok(links.base()), |name| links.link_number(name))
+            .map_err(input_error)?;
+        let chain = links.chain_between(from, to);
+        let (start, end) = (flat_numbers(start, "start")?, flat_numbers(end, "end")?);
+        let positions = |what, configuration: &[f64]| {
+            let positions = chain.positions(links, configuration);
+            positions.map_err(|error| input_error(format!("{what}: {error}")))
+        };
+        let ends = [positions("start", &start)?, positions("end", &end)?];
+        let turning = chain.chain().joints().iter().enumerate();
+        let mut remarks = turning
+            .filter(|(_, joint)| matches!(joint.kind(), JointKind::Revolute(_)))
+            .flat_map(|(k, _)| [ends[0][k], ends[1][k]])
+            .filter_map(Remark::remark_on_joint);
+        warn(robot.py(), remarks.next(), 1)?;
+        let motion = PyLinkMotion {
+            robot: robot.clone().unbind(),
+            given: GivenMotion(link, start, end, duration, seen_from),
+            ends,
+            chain,
+        };
+        motion.link()?;
+        Ok(motion)
+    }
+
+    /// Returns the link's trajectory.
+    pub(crate) fn link(&self) -> PyResult<Link<'_>> {
+        let [start, end] = &self.ends;
+        let link = self
+            .chain
+            .chain()
+            .link(start.len(), start, end, self.duration());
+        link.map_err(input_error)
+    }
+}
