@@ -56,10 +56,10 @@ fn sampled_distances_are_on_the_proven_side() {
                     least_distance(&cell, &configuration_between(ends[0], ends[1], there.share));
                 match range.clearance {
                     Clearance::Kept => {
-                        assert!(distance > margin, "{distance} of {margin} in {range:?}")
+                        assert!(distance > margin, "{distance} of {margin} in {range:?}");
                     }
                     Clearance::Violated if margin > 0.0 => {
-                        assert!(distance < margin, "{distance} in {range:?}")
+                        assert!(distance < margin, "{distance} in {range:?}");
                     }
                     Clearance::Violated => assert!(distance <= 0.0, "{distance} in {range:?}"),
                     Clearance::Unverified => {}
