@@ -12,7 +12,7 @@ use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::{PyMapping, PyType};
 use rigid_ccd::Pose;
 use rigid_ccd_robot::{
     BodyElements, Joint, Link, LinkBody, LinkMeeting, LinkPairs, MeshModel, Robot, SkipReason, Urdf,
@@ -53,7 +53,7 @@ impl PyRobot {
     fn new(
         py: Python<'_>,
         joints: &Bound<'_, PyAny>,
-        bodies: Option<Bound<'_, PyDict>>,
+        bodies: Option<Bound<'_, PyMapping>>,
         may_touch: Vec<(String, String)>,
     ) -> PyResult<Self> {
         // Collect one by one, because an object may report a wrong length.
@@ -72,10 +72,12 @@ impl PyRobot {
         {
             link_named(&mut links, name);
         }
-        let bodies = bodies.unwrap_or_else(|| PyDict::new(py));
-        for (name, held) in &bodies {
-            let link = link_named(&mut links, &name.extract::<String>()?);
-            link.bodies.extend(read_held(&held)?);
+        let items = bodies.as_ref().map(|bodies| bodies.items()).transpose()?;
+        for item in items.iter().flatten() {
+            let (name, held): (String, Bound<'_, PyAny>) = item.extract()?;
+            link_named(&mut links, &name)
+                .bodies
+                .extend(read_held(&held)?);
         }
         let robot = Robot::new(links, joints).map_err(input_error)?;
         let mut pairs = LinkPairs::from_robot(&robot);

@@ -1,4 +1,4 @@
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, Protocol, TypeAlias, Unpack, final
 
@@ -171,7 +171,7 @@ class Robot:
     def __new__(
         cls,
         joints: Iterable[Joint],
-        bodies: dict[str, Body | list[tuple[Body, _Pose]]] | None = None,
+        bodies: Mapping[str, Body | Sequence[tuple[Body, _Pose]]] | None = None,
         may_touch: Sequence[tuple[str, str]] = ...,
     ) -> Robot: ...
     @classmethod
