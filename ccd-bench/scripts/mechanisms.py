@@ -120,7 +120,7 @@ def crank_slider() -> Mechanism:
         Joint.revolute("pin", "crank", "rod", at(crank)),
         Joint.prismatic("guide", "frame", "slider", axis=[1, 0, 0]),
     ]
-    bodies = {"crank": rod(crank, 0.02), "rod": rod(length, 0.04), "slider": Body.box(0.02, 0.02, 0.01)}
+    bodies: dict[str, Any] = {"crank": rod(crank, 0.02), "rod": rod(length, 0.04), "slider": Body.box(0.02, 0.02, 0.01)}
     cell = Cell(Robot(joints, bodies, [("rod", "slider"), ("crank", "slider")]))
     cell.add("wall", Body.box(0.01, 0.1, 0.1), at(crank + length + 0.02 + gap + 0.01))
     turn = np.linspace(-math.pi, math.pi, 2001)

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::answer::Clearance;
 use rigid_ccd::{Error, Pose, Settings};
-use rigid_ccd_robot::{Cell, Item, PathError, PathPoint, RangeSettings, RobotError};
+use rigid_ccd_robot::{Cell, PathError, PathPoint, RangeSettings, RobotError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A robot among obstacles that rest in the frame of its base.
@@ -103,8 +103,8 @@ impl PyCell {
     /// Sets the distance at which a pair counts as touching. `a` is a link or an attached body; so is `b`, or an obstacle.
     fn set_clearance(&self, a: &str, b: &str, distance: f64) -> PyResult<()> {
         self.change(|cell| {
-            let [a_item, b_item] = [a, b].map(|name| item(cell, name));
-            cell.set_clearance([a_item, b_item], distance)
+            let pair = [cell.item_named(a)?, cell.item_named(b)?];
+            cell.set_clearance(pair, distance)
         })
     }
 
@@ -310,17 +310,6 @@ impl PyCell {
 
 fn pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
     given.map_or(Ok(Pose::IDENTITY), |pose| read_pose(pose, "pose"))
-}
-
-/// Returns what has a name: an obstacle, an attached body, else a link.
-fn item<'a>(cell: &Cell, name: &'a str) -> Item<'a> {
-    if cell.obstacle_names().any(|other| other == name) {
-        Item::Obstacle(name)
-    } else if cell.attached_names().any(|other| other == name) {
-        Item::Attached(name)
-    } else {
-        Item::Link(name)
-    }
 }
 
 /// Converts an error about a path to a Python exception.

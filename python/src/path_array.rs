@@ -22,7 +22,9 @@ impl PathArray {
             Ok(positions) => positions.to_vec(),
             Err(_) => array.to_owned_array().iter().copied().collect(),
         };
-        if shape.contains(&0) || shape.is_empty() || shape.len() > 3 {
+        // There may be no paths, but each has configurations.
+        let is_too_short = |shape: &[usize]| shape[shape.len().saturating_sub(2)..].contains(&0);
+        if shape.is_empty() || shape.len() > 3 || is_too_short(&shape) {
             return Err(input_error(format!(
                 "{what}: configurations are needed, not an array of shape {shape:?}"
             )));

@@ -154,7 +154,7 @@ def test_wrong_input_is_named(robot: Robot, tmp_path: Path) -> None:
         cell.paths(np.zeros((4, 2, 3)))
     with pytest.raises(InputError, match="shape"):
         cell.is_free(np.zeros((0, 2)))
-    with pytest.raises(InputError, match="two obstacles are named `post`"):
+    with pytest.raises(InputError, match="already a link, an attached body or an obstacle named `post`"):
         cell.add("post", Body.sphere(0.1))
     with pytest.raises(InputError, match="no link `hand`"):
         cell.set_padding("hand", 1)
@@ -167,6 +167,7 @@ def test_wrong_input_is_named(robot: Robot, tmp_path: Path) -> None:
     with pytest.raises(Unresolved) as caught:
         cell.first_contact([[0, 0], [3, 0]], deadline=0)
     assert caught.value.safe_until == 0
+    assert len(cell.edges(np.zeros((0, 2)), np.zeros((0, 2)), ask="first-contact")) == 0
     rows = cell.edges([[0, 0], [0, 0]], [[1, 0], [9, 0]])
     assert rows["status"].tolist() == ["free", "error"] and "shoulder" in rows["error"][1]
     with pytest.raises(InputError, match="nothing.urdf"):

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// A robot among obstacles that rest in the frame of its base.
 ///
-/// Obstacles go by their names, and so do bodies that are attached to links.
+/// Obstacles and bodies that are attached to links go by their names, which no link has.
 #[derive(Clone, Debug)]
 pub struct Cell {
     robot: Robot,
@@ -87,7 +87,7 @@ impl Cell {
     /// Adds an obstacle at a pose in the frame of the robot's base.
     ///
     /// # Errors
-    /// [`RobotError::ObstacleNameTaken`].
+    /// [`RobotError::NameTaken`].
     pub fn add_obstacle(
         &mut self,
         name: impl Into<String>,
@@ -95,9 +95,7 @@ impl Cell {
         pose: Pose,
     ) -> Result<(), RobotError> {
         let name = name.into();
-        if self.obstacle_names.contains(&name) {
-            return Err(RobotError::ObstacleNameTaken { name });
-        }
+        self.check_new_name(&name)?;
         self.obstacle_names.push(name);
         let placed = PlacedBody::new(body.into(), pose, 0, MAX_OBSTACLE_PARTS);
         self.insert(self.bodies.len(), placed);
@@ -132,7 +130,7 @@ impl Cell {
     /// link. It may touch that link, links that no joint moves against it, and those that are named.
     ///
     /// # Errors
-    /// [`RobotError::AttachedNameTaken`], [`RobotError::NoSuchLink`].
+    /// [`RobotError::NameTaken`], [`RobotError::NoSuchLink`].
     pub fn attach(
         &mut self,
         name: impl Into<String>,
@@ -144,9 +142,7 @@ impl Cell {
         let may_touch = may_touch.iter().map(|link| self.robot.link_number(link));
         let may_touch = may_touch.collect::<Result<_, _>>()?;
         let name = name.into();
-        if self.attached_number(&name).is_ok() {
-            return Err(RobotError::AttachedNameTaken { name });
-        }
+        self.check_new_name(&name)?;
         let attachment = Some(Attachment { name, may_touch });
         let held = Held {
             link,
@@ -184,6 +180,22 @@ impl Cell {
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
         let attachments = self.held.iter().filter_map(|held| held.attachment.as_ref());
         attachments.map(|attachment| attachment.name.as_str())
+    }
+
+    /// Returns the link, the attached body or the obstacle that has a name.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchItem`].
+    pub fn item_named<'c>(&self, name: &'c str) -> Result<Item<'c>, RobotError> {
+        if self.robot.link_number(name).is_ok() {
+            Ok(Item::Link(name))
+        } else if self.attached_number(name).is_ok() {
+            Ok(Item::Attached(name))
+        } else if self.obstacle_number(name).is_ok() {
+            Ok(Item::Obstacle(name))
+        } else {
+            Err(RobotError::NoSuchItem { name: name.into() })
+        }
     }
 
     pub(crate) fn kinematics(&self) -> &Kinematics {
@@ -289,6 +301,13 @@ impl Cell {
             if part.owner > number {
                 part.owner -= 1;
             }
+        }
+    }
+
+    fn check_new_name(&self, name: &str) -> Result<(), RobotError> {
+        match self.item_named(name) {
+            Ok(_) => Err(RobotError::NameTaken { name: name.into() }),
+            Err(_) => Ok(()),
         }
     }
 

@@ -6,16 +6,16 @@ use rigid_ccd::InputError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotError {
-    /// Two obstacles have the same name.
-    #[error("two obstacles are named `{name}`")]
-    ObstacleNameTaken {
-        /// The name of both obstacles.
+    /// A link, an attached body or an obstacle has the name already.
+    #[error("there is already a link, an attached body or an obstacle named `{name}`")]
+    NameTaken {
+        /// The name that is given twice.
         name: String,
     },
-    /// Two bodies that are attached to links have the same name.
-    #[error("two attached bodies are named `{name}`")]
-    AttachedNameTaken {
-        /// The name of both bodies.
+    /// Nothing in the cell has the given name.
+    #[error("there is no link, attached body or obstacle `{name}`")]
+    NoSuchItem {
+        /// The name that nothing has.
         name: String,
     },
     /// No obstacle of the cell has the given name.

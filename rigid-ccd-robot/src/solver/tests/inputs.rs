@@ -4,17 +4,29 @@ use super::*;
 use crate::cell::part::PlacedBody;
 use rigid_ccd::body::{Facet, FacetOrigin, Polytope};
 
-/// Tests that names of obstacles are unique, and that wrong configurations are refused.
+/// Tests that names are unique, and that wrong configurations are refused.
 #[test]
 fn wrong_input_is_refused() {
     let mut random = Pcg64::seed_from_u64(7);
     let mut cell = random_cell(&mut random);
     let ball = || Body::sphere(0.1).unwrap();
     cell.add_obstacle("lamp", ball(), Pose::IDENTITY).unwrap();
-    let error = cell
-        .add_obstacle("lamp", ball(), Pose::IDENTITY)
-        .unwrap_err();
-    assert_eq!(error.to_string(), "two obstacles are named `lamp`");
+    let link = cell.robot().links()[0].name.clone();
+    cell.attach("cup", ball(), (&link, Pose::IDENTITY), &[])
+        .unwrap();
+    for taken in ["lamp", "cup", &link] {
+        let known =
+            format!("there is already a link, an attached body or an obstacle named `{taken}`");
+        let error = cell
+            .add_obstacle(taken, ball(), Pose::IDENTITY)
+            .unwrap_err();
+        assert_eq!(error.to_string(), known);
+        let error = cell
+            .attach(taken, ball(), (&link, Pose::IDENTITY), &[])
+            .unwrap_err();
+        assert_eq!(error.to_string(), known);
+    }
+    cell.detach("cup").unwrap();
     let start = random_configuration(&mut random, cell.robot());
     let mut solver = cell.solver();
     for wrong in [
