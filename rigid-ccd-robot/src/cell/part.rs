@@ -3,9 +3,9 @@
 use crate::tuning::MIN_PIECES_TO_SPLIT;
 use ccd_core::fan_triangles;
 use ccd_core::order::greater;
-use ccd_core::{Body, Piece, Pieces, SupportScan, Volume};
+use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Support, Volume};
 use rigid_ccd::Pose;
-use rigid_ccd::glam::DVec3;
+use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;
 use std::sync::Arc;
 
@@ -18,13 +18,14 @@ pub(crate) struct PlacedBody {
     /// The number of the frame.
     pub(crate) frame: usize,
     /// Convex hulls that enclose the body together, in its own coordinates.
-    hulls: Arc<[Hull]>,
+    hulls: Vec<Arc<Hull>>,
 }
 
-/// A convex hull around some pieces of a body.
-#[derive(Clone, Debug)]
-struct Hull {
+/// A convex hull around some pieces of a body, in the body's coordinates.
+#[derive(Debug)]
+pub(crate) struct Hull {
     corners: Vec<DVec3>,
+    support: Support,
     /// The radius of the ball by which the hull is grown.
     radius: f64,
 }
@@ -37,8 +38,10 @@ pub(crate) struct Part {
     /// The number of the frame.
     pub(crate) frame: usize,
     /// The corners of the hull.
-    pub(crate) points: Vec<DVec3>,
-    pub(crate) support_scan: SupportScan,
+    points: Vec<DVec3>,
+    /// The hull in the body's coordinates, in which its corners are searched, and the rotation from these to the frame.
+    hull: Arc<Hull>,
+    rotation: DMat3,
     /// The radius of the ball by which the hull is grown.
     pub(crate) radius: f64,
     /// Whether the grown hull is the body itself.
@@ -63,7 +66,10 @@ impl PlacedBody {
             None => body,
         };
         let clusters = clusters(body.pieces().iter().collect(), max_hulls);
-        let hulls = clusters.iter().map(|pieces| Hull::around(pieces)).collect();
+        let hulls = clusters
+            .iter()
+            .map(|pieces| Arc::new(Hull::around(pieces)))
+            .collect();
         PlacedBody {
             body,
             pose,
@@ -83,9 +89,21 @@ impl Hull {
     fn around(pieces: &[Piece<'_>]) -> Self {
         let radii = pieces.iter().map(|piece| piece.radius);
         let points = pieces.iter().flat_map(|piece| piece.points);
+        let (corners, support) = corners_of_hull(points.copied().collect());
         Hull {
-            corners: hull_corners(points.copied().collect()),
+            corners,
+            support,
             radius: radii.fold(0.0, greater),
+        }
+    }
+
+    /// Returns the number of a corner that is farthest along a direction.
+    #[inline(always)]
+    fn extremal_corner(&self, direction: DVec3) -> u32 {
+        match &self.support {
+            // Inlined where vector instructions are chosen.
+            Support::Scan(scan) => scan.extremal_point(direction),
+            other => other.extremal_point(direction),
         }
     }
 }
@@ -113,7 +131,7 @@ fn hull_surface_of_polytope(body: &Body) -> Option<Body> {
 }
 
 impl Part {
-    fn new(hull: &Hull, placed: &PlacedBody, owner: usize) -> Self {
+    fn new(hull: &Arc<Hull>, placed: &PlacedBody, owner: usize) -> Self {
         let corners = hull.corners.iter();
         let points: Vec<DVec3> = corners
             .map(|&corner| placed.pose.transform_point(corner))
@@ -131,8 +149,9 @@ impl Part {
         Part {
             owner,
             frame: placed.frame,
-            support_scan: SupportScan::new(&points),
             points,
+            hull: Arc::clone(hull),
+            rotation: DMat3::from_quat(placed.pose.rotation()),
             radius,
             is_convex: placed.body.pieces().len() == 1,
             excess: placed.body.excess(),
@@ -140,6 +159,20 @@ impl Part {
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
             ball_radius: farthest + radius,
         }
+    }
+
+    /// Returns the corners of the hull.
+    #[cfg(test)]
+    pub(crate) fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// Returns the corner that is farthest along a direction of the frame, and its number.
+    #[inline(always)]
+    pub(crate) fn extremal_corner(&self, direction: DVec3) -> (u32, DVec3) {
+        let in_body = self.rotation.transpose() * direction;
+        let number = self.hull.extremal_corner(in_body);
+        (number, self.points[number as usize])
     }
 
     /// Returns the half extents of the part's bounding box along the axes of the base, when the part's frame is at `frame`.
@@ -175,10 +208,28 @@ fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>>
     all
 }
 
-/// Returns the corners of the hull of points; all points if the hull cannot be computed.
-fn hull_corners(points: Vec<DVec3>) -> Vec<DVec3> {
-    match ccd_decomp::convex_hull(&points) {
-        Ok(hull) => hull.points,
-        Err(_) => points,
+/// Returns the corners of the hull of points, and a search for the extremal ones; all points if the hull cannot be computed.
+fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, Support) {
+    let with_facets = ccd_decomp::convex_hull(&points).ok().and_then(|hull| {
+        let facets = hull.facets.iter().map(|corners| Facet {
+            origin: FacetOrigin::Virtual,
+            corners: corners.to_vec(),
+        });
+        let polytope = Polytope {
+            facets: facets.collect(),
+            points: hull.points,
+            ..Polytope::default()
+        };
+        Pieces::polytopes(&[polytope]).ok()
+    });
+    match with_facets {
+        Some(pieces) => {
+            let Piece { points, facets, .. } = pieces.get(0);
+            (points.to_vec(), Support::new(points, facets))
+        }
+        None => {
+            let support = Support::new(&points, Facets::NONE);
+            (points, support)
+        }
     }
 }

@@ -133,12 +133,9 @@ pub(super) fn first_axis(b: &Part, [centre_a, centre_b]: [DVec3; 2], is_obstacle
 pub(super) fn vertex([a, b]: [&Part; 2], frames: &[Frame; 2], direction: DVec3) -> Vertex {
     let in_a = frames[0].inverse_vector(direction);
     let in_b = -frames[1].inverse_vector(direction);
-    let (index_a, index_b) = (
-        a.support_scan.extremal_point(in_a),
-        b.support_scan.extremal_point(in_b),
-    );
-    let point_a = frames[0].point(a.points[index_a as usize]);
-    let point_b = frames[1].point(b.points[index_b as usize]);
+    let (index_a, corner_a) = a.extremal_corner(in_a);
+    let (index_b, corner_b) = b.extremal_corner(in_b);
+    let (point_a, point_b) = (frames[0].point(corner_a), frames[1].point(corner_b));
     Vertex {
         point: point_b - point_a,
         a: index_a,

@@ -10,7 +10,7 @@ const U: f64 = 0.5 * f64::EPSILON;
 /// The error of a rotation matrix for each joint. The product of two rotations rounds each entry by 3 units, and the
 /// matrix by at most 9. The joint's rotation is a sum of three matrices, each a product of two, whose entries are rounded
 /// by 8 units together: at most 24 for the matrix, and 8 for the quaternion of which it was made. The sine and the cosine
-/// are rounded by 2. That is less than 64.
+/// are rounded by 2. That is less than 64. The direction in which the corners of a hull are searched is rotated once more.
 const ROTATION_PER_JOINT: f64 = 64.0;
 
 /// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. A
@@ -35,6 +35,6 @@ pub(crate) fn point_error(
         }
     }
     let reach = parts.iter().map(Part::reach).fold(0.0, greater);
-    let turn = ROTATION_PER_JOINT * (kinematics.joint_count + 1) as f64 + POSITION * angles;
+    let turn = ROTATION_PER_JOINT * (kinematics.joint_count + 2) as f64 + POSITION * angles;
     U * (turn + POSITION) * (arms + reach)
 }

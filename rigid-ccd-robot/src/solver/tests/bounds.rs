@@ -78,7 +78,7 @@ fn displacements_are_within_their_bounds() {
                         continue;
                     };
                     let bound = displacements.bound(Some(slot));
-                    for &point in &part.points {
+                    for &point in part.points() {
                         let place = |frames: &[Frame]| {
                             frames[seen_from].inverse_point(frames[part.frame].point(point))
                         };
