@@ -50,14 +50,9 @@ pub enum Format {
 /// The contents of the files that a mesh refers to, by file name.
 pub(crate) type LinkedFiles = BTreeMap<String, Vec<u8>>;
 
-/// A reference from a mesh to another file, such as a buffer of a glTF.
-#[derive(Debug, PartialEq, Eq)]
-pub(crate) struct FileReference {
-    /// The path of the file relative to the mesh, as written in the mesh.
-    pub(crate) name: String,
-    /// The number of bytes of the file that the mesh needs.
-    pub(crate) needed_bytes: u64,
-}
+/// The files that a mesh refers to, such as the buffers of a glTF: for each path relative to the mesh, as written in the
+/// mesh, the number of bytes of the file that the mesh needs.
+pub(crate) type FileReferences = BTreeMap<String, u64>;
 
 impl Format {
     /// Returns the format of a file by its extension, case-insensitively.
@@ -83,7 +78,7 @@ impl Format {
     }
 
     /// Returns the references in a mesh to other files, whose contents [`Format::parse`] needs.
-    pub(crate) fn file_references(self, bytes: &[u8]) -> Result<Vec<FileReference>, MeshFault> {
+    pub(crate) fn file_references(self, bytes: &[u8]) -> Result<FileReferences, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
             (Format::Gltf, bytes)
@@ -91,7 +86,7 @@ impl Format {
             {
                 gltf::file_references(bytes)
             }
-            _ => Ok(Vec::new()),
+            _ => Ok(FileReferences::new()),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::TriangleMesh;
 use super::content::Content;
 use super::error::{MeshError, MeshFault, element_name};
-use super::format::{FileReference, Format, LinkedFiles};
+use super::format::{Format, LinkedFiles};
 use super::polygons::Polygons;
 use super::unit::{Unit, UnitConversion};
 use std::fs::{self, File};
@@ -51,17 +51,13 @@ impl MeshFile {
         let path = path.as_ref();
         let read = || {
             let (format, bytes) = read_with_format(path)?;
-            let references = format.file_references(&bytes)?.into_iter();
             let folder = path.parent().unwrap_or(Path::new(""));
-            let linked: Result<LinkedFiles, _> = references
-                .map(|reference| {
-                    Ok((
-                        reference.name.clone(),
-                        read_linked_file(folder, &reference)?,
-                    ))
-                })
-                .collect();
-            format.parse(&bytes, &linked?)
+            let mut linked = LinkedFiles::new();
+            for (name, needed_bytes) in format.file_references(&bytes)? {
+                let content = read_linked_file(folder, &name, needed_bytes)?;
+                linked.insert(name, content);
+            }
+            format.parse(&bytes, &linked)
         };
         match read() {
             Ok(content) => Ok(MeshFile::new(content, Some(path.into()))),
@@ -233,8 +229,8 @@ pub(crate) fn source_paths(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
         let (format, bytes) = read_with_format(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut files = vec![path.to_owned()];
-        for reference in format.file_references(&bytes)? {
-            files.push(folder.join(checked_relative_path(&reference.name)?));
+        for name in format.file_references(&bytes)?.keys() {
+            files.push(folder.join(checked_relative_path(name)?));
         }
         Ok(files)
     };
@@ -268,22 +264,18 @@ fn read_with_format(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
 }
 
 /// Reads a file that a mesh refers to, up to the needed length. Only regular files are read: a pipe might never end.
-fn read_linked_file(folder: &Path, reference: &FileReference) -> Result<Vec<u8>, MeshFault> {
-    let FileReference {
-        name,
-        needed_bytes: bytes,
-    } = reference;
+fn read_linked_file(folder: &Path, name: &str, bytes: u64) -> Result<Vec<u8>, MeshFault> {
     let path = folder.join(checked_relative_path(name)?);
     let read = || {
         if !fs::metadata(&path)?.is_file() {
             return Err(std::io::Error::other("it is no file"));
         }
         let mut content = Vec::new();
-        File::open(&path)?.take(*bytes).read_to_end(&mut content)?;
+        File::open(&path)?.take(bytes).read_to_end(&mut content)?;
         Ok(content)
     };
     read().map_err(|error| MeshFault::UnreadableLinkedFile {
-        name: name.clone(),
+        name: name.into(),
         reason: format!("{error}; put it where the mesh is"),
     })
 }

@@ -13,7 +13,7 @@ mod schema;
 mod transform;
 mod whole;
 
-use super::{FileReference, LinkedFiles};
+use super::{FileReferences, LinkedFiles};
 use crate::mesh::content::allowance::ExpansionBudget;
 use crate::mesh::content::assembly::Assembly;
 use crate::mesh::content::{Content, Layout};
@@ -24,7 +24,6 @@ use buffers::Buffers;
 use container::Container;
 use nodes::Scene;
 use schema::Root;
-use std::collections::BTreeMap;
 
 /// Parses a glTF, text or binary, into an assembly of parts.
 pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
@@ -54,32 +53,23 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     })
 }
 
-/// Returns the references of a glTF to buffers that are separate files, each file once.
-pub(super) fn file_references(bytes: &[u8]) -> Result<Vec<FileReference>, MeshFault> {
+/// Returns the references of a glTF to buffers that are separate files.
+pub(super) fn file_references(bytes: &[u8]) -> Result<FileReferences, MeshFault> {
+    let mut references = FileReferences::new();
     if bytes.is_empty() {
-        return Ok(Vec::new());
+        return Ok(references);
     }
     let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
     let root = Root::read(Container::read(unmarked)?.json)?;
-    let mut needed = BTreeMap::new();
     for (k, buffer) in root.buffers.iter().enumerate() {
-        let reference = buffers::file_reference(buffer);
-        if let Some(FileReference {
-            name,
-            needed_bytes: bytes,
-        }) = reference.map_err(|fault| fault.at_element(element_name("buffer", k, None)))?
-        {
-            let most = needed.entry(name).or_insert(bytes);
-            *most = bytes.max(*most);
+        let name = buffers::linked_file_name(buffer)
+            .map_err(|fault| fault.at_element(element_name("buffer", k, None)))?;
+        if let Some(name) = name {
+            let most = references.entry(name).or_default();
+            *most = buffer.byte_length.max(*most);
         }
     }
-    let references = needed.into_iter();
-    Ok(references
-        .map(|(name, bytes)| FileReference {
-            name,
-            needed_bytes: bytes,
-        })
-        .collect())
+    Ok(references)
 }
 
 /// Returns the element of a JSON array at the index `number`, or a fault that names the elements by `kind`.

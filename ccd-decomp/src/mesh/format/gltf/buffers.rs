@@ -3,10 +3,10 @@
 use super::schema::{Buffer, Root};
 use super::{element, extensions};
 use crate::mesh::error::{MeshFault, QuotedName, element_name};
-use crate::mesh::format::{FileReference, LinkedFiles};
+use crate::mesh::format::LinkedFiles;
 use base64::Engine;
-use base64::engine::general_purpose::GeneralPurpose;
-use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
+use base64::alphabet::STANDARD;
+use base64::engine::general_purpose::{GeneralPurpose, PAD_INDIFFERENT};
 use std::borrow::Cow;
 
 /// The bytes of all buffers of a glTF. A buffer that only a compression extension fills has no data and is `None`.
@@ -74,12 +74,10 @@ fn buffer_bytes<'a>(
     binary: Option<&'a [u8]>,
     linked: &'a LinkedFiles,
 ) -> Result<Option<Cow<'a, [u8]>>, MeshFault> {
-    let bytes: Cow<'_, [u8]> = match &buffer.uri {
-        None => match binary {
-            Some(binary) => binary.into(),
-            None => return Ok(None),
-        },
-        Some(uri) => match data_uri_payload(uri) {
+    let bytes: Cow<'_, [u8]> = match (&buffer.uri, binary) {
+        (None, None) => return Ok(None),
+        (None, Some(binary)) => binary.into(),
+        (Some(uri), _) => match data_uri_payload(uri) {
             Some(data) => decode_base64(data?)?.into(),
             None => {
                 let name = path_from_uri(uri)?;
@@ -104,15 +102,11 @@ fn linked_file_fault(name: String) -> MeshFault {
     }
 }
 
-/// Returns the reference to the file of a buffer; `None` for an embedded buffer.
-pub(super) fn file_reference(buffer: &Buffer) -> Result<Option<FileReference>, MeshFault> {
-    match &buffer.uri {
-        Some(uri) if data_uri_payload(uri).is_none() => Ok(Some(FileReference {
-            name: path_from_uri(uri)?,
-            needed_bytes: buffer.byte_length,
-        })),
-        _ => Ok(None),
-    }
+/// Returns the path of the file of a buffer relative to the mesh; `None` for an embedded buffer.
+pub(super) fn linked_file_name(buffer: &Buffer) -> Result<Option<String>, MeshFault> {
+    let uri = buffer.uri.as_deref();
+    let linked = uri.filter(|uri| data_uri_payload(uri).is_none());
+    linked.map(path_from_uri).transpose()
 }
 
 /// Returns the base64 text of a data URI; `None` for any other URI.
@@ -129,12 +123,11 @@ fn data_uri_payload(uri: &str) -> Option<Result<&str, MeshFault>> {
 
 fn decode_base64(data: &str) -> Result<Vec<u8>, MeshFault> {
     // Some programs omit the padding.
-    const LENIENT_BASE64_CONFIG: GeneralPurposeConfig = GeneralPurposeConfig::new()
-        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
-        .with_decode_allow_trailing_bits(true);
-    const BASE64_ENGINE: GeneralPurpose =
-        GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT_BASE64_CONFIG);
-    let decoded = BASE64_ENGINE.decode(data);
+    const LENIENT_BASE64: GeneralPurpose = GeneralPurpose::new(
+        &STANDARD,
+        PAD_INDIFFERENT.with_decode_allow_trailing_bits(true),
+    );
+    let decoded = LENIENT_BASE64.decode(data);
     decoded
         .map_err(|error| MeshFault::malformed_content(format!("its base64 is not valid: {error}")))
 }
