@@ -28,8 +28,8 @@ use std::path::{Component, Path, PathBuf};
 #[derive(Debug)]
 pub struct MeshFile {
     content: Content,
-    unit: Option<Unit>,
-    conversion: UnitConversion,
+    /// The unit to which the coordinates are converted; `None` if they stay as they are.
+    target_unit: Option<Unit>,
     path: Option<PathBuf>,
 }
 
@@ -82,9 +82,8 @@ impl MeshFile {
 
     fn new(content: Content, path: Option<PathBuf>) -> Self {
         MeshFile {
-            unit: content.unit,
             content,
-            conversion: UnitConversion::NONE,
+            target_unit: None,
             path,
         }
     }
@@ -93,7 +92,7 @@ impl MeshFile {
     /// [`MeshFile::converted_to_unit`] or [`MeshFile::with_stated_unit`], else that of the format. A glTF is in metres; the other
     /// formats have no unit.
     pub fn unit(&self) -> Option<Unit> {
-        self.unit
+        self.target_unit.or(self.content.unit)
     }
 
     /// States the unit in which the file's coordinates are written, without converting them. It takes precedence over
@@ -110,8 +109,7 @@ impl MeshFile {
     #[must_use]
     pub fn with_stated_unit(mut self, unit: Unit) -> Self {
         self.content.unit = Some(unit);
-        self.conversion = UnitConversion::NONE;
-        self.unit = Some(unit);
+        self.target_unit = None;
         self
     }
 
@@ -132,17 +130,13 @@ impl MeshFile {
     /// ```
     #[must_use]
     pub fn converted_to_unit(mut self, unit: Unit) -> Self {
-        self.conversion = match self.content.unit {
-            Some(stated) => UnitConversion::new(stated, unit),
-            None => UnitConversion::NONE,
-        };
-        self.unit = Some(unit);
+        self.target_unit = Some(unit);
         self
     }
 
     /// Returns the names of the parts in the order of their numbers; `None` for a part without a name.
     pub fn part_names(&self) -> impl ExactSizeIterator<Item = Option<&str>> {
-        (0..self.content.part_count()).map(|part| self.content.name(part))
+        self.content.part_names.iter().map(Option::as_deref)
     }
 
     /// Returns the mesh of the part with the given name or, if no part has that name, with the given number.
@@ -154,7 +148,7 @@ impl MeshFile {
         let made = || {
             let part = self.find_part(name_or_number)?;
             let separate = self.content.separate_parts(part..part + 1);
-            let mesh = separate.and_then(|mut one| mesh(one.swap_remove(0), self.conversion));
+            let mesh = separate.and_then(|mut one| mesh(one.swap_remove(0), self.conversion()));
             mesh.map_err(|fault| fault.at_element(self.part_label(part)))
         };
         made().map_err(|fault| error(fault, &self.path))
@@ -165,12 +159,14 @@ impl MeshFile {
     /// # Errors
     /// [`MeshFault::AtElement`] with the number and name of a part, and its fault.
     pub fn into_parts(self) -> Result<Vec<NamedMesh>, MeshError> {
-        let parts = self.content.separate_parts(0..self.content.part_count());
+        let parts = self
+            .content
+            .separate_parts(0..self.content.part_names.len());
         let parts = parts.map_err(|fault| error(fault, &self.path))?.into_iter();
         let named = parts.enumerate().map(|(part, polygons)| {
-            let mesh = mesh(polygons, self.conversion)
+            let mesh = mesh(polygons, self.conversion())
                 .map_err(|fault| error(fault.at_element(self.part_label(part)), &self.path))?;
-            let name = self.content.name(part).map(str::to_owned);
+            let name = self.content.part_names[part].clone();
             Ok(NamedMesh { name, mesh })
         });
         named.collect()
@@ -183,29 +179,29 @@ impl MeshFile {
     /// # Errors
     /// The faults of the mesh.
     pub fn into_mesh(self) -> Result<TriangleMesh, MeshError> {
-        let MeshFile {
-            content,
-            conversion,
-            path,
-            ..
-        } = self;
-        let whole = content.all_faces();
+        let conversion = self.conversion();
+        let whole = self.content.all_faces();
         let mesh = whole.and_then(|polygons| mesh(polygons, conversion));
-        mesh.map_err(|fault| error(fault, &path))
+        mesh.map_err(|fault| error(fault, &self.path))
+    }
+
+    fn conversion(&self) -> Option<UnitConversion> {
+        let units = self.content.unit.zip(self.target_unit);
+        units.map(|(from, to)| UnitConversion::new(from, to))
     }
 
     fn find_part(&self, name_or_number: &str) -> Result<usize, MeshFault> {
-        let parts = 0..self.content.part_count();
-        let has_name = |&part: &usize| self.content.name(part) == Some(name_or_number);
-        let named: Vec<usize> = parts.clone().filter(has_name).collect();
+        let names = &self.content.part_names;
+        let has_name = |&part: &usize| names[part].as_deref() == Some(name_or_number);
+        let named: Vec<usize> = (0..names.len()).filter(has_name).collect();
         let number = || name_or_number.parse().ok();
         match named[..] {
             [part] => Ok(part),
             [] => number()
-                .filter(|number| parts.contains(number))
+                .filter(|&number| number < names.len())
                 .ok_or_else(|| MeshFault::NoSuchPart {
                     part: name_or_number.into(),
-                    parts: self.part_names().map(|name| name.map(Into::into)).collect(),
+                    parts: names.clone(),
                 }),
             _ => Err(MeshFault::AmbiguousPart {
                 part: name_or_number.into(),
@@ -216,7 +212,7 @@ impl MeshFile {
 
     /// Returns the number and the name of a part for messages.
     fn part_label(&self, part: usize) -> String {
-        element_name("part", part, self.content.name(part))
+        element_name("part", part, self.content.part_names[part].as_deref())
     }
 }
 
@@ -245,8 +241,11 @@ fn error(fault: MeshFault, path: &Option<PathBuf>) -> MeshError {
 }
 
 /// Creates a mesh from polygons, after converting their coordinates to another unit.
-fn mesh(mut polygons: Polygons, conversion: UnitConversion) -> Result<TriangleMesh, MeshFault> {
-    if conversion != UnitConversion::NONE {
+fn mesh(
+    mut polygons: Polygons,
+    conversion: Option<UnitConversion>,
+) -> Result<TriangleMesh, MeshFault> {
+    if let Some(conversion) = conversion {
         for vertex in &mut polygons.vertices {
             *vertex = conversion.apply(*vertex);
         }

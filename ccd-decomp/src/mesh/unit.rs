@@ -84,18 +84,13 @@ impl FromStr for Unit {
 /// Between metric units one of the two numbers is 1, so that a coordinate is rounded once. A 32-bit float converts
 /// exactly to a smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between metric
 /// units and inches or feet a coordinate is rounded up to twice.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct UnitConversion {
     numerator: f64,
     denominator: f64,
 }
 
 impl UnitConversion {
-    pub(crate) const NONE: UnitConversion = UnitConversion {
-        numerator: 1.0,
-        denominator: 1.0,
-    };
-
     pub(crate) fn new(from: Unit, to: Unit) -> Self {
         let [from, to] = [from, to].map(|unit| unit.symbol_and_micrometres().1);
         let common = greatest_common_divisor(from, to);

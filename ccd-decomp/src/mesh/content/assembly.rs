@@ -4,6 +4,7 @@ use super::allowance::{ExpansionBudget, expansion_cost};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
+use crate::mesh::remark::Remarks;
 use std::ops::Range;
 
 /// A scene, as a list of shapes and the parts that place them. One shape may be placed by several parts.
@@ -13,38 +14,27 @@ use std::ops::Range;
 #[derive(Debug)]
 pub(crate) struct Assembly {
     /// The shapes, as lists of triangles; the corners of a shape are indices into its own vertices.
-    shapes: Vec<Polygons>,
+    pub(crate) shapes: Vec<Polygons>,
     pub(crate) parts: Vec<Part>,
-    budget: ExpansionBudget,
+    pub(crate) budget: ExpansionBudget,
+    pub(crate) remarks: Remarks,
 }
 
 /// A part of a scene: the index of a shape, with the affine map that places it.
 #[derive(Debug)]
 pub(crate) struct Part {
-    pub(crate) name: Option<String>,
     pub(crate) shape: usize,
     pub(crate) placement: AffineMap,
 }
 
 impl Assembly {
-    /// Creates an assembly from shapes and parts. Parts without faces are omitted.
-    pub(crate) fn new(
-        shapes: Vec<Polygons>,
-        mut parts: Vec<Part>,
-        allowance: ExpansionBudget,
-    ) -> Self {
-        parts.retain(|part| !shapes[part.shape].corner_ends.is_empty());
-        Assembly {
-            shapes,
-            parts,
-            budget: allowance,
-        }
-    }
-
     /// Returns the placed triangles of some parts as one list, part by part.
     pub(super) fn placed_triangles(&self, parts: Range<usize>) -> Result<Polygons, MeshFault> {
         self.check_expansion_cost(parts.clone())?;
-        let mut all = Polygons::default();
+        let mut all = Polygons {
+            remarks: self.remarks.clone(),
+            ..Polygons::default()
+        };
         for part in &self.parts[parts] {
             append_placed_shape(&mut all, &self.shapes[part.shape], &part.placement);
         }

@@ -14,15 +14,12 @@ mod transform;
 mod whole;
 
 use super::{FileReferences, LinkedFiles};
+use crate::mesh::content::Content;
 use crate::mesh::content::allowance::ExpansionBudget;
-use crate::mesh::content::assembly::Assembly;
-use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, element_name};
-use crate::mesh::unit::Unit;
 use accessor::AccessorReader;
 use buffers::Buffers;
 use container::Container;
-use nodes::Scene;
 use schema::Root;
 
 /// Parses a glTF, text or binary, into an assembly of parts.
@@ -35,22 +32,12 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     extensions::check_required_extensions(&root)?;
     let buffers = Buffers::new(&root, container.binary_chunk, linked)?;
     let all_bytes = bytes.len() + linked.values().map(Vec::len).sum::<usize>();
-    let allowance = ExpansionBudget::for_file(all_bytes as u64);
     let accessors = AccessorReader {
         root: &root,
         buffers: &buffers,
-        expansion_budget: allowance,
+        expansion_budget: ExpansionBudget::for_file(all_bytes as u64),
     };
-    let Scene {
-        shapes,
-        parts,
-        remarks,
-    } = nodes::read_scene(&root, accessors)?;
-    Ok(Content {
-        unit: Some(Unit::Metre),
-        layout: Layout::Assembly(Assembly::new(shapes, parts, allowance)),
-        remarks,
-    })
+    nodes::read_scene(&root, accessors)
 }
 
 /// Returns the references of a glTF to buffers that are separate files.

@@ -3,7 +3,6 @@
 //! Without `tobj`: it numbers vertices by first use and object by object, does not say where an error is, and took
 //! more code around it than the statements `v` and `f` take.
 
-use crate::mesh::content::groups::Groups;
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
@@ -130,7 +129,7 @@ impl ObjReader {
     }
 
     /// Checks that all face corners name existing vertices, and returns the content.
-    fn into_content(mut self) -> Result<Content, MeshFault> {
+    fn into_content(self) -> Result<Content, MeshFault> {
         let polygons = &self.polygons;
         let vertices = polygons.vertices.len();
         let beyond = polygons.corners.iter().position(|&v| v >= vertices as i64);
@@ -159,8 +158,8 @@ impl ObjReader {
         };
         Ok(Content {
             unit: None,
-            remarks: std::mem::take(&mut self.polygons.remarks),
-            layout: Layout::FaceList(self.polygons, labels.groups),
+            part_names: labels.names,
+            layout: Layout::FaceList(self.polygons, labels.group_of_face),
         })
     }
 }
@@ -181,7 +180,9 @@ fn vertex_number(corner: &str) -> Option<i64> {
 /// first face.
 #[derive(Default)]
 struct NamedGroups {
-    groups: Groups,
+    names: Vec<Option<String>>,
+    /// For each face, the number of its group.
+    group_of_face: Vec<u32>,
     /// The number of each group, by its name.
     numbers: HashMap<Option<String>, u32>,
     current_name: Option<String>,
@@ -193,27 +194,21 @@ impl NamedGroups {
     }
 
     fn add_face(&mut self) {
-        let Groups {
-            names,
-            group_of_face: of_face,
-        } = &mut self.groups;
         let number = match self.numbers.get(&self.current_name) {
             Some(&number) => number,
             None => {
-                names.push(self.current_name.clone());
-                let number = names.len() as u32 - 1;
-                *self
-                    .numbers
-                    .entry(self.current_name.clone())
-                    .or_insert(number)
+                let number = self.names.len() as u32;
+                self.names.push(self.current_name.clone());
+                self.numbers.insert(self.current_name.clone(), number);
+                number
             }
         };
-        of_face.push(number);
+        self.group_of_face.push(number);
     }
 
     /// Returns whether any face is in a group with a name.
     fn has_names(&self) -> bool {
-        self.groups.names.iter().any(Option::is_some)
+        self.names.iter().any(Option::is_some)
     }
 }
 

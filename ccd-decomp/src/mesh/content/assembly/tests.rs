@@ -2,6 +2,7 @@ use super::{Assembly, Part};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::allowance::ExpansionBudget;
 use crate::mesh::polygons::Polygons;
+use crate::mesh::remark::Remarks;
 use ccd_core::Pose;
 use ccd_core::glam::DVec3;
 
@@ -14,30 +15,25 @@ fn triangle() -> Polygons {
     }
 }
 
-fn shifted_part(shape: usize, x: f64) -> Part {
+fn shifted_part(x: f64) -> Part {
     let map = AffineMap::from(Pose::at([x, 0.0, 0.0]).unwrap());
     Part {
-        name: None,
-        shape,
+        shape: 0,
         placement: map,
     }
 }
 
 #[test]
 fn parts_are_placed_in_order() {
-    let parts = [10.0, 21.0, 0.0].map(|x| shifted_part(0, x));
-    let assembly = Assembly::new(vec![triangle()], parts.into(), ExpansionBudget::for_file(0));
+    let parts = [10.0, 21.0, 0.0].map(shifted_part);
+    let assembly = Assembly {
+        shapes: vec![triangle()],
+        parts: parts.into(),
+        budget: ExpansionBudget::for_file(0),
+        remarks: Remarks::default(),
+    };
     let all = assembly.placed_triangles(0..3).unwrap();
     let firsts: Vec<f64> = all.vertices.iter().step_by(3).map(|v| v.x).collect();
     assert_eq!(firsts, [10.0, 21.0, 0.0]);
     assert_eq!(all.corners, (0..9).collect::<Vec<i64>>());
-}
-
-#[test]
-fn parts_without_faces_are_left_out() {
-    let shapes = vec![Polygons::default(), triangle()];
-    let parts = [0, 1, 0, 1].map(|shape| shifted_part(shape, 0.0));
-    let assembly = Assembly::new(shapes, parts.into(), ExpansionBudget::for_file(0));
-    let kept: Vec<usize> = assembly.parts.iter().map(|part| part.shape).collect();
-    assert_eq!(kept, [1, 1]);
 }

@@ -4,29 +4,28 @@ use super::accessor::AccessorReader;
 use super::schema::Root;
 use super::{element, primitive, transform};
 use crate::mesh::affine::AffineMap;
-use crate::mesh::content::assembly::Part;
+use crate::mesh::content::assembly::{Assembly, Part};
+use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, element_name};
-use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
+use crate::mesh::unit::Unit;
 use std::collections::HashMap;
-
-/// The meshes of a glTF scene as shapes, and the parts that place them.
-#[derive(Default)]
-pub(super) struct Scene {
-    pub(super) shapes: Vec<Polygons>,
-    pub(super) parts: Vec<Part>,
-    pub(super) remarks: Remarks,
-}
 
 /// Reads the default scene of the file or, if none is named, the first scene. In a file without scenes it reads all
 /// nodes, and in a file without nodes all meshes.
-pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene, MeshFault> {
+pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Content, MeshFault> {
     let mut walk = SceneTraversal {
         root,
-        accessor_reader: accessors,
         shape_of_mesh: HashMap::new(),
         visited_nodes: vec![false; root.nodes.len()],
-        scene: Scene::default(),
+        part_names: Vec::new(),
+        assembly: Assembly {
+            shapes: Vec::new(),
+            parts: Vec::new(),
+            budget: accessors.expansion_budget,
+            remarks: Remarks::default(),
+        },
+        accessor_reader: accessors,
     };
     match (root.scene, root.scenes.first()) {
         (Some(scene), _) => {
@@ -38,7 +37,11 @@ pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<S
         (None, None) => walk.visit_all_nodes()?,
     }
     walk.add_remarks();
-    Ok(walk.scene)
+    Ok(Content {
+        unit: Some(Unit::Metre),
+        part_names: walk.part_names,
+        layout: Layout::Assembly(walk.assembly),
+    })
 }
 
 /// The state of a traversal of the scene's nodes. Each mesh is read at its first use.
@@ -48,7 +51,8 @@ struct SceneTraversal<'a> {
     /// The index of the shape for each mesh that has been read, by mesh index.
     shape_of_mesh: HashMap<usize, usize>,
     visited_nodes: Vec<bool>,
-    scene: Scene,
+    part_names: Vec<Option<String>>,
+    assembly: Assembly,
 }
 
 impl SceneTraversal<'_> {
@@ -133,7 +137,7 @@ impl SceneTraversal<'_> {
                 changing.count(),
             ),
         ] {
-            self.scene.remarks.add(what, count, None);
+            self.assembly.remarks.add(what, count, None);
         }
     }
 
@@ -150,18 +154,22 @@ impl SceneTraversal<'_> {
                 let place = || element_name("mesh", mesh, about.name.as_deref());
                 let shape = primitive::read_mesh(about, &mut self.accessor_reader)
                     .map_err(|fault| fault.at_element(place()))?;
-                self.scene.shapes.push(shape);
+                self.assembly.shapes.push(shape);
                 *self
                     .shape_of_mesh
                     .entry(mesh)
-                    .or_insert(self.scene.shapes.len() - 1)
+                    .or_insert(self.assembly.shapes.len() - 1)
             }
         };
+        // A mesh without faces is no part.
+        if self.assembly.shapes[shape].corner_ends.is_empty() {
+            return Ok(());
+        }
         // An empty name counts as no name.
         let given = |name: &String| !name.is_empty();
         let name = label.filter(given).or(about.name.clone().filter(given));
-        self.scene.parts.push(Part {
-            name,
+        self.part_names.push(name);
+        self.assembly.parts.push(Part {
             shape,
             placement: map,
         });

@@ -57,6 +57,8 @@ fn points_and_lines_are_passed_over() {
         "{}",
         error(&gltf)
     );
+    // Parts without faces are omitted.
+    assert_eq!(mesh_file(&gltf).part_names().len(), 0);
     // Primitives without positions are skipped, too.
     gltf.add_primitive(json!({"attributes": {"TEXCOORD_0": 7}}));
     let indices = gltf.add_index_accessor(&[0, 1, 2]);
