@@ -15,15 +15,13 @@ pub(super) struct AccessorReader<'a> {
     pub(super) expansion_budget: ExpansionBudget,
 }
 
-/// The component types of glTF accessors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum ComponentType {
-    I8,
-    U8,
-    I16,
-    U16,
-    U32,
-    F32,
+/// A component type of glTF accessors.
+struct ComponentType {
+    byte_count: usize,
+    /// The largest value of an integer type, which a normalized integer is a fraction of.
+    largest: Option<f64>,
+    /// Reads a number from the first bytes of a slice.
+    read: fn(&[u8]) -> f64,
 }
 
 impl<'a> AccessorReader<'a> {
@@ -43,11 +41,14 @@ impl<'a> AccessorReader<'a> {
         self.with_accessor(accessor, |accessors, about| {
             check_accessor_type(about, "VEC3")?;
             let component = ComponentType::from_code(about.component_type)?;
-            let size = component.byte_count();
+            let size = component.byte_count;
+            let largest = component.largest.filter(|_| about.normalized);
             let point = |row: &[u8]| {
-                let number =
-                    |k: usize| component.read_coordinate(&row[k * size..], about.normalized);
-                DVec3::new(number(0), number(1), number(2))
+                let numbers = [0, 1, 2].map(|k| (component.read)(&row[k * size..]));
+                DVec3::from_array(match largest {
+                    Some(largest) => numbers.map(|number| greater(number / largest, -1.0)),
+                    None => numbers,
+                })
             };
             let price = expansion_cost(about.count, 0);
             accessors.read_elements(about, 3 * size, price, DVec3::ZERO, point)
@@ -59,10 +60,10 @@ impl<'a> AccessorReader<'a> {
         self.with_accessor(accessor, |accessors, about| {
             check_accessor_type(about, "SCALAR")?;
             let component = ComponentType::index_type_from_code(about.component_type)?;
-            let whole = |row: &[u8]| component.read_as_f64(row) as u32;
+            let whole = |row: &[u8]| (component.read)(row) as u32;
             accessors.read_elements(
                 about,
-                component.byte_count(),
+                component.byte_count,
                 expansion_cost(0, about.count),
                 0,
                 whole,
@@ -147,11 +148,11 @@ impl<'a> AccessorReader<'a> {
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
         let component = ComponentType::index_type_from_code(about.component_type)?;
-        let layout = (sparse.count, component.byte_count());
+        let layout = (sparse.count, component.byte_count);
         let rows = self.element_bytes(about.buffer_view, about.byte_offset, layout, None)?;
         self.expansion_budget
             .spend(expansion_cost(0, sparse.count))?;
-        let checked = |row| match component.read_as_f64(row) as usize {
+        let checked = |row| match (component.read)(row) as usize {
             number if number < length => Ok(number),
             number => Err(MeshFault::malformed_content(format!(
                 "replaces element {number} of {length}"
@@ -172,13 +173,32 @@ fn check_accessor_type(about: &schema::Accessor, kind: &str) -> Result<(), MeshF
 
 impl ComponentType {
     fn from_code(number: u32) -> Result<Self, MeshFault> {
+        let integer = |byte_count, largest: u32, read| ComponentType {
+            byte_count,
+            largest: Some(largest.into()),
+            read,
+        };
         Ok(match number {
-            5120 => ComponentType::I8,
-            5121 => ComponentType::U8,
-            5122 => ComponentType::I16,
-            5123 => ComponentType::U16,
-            5125 => ComponentType::U32,
-            5126 => ComponentType::F32,
+            5120 => integer(1, 0x7f, |bytes| {
+                i8::from_le_bytes(first_bytes(bytes)).into()
+            }),
+            5121 => integer(1, 0xff, |bytes| {
+                u8::from_le_bytes(first_bytes(bytes)).into()
+            }),
+            5122 => integer(2, 0x7fff, |bytes| {
+                i16::from_le_bytes(first_bytes(bytes)).into()
+            }),
+            5123 => integer(2, 0xffff, |bytes| {
+                u16::from_le_bytes(first_bytes(bytes)).into()
+            }),
+            5125 => integer(4, u32::MAX, |bytes| {
+                u32::from_le_bytes(first_bytes(bytes)).into()
+            }),
+            5126 => ComponentType {
+                byte_count: 4,
+                largest: None,
+                read: |bytes| f32::from_le_bytes(first_bytes(bytes)).into(),
+            },
             _ => {
                 let problem = format!("has components of type {number}, which there is not");
                 return Err(MeshFault::malformed_content(problem));
@@ -188,48 +208,11 @@ impl ComponentType {
 
     /// Returns the unsigned integer type with a given glTF code, for vertex indices; other types are a fault.
     fn index_type_from_code(number: u32) -> Result<Self, MeshFault> {
-        match ComponentType::from_code(number)? {
-            unsigned @ (ComponentType::U8 | ComponentType::U16 | ComponentType::U32) => {
-                Ok(unsigned)
-            }
+        match (number, ComponentType::from_code(number)?) {
+            (5121 | 5123 | 5125, unsigned) => Ok(unsigned),
             _ => Err(MeshFault::malformed_content(format!(
                 "has components of type {number} instead of whole numbers"
             ))),
-        }
-    }
-
-    fn byte_count(self) -> usize {
-        match self {
-            ComponentType::I8 | ComponentType::U8 => 1,
-            ComponentType::I16 | ComponentType::U16 => 2,
-            ComponentType::U32 | ComponentType::F32 => 4,
-        }
-    }
-
-    /// Reads a coordinate of this type from the first bytes of a slice. A normalized integer is a fraction of the
-    /// largest value of its type.
-    fn read_coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
-        let number = self.read_as_f64(bytes);
-        let largest: f64 = match self {
-            _ if !normalized => return number,
-            ComponentType::I8 => i8::MAX.into(),
-            ComponentType::U8 => u8::MAX.into(),
-            ComponentType::I16 => i16::MAX.into(),
-            ComponentType::U16 => u16::MAX.into(),
-            ComponentType::U32 => u32::MAX.into(),
-            ComponentType::F32 => return number,
-        };
-        greater(number / largest, -1.0)
-    }
-
-    fn read_as_f64(self, bytes: &[u8]) -> f64 {
-        match self {
-            ComponentType::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
-            ComponentType::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),
-            ComponentType::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
-            ComponentType::U16 => u16::from_le_bytes(first_bytes(bytes)).into(),
-            ComponentType::U32 => u32::from_le_bytes(first_bytes(bytes)).into(),
-            ComponentType::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
         }
     }
 }
