@@ -52,13 +52,7 @@ pub(super) struct Node {
     pub(super) rotation: Option<[f64; 4]>,
     pub(super) scale: Option<[f64; 3]>,
     #[serde(default)]
-    pub(super) extensions: NodeExtensions,
-}
-
-#[derive(Default, Deserialize)]
-pub(super) struct NodeExtensions {
-    #[serde(rename = "EXT_mesh_gpu_instancing")]
-    pub(super) instancing: Option<IgnoredAny>,
+    pub(super) extensions: Extensions,
 }
 
 #[derive(Deserialize)]
@@ -78,7 +72,7 @@ pub(super) struct Primitive {
     #[serde(default)]
     pub(super) targets: Vec<IgnoredAny>,
     #[serde(default)]
-    pub(super) extensions: PrimitiveExtensions,
+    pub(super) extensions: Extensions,
 }
 
 #[derive(Deserialize)]
@@ -86,12 +80,6 @@ pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
     #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) position: Option<usize>,
-}
-
-#[derive(Default, Deserialize)]
-pub(super) struct PrimitiveExtensions {
-    #[serde(rename = "KHR_draco_mesh_compression")]
-    pub(super) draco: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
@@ -152,11 +140,16 @@ pub(super) struct BufferView {
     #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) byte_stride: Option<u64>,
     #[serde(default)]
-    pub(super) extensions: ViewExtensions,
+    pub(super) extensions: Extensions,
 }
 
+/// The extensions of an element that change its shape, or hold its data.
 #[derive(Default, Deserialize)]
-pub(super) struct ViewExtensions {
+pub(super) struct Extensions {
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    pub(super) instancing: Option<IgnoredAny>,
+    #[serde(rename = "KHR_draco_mesh_compression")]
+    pub(super) draco: Option<IgnoredAny>,
     #[serde(rename = "EXT_meshopt_compression", alias = "KHR_meshopt_compression")]
     pub(super) meshopt: Option<IgnoredAny>,
 }
