@@ -5,8 +5,8 @@ use super::extensions;
 use super::schema::{Mesh, Primitive};
 use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::polygons::{Polygons, check_count_fits_indices};
-use ccd_core::glam::DVec3;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Reads the triangles of a mesh, one primitive after the other. Primitives with the same positions share vertices.
 pub(super) fn read_mesh(
@@ -22,17 +22,12 @@ pub(super) fn read_mesh(
     Ok(shape)
 }
 
-/// The range of the shape's vertices that were read from one accessor.
-#[derive(Clone, Copy)]
-struct VertexRange {
-    first: usize,
-    count: usize,
-}
-
+/// Adds the triangles of a primitive to a shape. For each accessor, `known` has the range of the shape's vertices that were
+/// read from it.
 fn add_primitive(
     primitive: &Primitive,
     shape: &mut Polygons,
-    known: &mut HashMap<usize, VertexRange>,
+    known: &mut HashMap<usize, Range<usize>>,
     accessors: &mut AccessorReader<'_>,
 ) -> Result<(), MeshFault> {
     let mode = primitive.mode.unwrap_or(TRIANGLES_MODE);
@@ -49,22 +44,23 @@ fn add_primitive(
         return Err(extensions::draco_fault());
     }
     let vertices = match known.get(&position) {
-        Some(&vertices) => vertices,
+        Some(vertices) => vertices.clone(),
         None => {
             let points = accessors.points(position)?;
             check_count_fits_indices("vertices", points.len())?;
-            check_finite(&points)?;
-            let vertices = VertexRange {
-                first: shape.vertices.len(),
-                count: points.len(),
-            };
+            if let Some(vertex) = points.iter().position(|point| !point.is_finite()) {
+                return Err(MeshFault::NotFinite { vertex, line: None });
+            }
+            let first = shape.vertices.len();
             shape.vertices.extend(points);
-            *known.entry(position).or_insert(vertices)
+            let vertices = first..shape.vertices.len();
+            known.insert(position, vertices.clone());
+            vertices
         }
     };
     let corners = match primitive.indices {
         Some(indices) => accessors.indices(indices)?,
-        None => (0..vertices.count as u32).collect(),
+        None => (0..vertices.len() as u32).collect(),
     };
     if mode == TRIANGLES_MODE && !corners.len().is_multiple_of(3) {
         let count = corners.len();
@@ -74,27 +70,19 @@ fn add_primitive(
     // A strip has a triangle for almost each corner.
     accessors.spend_corners(3 * corners.len())?;
     for (face, triangle) in triangles(mode, &corners).enumerate() {
-        if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices.count) {
+        if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices.len()) {
             return Err(MeshFault::NoSuchVertex {
                 face,
                 line: None,
                 vertex: vertex.into(),
-                vertices: vertices.count,
+                vertices: vertices.len(),
                 base: 0,
             });
         }
-        let corners = triangle.map(|v| vertices.first as i64 + i64::from(v));
+        let corners = triangle.map(|v| vertices.start as i64 + i64::from(v));
         shape.push_face(corners);
     }
     Ok(())
-}
-
-/// Checks that all points of an accessor are finite; a fault names the point by its number in the file.
-fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
-    match points.iter().position(|point| !point.is_finite()) {
-        Some(vertex) => Err(MeshFault::NotFinite { vertex, line: None }),
-        None => Ok(()),
-    }
 }
 
 /// The glTF mode of primitives that are separate triangles. Smaller modes are points and lines; the next two are strips
