@@ -8,17 +8,18 @@ use std::str::FromStr;
 /// Reads the vertices and faces of an OFF.
 pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
-    let mut lines = Lines {
-        remaining_lines: text.lines(),
-        line_number: 0,
-    };
+    let mut lines = (1..).zip(text.lines()).filter_map(|(line_number, line)| {
+        let text = line.split('#').next().unwrap_or_default();
+        let words = text.split_whitespace();
+        (!text.trim().is_empty()).then_some(Line { words, line_number })
+    });
     let Some(first) = lines.next() else {
         return Err(MeshFault::NoVertices);
     };
     let (vertices, faces) = read_counts(first, &mut lines)?;
     let mut polygons = Polygons::default();
     for vertex in 0..vertices {
-        let mut line = lines.next_line(|| format!("vertex {vertex} of {vertices}"))?;
+        let mut line = next_line(&mut lines, || format!("vertex {vertex} of {vertices}"))?;
         let what = "the three coordinates of a vertex";
         let mut coordinate = || line.next_number::<f64>(what);
         let point = DVec3::new(coordinate()?, coordinate()?, coordinate()?);
@@ -26,7 +27,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         polygons.vertex_line_numbers.push(line.line_number);
     }
     for face in 0..faces {
-        let mut line = lines.next_line(|| format!("face {face} of {faces}"))?;
+        let mut line = next_line(&mut lines, || format!("face {face} of {faces}"))?;
         let corners: u32 = line.next_number("the number of corners of a face")?;
         for _ in 0..corners {
             let corner = line.next_number("the number of a vertex for each corner of a face")?;
@@ -44,7 +45,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
 }
 
 /// Reads the counts of vertices and faces, which follow the keyword on the first line or stand on the next line.
-fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), MeshFault> {
+fn read_counts<'a>(
+    mut line: Line<'a>,
+    lines: &mut impl Iterator<Item = Line<'a>>,
+) -> Result<(u64, u64), MeshFault> {
     let keyword = line.words.clone().next().unwrap_or_default();
     if keyword.parse::<u64>().is_err() {
         let Some(prefix) = keyword.strip_suffix("OFF") else {
@@ -65,48 +69,25 @@ fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u6
                 return Err(MeshFault::unsupported("binary OFF", "text"));
             }
             Some(_) => {}
-            None => line = lines.next_line(|| "the numbers of vertices and faces".into())?,
+            None => line = next_line(lines, || "the numbers of vertices and faces".into())?,
         }
     }
     let what = "the numbers of vertices and faces";
     Ok((line.next_number(what)?, line.next_number(what)?))
 }
 
-/// An iterator over the lines of a text, except blank lines and comments.
-struct Lines<'a> {
-    remaining_lines: std::str::Lines<'a>,
-    line_number: usize,
+fn next_line<'a>(
+    lines: &mut impl Iterator<Item = Line<'a>>,
+    missing: impl Fn() -> String,
+) -> Result<Line<'a>, MeshFault> {
+    let line = lines.next();
+    line.ok_or_else(|| MeshFault::truncated_file(missing()))
 }
 
+/// A line of a text that is not blank, without its comment.
 struct Line<'a> {
     words: std::str::SplitWhitespace<'a>,
     line_number: usize,
-}
-
-impl<'a> Lines<'a> {
-    fn next_line(&mut self, missing: impl Fn() -> String) -> Result<Line<'a>, MeshFault> {
-        self.next().ok_or_else(|| MeshFault::Truncated {
-            missing_element: missing(),
-        })
-    }
-}
-
-impl<'a> Iterator for Lines<'a> {
-    type Item = Line<'a>;
-
-    fn next(&mut self) -> Option<Line<'a>> {
-        for line in self.remaining_lines.by_ref() {
-            self.line_number += 1;
-            let text = line.split('#').next().unwrap_or_default();
-            if !text.trim().is_empty() {
-                return Some(Line {
-                    words: text.split_whitespace(),
-                    line_number: self.line_number,
-                });
-            }
-        }
-        None
-    }
 }
 
 impl Line<'_> {

@@ -132,12 +132,10 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     }
     let missing = match (done, is_closed) {
         (0, true) => return Ok(facets.polygons),
-        (0, false) => "the last solid".into(),
+        (0, false) => String::from("the last solid"),
         _ => format!("facet {}", facets.polygons.face_line_numbers.len() - 1),
     };
-    Err(MeshFault::Truncated {
-        missing_element: missing,
-    })
+    Err(MeshFault::truncated_file(missing))
 }
 
 /// The facets read so far, as triangles over welded vertices. Corners at exactly the same point become one vertex.
