@@ -27,9 +27,14 @@ pub(crate) fn refine_witnesses(
     let near = nearest_points(Instructions::Best.simd_level(), &p.corners, &q.corners);
     let square = near.difference(&p.corners, &q.corners).length_squared();
     if square < found.squared_distance {
-        let shares = PairedWeights::new(near.a, near.b);
         found.squared_distance = square;
-        (found.simplex, found.weights) = pair_weights(difference, &p, &q, shares);
+        (found.simplex, found.weights) = (Simplex::EMPTY, [0.0; 4]);
+        for (i, j, weight) in paired_weights(near.a, near.b) {
+            let vertex = difference.vertex(p.indices[i], q.indices[j]);
+            if vertex.is_some_and(|vertex| found.simplex.push(vertex)) {
+                found.weights[found.simplex.vertices().len() - 1] = weight;
+            }
+        }
     }
 }
 
@@ -58,63 +63,29 @@ impl Points {
     }
 }
 
-/// Converts combinations of both pieces' points to the equal combination of vertices of the difference.
-fn pair_weights(
-    difference: &MinkowskiDifference<'_>,
-    p: &Points,
-    q: &Points,
-    paired_weights: PairedWeights,
-) -> (Simplex, [f64; 4]) {
-    let (mut simplex, mut weights) = (Simplex::EMPTY, [0.0; 4]);
-    for (i, j, weight) in paired_weights {
-        let vertex = difference.vertex(p.indices[i], q.indices[j]);
-        if vertex.is_some_and(|vertex| simplex.push(vertex)) {
-            weights[simplex.vertices().len() - 1] = weight;
-        }
-    }
-    (simplex, weights)
-}
-
-/// An iterator over weighted pairs of points from two lists. The weights of the pairs that contain a point add up to
-/// the point's weight.
+/// Converts the weights of points in two lists to weights of pairs of them. The weights of the pairs that contain a point
+/// add up to the point's weight.
 ///
 /// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
 /// and edge.
-pub(crate) struct PairedWeights {
-    a: [f64; 3],
-    b: [f64; 3],
-    current_indices: (usize, usize),
-}
-
-impl PairedWeights {
-    pub(crate) fn new(a: [f64; 3], b: [f64; 3]) -> Self {
-        PairedWeights {
-            a,
-            b,
-            current_indices: (0, 0),
+pub(crate) fn paired_weights(
+    mut a: [f64; 3],
+    mut b: [f64; 3],
+) -> impl Iterator<Item = (usize, usize, f64)> {
+    let (mut next_a, mut next_b) = (0, 0);
+    std::iter::from_fn(move || {
+        while next_a < 3 && next_b < 3 {
+            let (i, j) = (next_a, next_b);
+            let share = lesser(a[i], b[j]);
+            a[i] -= share;
+            b[j] -= share;
+            // Both advance when both are used up.
+            next_a += usize::from(a[i] <= b[j]);
+            next_b += usize::from(b[j] <= a[i]);
+            if share > 0.0 {
+                return Some((i, j, share));
+            }
         }
-    }
-}
-
-impl Iterator for PairedWeights {
-    type Item = (usize, usize, f64);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let (i, j) = self.current_indices;
-        if i >= 3 || j >= 3 {
-            return None;
-        }
-        let share = lesser(self.a[i], self.b[j]);
-        self.a[i] -= share;
-        self.b[j] -= share;
-        // Both advance when both are used up.
-        self.current_indices = (
-            i + usize::from(self.a[i] <= self.b[j]),
-            j + usize::from(self.b[j] <= self.a[i]),
-        );
-        match share {
-            share if share > 0.0 => Some((i, j, share)),
-            _ => self.next(),
-        }
-    }
+        None
+    })
 }
