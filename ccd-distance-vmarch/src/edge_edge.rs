@@ -25,33 +25,25 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     let (one, other) = (x.line(e), y.line(f));
     let (edge_x, edge_y) = (x.shape().edge(e), y.shape().edge(f));
     let near = nearest_parameters(&one, &other);
-    let ends = [
-        end_vertex_at(edge_x, near.parameters[0]),
-        end_vertex_at(edge_y, near.parameters[1]),
-    ];
-    match ends {
-        [Some(v), Some(w)] => return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(w)),
-        [Some(v), None] => return MarchStep::Continue(Feature::Vertex(v), Feature::Edge(f)),
-        [None, Some(w)] => return MarchStep::Continue(Feature::Edge(e), Feature::Vertex(w)),
-        [None, None] => {}
+    let [s, t] = near.parameters;
+    let (on_x, on_y) = (vertex_or_edge_at(x, e, s), vertex_or_edge_at(y, f, t));
+    if (on_x, on_y) != (Feature::Edge(e), Feature::Edge(f)) {
+        return MarchStep::Continue(on_x, on_y);
     }
-    let points = [
-        one.point_at(near.parameters[0]),
-        other.point_at(near.parameters[1]),
-    ];
+    let points = [one.point_at(s), other.point_at(t)];
     let offset = points[1] - points[0];
     if offset.length() <= scale.rounding() {
         return MarchStep::Stop(Tied);
     }
     let facing = NearestVector::new(&near, offset, scale);
     let slope_x = x.inward_components(edge_x, facing.axis);
-    if let Some(side) = facing.face_side(x, edge_x, slope_x) {
-        return side.next_step(Feature::Edge(f), points[1]);
+    if let Some(step) = facing.step_beyond_edge(x, edge_x, slope_x, (f, points[1])) {
+        return step;
     }
     let facing = facing.reversed();
     let slope_y = y.inward_components(edge_y, facing.axis);
-    if let Some(side) = facing.face_side(y, edge_y, slope_y) {
-        return side.next_step(Feature::Edge(e), points[0]).swapped();
+    if let Some(step) = facing.step_beyond_edge(y, edge_y, slope_y, (e, points[0])) {
+        return step.swapped();
     }
     let clear = edge_x.is_outside_face_planes(slope_x, facing.slack)
         && edge_y.is_outside_face_planes(slope_y, facing.slack);
@@ -112,15 +104,20 @@ pub(crate) fn nearest_parameters(one: &Line, other: &Line) -> NearestParameters 
     }
 }
 
-/// Returns the vertex of an edge at a parameter; `None` between the ends.
+/// Returns the end vertex of an edge that is at a parameter, or the edge itself for a parameter between the ends.
 #[inline(always)]
-pub(crate) fn end_vertex_at(edge: &Edge, parameter: f64) -> Option<u32> {
+pub(crate) fn vertex_or_edge_at<P: PlacedPolytope>(
+    polytope: &P,
+    e: u32,
+    parameter: f64,
+) -> Feature {
+    let edge = polytope.shape().edge(e);
     if !(parameter > 0.0) {
-        Some(edge.ends[0])
+        Feature::Vertex(edge.ends[0])
     } else if !(parameter < edge.length) {
-        Some(edge.ends[1])
+        Feature::Vertex(edge.ends[1])
     } else {
-        None
+        Feature::Edge(e)
     }
 }
 
@@ -155,50 +152,30 @@ impl NearestVector {
         }
     }
 
-    /// Returns the face of an edge towards which the other edge's nearest point lies; `None` if that point is in the
-    /// edge's Voronoi region. Of two such faces, it is the face that the point is higher above.
+    /// Returns the march's next step for an edge of X if the nearest point of Y's edge `f` is outside the edge's Voronoi
+    /// region: to the face of X towards which that point lies, or from a local minimum if the point is behind both
+    /// faces. Of two such faces, it is the face that the point is higher above.
     #[inline(always)]
-    fn face_side<P: PlacedPolytope>(
+    fn step_beyond_edge<X: PlacedPolytope>(
         self,
-        p: &P,
+        x: &X,
         edge: &Edge,
         slopes: [f64; 2],
-    ) -> Option<OuterSide> {
+        (f, point): (u32, DVec3),
+    ) -> Option<MarchStep> {
         let inward = slopes.map(|slope| slope - self.slack);
-        let face = face_towards_point(p, edge.faces, inward, self.offset)?;
-        let is_above = || p.vector(p.shape().face(face).normal).dot(self.offset) > 0.0;
-        let beyond_both = inward.iter().all(|&into| into > 0.0);
-        Some(if beyond_both && !is_above() {
-            OuterSide::Behind(face)
-        } else {
-            OuterSide::InFront(face)
-        })
-    }
-}
-
-/// The side of an edge on which a point outside the edge's Voronoi region lies.
-enum OuterSide {
-    /// The point is on the side of this face.
-    InFront(u32),
-    /// The point is behind both faces of the edge, and less far behind this face.
-    Behind(u32),
-}
-
-impl OuterSide {
-    /// Returns the march's next step: the pair of the face of X and the feature of Y, or a local minimum for a point
-    /// behind both faces.
-    fn next_step(&self, feature: Feature, point: DVec3) -> MarchStep {
-        match *self {
-            OuterSide::InFront(face) => MarchStep::Continue(Feature::Face(face), feature),
-            OuterSide::Behind(face) => MarchStep::LocalMinimum(
-                WhichPolytope::Y,
-                LocalMinimum {
-                    feature,
-                    point,
-                    face,
-                },
-            ),
+        let face = face_towards_point(x, edge.faces, inward, self.offset)?;
+        let feature = Feature::Edge(f);
+        let is_above = || x.vector(x.shape().face(face).normal).dot(self.offset) > 0.0;
+        if inward.iter().any(|&into| !(into > 0.0)) || is_above() {
+            return Some(MarchStep::Continue(Feature::Face(face), feature));
         }
+        let minimum = LocalMinimum {
+            feature,
+            point,
+            face,
+        };
+        Some(MarchStep::LocalMinimum(WhichPolytope::Y, minimum))
     }
 }
 

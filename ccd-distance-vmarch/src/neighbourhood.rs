@@ -1,7 +1,7 @@
 //! Searches the features around the pair at which the march ended for a nearer pair. It does so if rounding hides the
 //! direction in which the distance decreases.
 
-use crate::edge_edge;
+use crate::edge_edge::{self, vertex_or_edge_at};
 use crate::feature::{Feature, Pair};
 use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::tolerance::MAX_TIE_EDGE_PAIRS;
@@ -21,63 +21,48 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
     if a.edges.len() * b.edges.len() > MAX_TIE_EDGE_PAIRS {
         return None;
     }
-    let mut best = NearestPair {
-        distance: distance - placed.scale.rounding(),
-        pair: None,
+    let mut best = (distance - placed.scale.rounding(), None);
+    let mut keep_if_nearer = |distance: f64, a: Feature, b: Feature| {
+        if distance < best.0 {
+            best = (distance, Some(Pair { a, b }));
+        }
     };
     for &e in &a.edges {
         let one = placed.a.line(e);
         for &f in &b.edges {
             let other = placed.b.line(f);
             let [s, t] = edge_edge::nearest_parameters(&one, &other).parameters;
-            let ends = (
-                vertex_or_edge_at(&placed.a, e, s),
-                vertex_or_edge_at(&placed.b, f, t),
-            );
-            best.keep_if_nearer(one.point_at(s).distance(other.point_at(t)), ends.0, ends.1);
+            let distance = one.point_at(s).distance(other.point_at(t));
+            let on_a = vertex_or_edge_at(&placed.a, e, s);
+            keep_if_nearer(distance, on_a, vertex_or_edge_at(&placed.b, f, t));
         }
     }
-    for &v in &a.vertices {
-        let point = placed.a.vertex(v);
-        for &f in &b.edges {
-            let line = placed.b.line(f);
+    offer_vertices(&placed.a, &a.vertices, &placed.b, &b, &mut keep_if_nearer);
+    offer_vertices(&placed.b, &b.vertices, &placed.a, &a, |distance, v, w| {
+        keep_if_nearer(distance, w, v);
+    });
+    best.1
+}
+
+/// Offers each pair of a vertex of X with an edge or face around a feature of Y, and their distance.
+fn offer_vertices<X: PlacedPolytope, Y: PlacedPolytope>(
+    x: &X,
+    vertices: &[u32],
+    y: &Y,
+    around: &SurroundingFeatures,
+    mut offer: impl FnMut(f64, Feature, Feature),
+) {
+    for &v in vertices {
+        let point = x.vertex(v);
+        for &e in &around.edges {
+            let line = y.line(e);
             let t = line.nearest_parameter(point);
-            let end = vertex_or_edge_at(&placed.b, f, t);
-            best.keep_if_nearer(line.point_at(t).distance(point), Feature::Vertex(v), end);
+            let end = vertex_or_edge_at(y, e, t);
+            offer(line.point_at(t).distance(point), Feature::Vertex(v), end);
         }
-        for &f in &b.faces {
-            let height = height_above_face(point, &placed.b, f);
-            best.keep_if_nearer(height, Feature::Vertex(v), Feature::Face(f));
-        }
-    }
-    for &w in &b.vertices {
-        let point = placed.b.vertex(w);
-        for &e in &a.edges {
-            let line = placed.a.line(e);
-            let s = line.nearest_parameter(point);
-            let end = vertex_or_edge_at(&placed.a, e, s);
-            best.keep_if_nearer(line.point_at(s).distance(point), end, Feature::Vertex(w));
-        }
-        for &f in &a.faces {
-            let height = height_above_face(point, &placed.a, f);
-            best.keep_if_nearer(height, Feature::Face(f), Feature::Vertex(w));
-        }
-    }
-    best.pair
-}
-
-/// The nearest pair of features found so far, and its distance; `None` until a pair is nearer than the initial
-/// distance.
-struct NearestPair {
-    distance: f64,
-    pair: Option<Pair>,
-}
-
-impl NearestPair {
-    fn keep_if_nearer(&mut self, distance: f64, a: Feature, b: Feature) {
-        if distance < self.distance {
-            self.distance = distance;
-            self.pair = Some(Pair { a, b });
+        for &f in &around.faces {
+            let height = height_above_face(point, y, f);
+            offer(height, Feature::Vertex(v), Feature::Face(f));
         }
     }
 }
@@ -110,12 +95,6 @@ impl SurroundingFeatures {
             faces,
         }
     }
-}
-
-/// Returns the end vertex of an edge that is at a parameter, or the edge itself for a parameter between the ends.
-fn vertex_or_edge_at<P: PlacedPolytope>(polytope: &P, e: u32, parameter: f64) -> Feature {
-    let end = edge_edge::end_vertex_at(polytope.shape().edge(e), parameter);
-    end.map_or(Feature::Edge(e), Feature::Vertex)
 }
 
 /// Returns the height of a point above a face; infinite if the point is behind the face or does not project onto it.
