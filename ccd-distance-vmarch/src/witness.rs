@@ -1,7 +1,7 @@
 //! The nearest points of a pair of features, clamped to the features, and the axis between them.
 
 use crate::edge_edge;
-use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
+use crate::feature::{Crossing, Feature, Pair, WeightedCorners, WhichPolytope};
 use crate::placed::{Line, PlacedPair, PlacedPolytope, RoundingScale, clamp};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
@@ -63,30 +63,17 @@ pub(crate) fn claim_along_crossed_face(
     crossing: &Crossing,
 ) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
-    let on_edge = |shape| {
-        combination(
-            shape,
-            crossing.edge_ends.vertices,
-            crossing.edge_ends.weights,
-        )
-    };
-    let on_face = |shape| {
-        combination(
-            shape,
-            crossing.face_corners.vertices,
-            crossing.face_corners.weights,
-        )
-    };
+    let (edge_ends, face_corners) = (&crossing.edge_ends, &crossing.face_corners);
     match which {
         WhichPolytope::X => Claim {
             axis: -b.vector(b.shape().face(crossing.face).normal),
-            a: on_edge(a.shape()),
-            b: on_face(b.shape()),
+            a: combination(a.shape(), edge_ends),
+            b: combination(b.shape(), face_corners),
         },
         WhichPolytope::Y => Claim {
             axis: a.shape().face(crossing.face).normal,
-            a: on_face(a.shape()),
-            b: on_edge(b.shape()),
+            a: combination(a.shape(), face_corners),
+            b: combination(b.shape(), edge_ends),
         },
     }
 }
@@ -194,11 +181,10 @@ fn first_corner(shape: &Polytope, feature: Feature) -> u32 {
 #[inline]
 fn combination<const N: usize>(
     shape: &Polytope,
-    vertices: [u32; N],
-    weights: [f64; N],
+    corners: &WeightedCorners<N>,
 ) -> ConvexCombination {
     let mut out = ConvexCombination::EMPTY;
-    for (v, weight) in vertices.into_iter().zip(weights) {
+    for (v, weight) in corners.vertices.into_iter().zip(corners.weights) {
         out.push(shape.vertex(v).number, weight);
     }
     out
@@ -237,15 +223,14 @@ fn project_onto_face<Y: PlacedPolytope>(
     let left_of = |k: usize| normal.cross(at(k) - first).dot(to_point) >= 0.0;
     let past = (2..sides.len().saturating_sub(1)).take_while(|&k| left_of(k));
     let k = 1 + past.count();
-    let corners = [0, k, k + 1];
     let triangle = [first, at(k), at(k + 1)];
-    let weights = clamped_foot_weights(point, triangle, normal);
-    let [_, p, q] = triangle;
-    let spot = combination(y.shape(), corners.map(|k| sides[k].vertex), weights);
-    (
-        first + weights[1] * (p - first) + weights[2] * (q - first),
-        spot,
-    )
+    let corners = WeightedCorners {
+        vertices: [0, k, k + 1].map(|k| sides[k].vertex),
+        weights: clamped_foot_weights(point, triangle, normal),
+    };
+    let ([_, p, q], [_, u, v]) = (triangle, corners.weights);
+    let foot = first + u * (p - first) + v * (q - first);
+    (foot, combination(y.shape(), &corners))
 }
 
 /// Returns the barycentric coordinates of a point's projection onto a triangle, clamped into the triangle.
