@@ -26,11 +26,17 @@ impl Polytope {
         }
         let largest = points.iter().map(|p| p.abs().max_element());
         let rounding = COPLANARITY_TOLERANCE * largest.fold(0.0, greater);
-        let ends = match classify_dimension(points, rounding) {
-            PointSetDimension::Point => return Ok(Self::from_outlines(points, &[0], &[])),
-            PointSetDimension::Line(ends) => return Ok(Self::from_outlines(points, &ends, &[])),
-            PointSetDimension::PlaneOrSpace(ends) => ends,
-        };
+        let ends = distant_points(points);
+        let line = ends.map(|v| points[v as usize]);
+        if !(line[0].distance(line[1]) > rounding) {
+            return Ok(Self::from_outlines(points, &[0], &[]));
+        }
+        if points
+            .iter()
+            .all(|&p| distance_from_line(p, line) <= rounding)
+        {
+            return Ok(Self::from_outlines(points, &ends, &[]));
+        }
         let facets = match points.len() {
             3 => Facets::from_triangle(points),
             _ => Facets::new(points, piece.facets.iter()),
@@ -55,35 +61,16 @@ impl Polytope {
     }
 }
 
-/// The dimension of a set of points up to rounding; `Line` and `PlaneOrSpace` hold the indices of two points that are far
-/// apart.
-enum PointSetDimension {
-    Point,
-    Line([u32; 2]),
-    PlaneOrSpace([u32; 2]),
-}
-
-/// Returns whether all points are within `rounding` of one point, of one line, or of neither.
-fn classify_dimension(points: &[DVec3], rounding: f64) -> PointSetDimension {
+/// Returns the indices of two points that are far apart: a point farthest from the first one, and a point farthest from
+/// that.
+fn distant_points(points: &[DVec3]) -> [u32; 2] {
     let farthest = |from: DVec3| {
         let distances = points.iter().map(|p| p.distance(from)).zip(0..);
-        distances.fold(
-            (0.0, 0),
-            |best, here| if here.0 > best.0 { here } else { best },
-        )
+        let none = (0.0, 0);
+        distances
+            .fold(none, |best, here| if here.0 > best.0 { here } else { best })
+            .1
     };
-    let (_, one) = farthest(points[0]);
-    let (length, other) = farthest(points[one as usize]);
-    if !(length > rounding) {
-        return PointSetDimension::Point;
-    }
-    let ends = [one, other].map(|v| points[v as usize]);
-    if points
-        .iter()
-        .all(|&p| distance_from_line(p, ends) <= rounding)
-    {
-        PointSetDimension::Line([one, other])
-    } else {
-        PointSetDimension::PlaneOrSpace([one, other])
-    }
+    let one = farthest(points[0]);
+    [one, farthest(points[one as usize])]
 }
