@@ -27,7 +27,14 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
             MarchStep::LocalMinimum(which, minimum) => {
                 counters.local_minima += 1;
                 match escape(placed, which, minimum) {
-                    Escape::Face(face) => ordered_pair(which, minimum.feature, Feature::Face(face)),
+                    Escape::Face(face) => {
+                        let (feature, face) = (minimum.feature, Feature::Face(face));
+                        let (a, b) = match which {
+                            WhichPolytope::X => (feature, face),
+                            WhichPolytope::Y => (face, feature),
+                        };
+                        Pair { a, b }
+                    }
                     Escape::CommonPoint(crossing) => {
                         return MarchEnd::CommonPoint(pair, which, crossing);
                     }
@@ -71,20 +78,6 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> MarchStep {
             let edge = a.shape().sides_of(f).first().map_or(0, |side| side.edge);
             MarchStep::Continue(Feature::Edge(edge), pair.b)
         }
-    }
-}
-
-/// Returns two features as a pair in the order A, B; `which` is the polytope of the first one, X for A and Y for B.
-fn ordered_pair(which: WhichPolytope, feature: Feature, other: Feature) -> Pair {
-    match which {
-        WhichPolytope::X => Pair {
-            a: feature,
-            b: other,
-        },
-        WhichPolytope::Y => Pair {
-            a: other,
-            b: feature,
-        },
     }
 }
 
