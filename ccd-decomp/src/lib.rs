@@ -107,7 +107,7 @@ pub use prepare::model::{Model, PreparedBody};
 pub use prepare::report::{PieceReason, PiecesKind, QueryTimes, Report};
 pub use prepare::{Detail, body_from_mesh, prepare};
 pub use solid::error::{Crossing, DecomposeError};
-pub use solid::topology::{Edge, Orientation, Topology};
+pub use solid::topology::{Edge, Topology};
 pub use source::error::{BodyError, SourceError};
 pub use source::mesh_source::MeshSource;
 pub use source::{BodySource, parse_body};

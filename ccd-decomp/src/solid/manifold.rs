@@ -1,7 +1,7 @@
 //! The half-edge structure of a closed surface.
 
 use super::error::DecomposeError;
-use super::topology::{Orientation, Topology};
+use super::topology::Topology;
 use crate::exact::predicates::{Projection, first_point_below_exact_range, is_degenerate, side};
 use crate::half_edges::{HalfEdge, twins};
 use crate::mesh::TriangleMesh;
@@ -56,7 +56,7 @@ impl<'m> Manifold<'m> {
             });
         }
         let mut faces = mesh.welded_faces();
-        if topology.orientation() == Orientation::Inward {
+        if topology.is_inside_out() {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
         }
         let is_flat = |&face: &u32| is_degenerate(mesh.triangle(face));

@@ -34,17 +34,6 @@ pub struct Topology {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Edge(pub u32, pub u32);
 
-/// The orientation of a closed mesh as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Orientation {
-    /// The normals of the faces point out of the solid.
-    Outward,
-    /// The normals of the faces point into the solid: the mesh is inside out.
-    Inward,
-    /// The mesh encloses a volume of 0.
-    Neither,
-}
-
 impl Topology {
     /// Computes the topology of a mesh from its edges and the nesting of its shells. O(n log n) in the number of faces,
     /// where few boxes of faces of different shells meet.
@@ -121,15 +110,9 @@ impl Topology {
         }
     }
 
-    /// Returns the orientation of the mesh, by the sign of its volume.
-    pub fn orientation(&self) -> Orientation {
-        if self.signed_volume > 0.0 {
-            Orientation::Outward
-        } else if self.signed_volume < 0.0 {
-            Orientation::Inward
-        } else {
-            Orientation::Neither
-        }
+    /// Returns whether the normals of a closed mesh point into its solid, by the sign of its volume.
+    pub fn is_inside_out(&self) -> bool {
+        self.signed_volume < 0.0
     }
 }
 
@@ -173,7 +156,7 @@ impl fmt::Display for Topology {
         write!(f, "{}", if torn { "open" } else { "closed" })?;
         if !self.flipped_edges.is_empty() {
             write!(f, ", not all faces turned the same way")?;
-        } else if self.is_closed() && self.orientation() == Orientation::Inward {
+        } else if self.is_closed() && self.is_inside_out() {
             write!(f, ", inside out: taken as turned outward")?;
         }
         let shells = [

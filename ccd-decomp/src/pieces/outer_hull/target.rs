@@ -5,7 +5,7 @@ use crate::exact::predicates::{side, side_of_line_along};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
-use crate::solid::topology::{Orientation, Topology};
+use crate::solid::topology::Topology;
 use crate::tolerance::{MAX_NEEDLE_RATIO, excess_rounding};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
@@ -48,7 +48,7 @@ impl<'a> Target<'a> {
                 0..mesh.faces().len() as u32,
             ),
             is_solid: topology.is_solid(),
-            is_inside_out: topology.orientation() == Orientation::Inward,
+            is_inside_out: topology.is_inside_out(),
             bounds,
             slack: excess_rounding(half_diagonal(bounds), farthest),
         }
