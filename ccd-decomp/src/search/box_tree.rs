@@ -2,8 +2,8 @@
 
 use super::element::Element;
 use super::oriented_box::OrientedBox;
-use super::planes::SeparationTests;
-use super::region::Region;
+use super::planes::facet_planes;
+use super::region::{Region, Shape};
 use crate::bounds::Bounds;
 use crate::tolerance::BOXES_BEFORE_ORIENTED_TESTS;
 use crate::work::Work;
@@ -68,16 +68,21 @@ impl BoxTree {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         // Used only if axis-aligned boxes leave too many elements.
-        let (met, apart) = (Cell::new(0), OnceCell::new());
+        let (met, planes) = (Cell::new(0), OnceCell::new());
         let is_far = |bounds: &Bounds, oriented: &OrientedBox| {
             if !bounds.meets(&region.bounds) {
                 return true;
             }
             met.set(met.get() + 1);
             met.get() > BOXES_BEFORE_ORIENTED_TESTS
-                && apart
-                    .get_or_init(|| SeparationTests::for_shape(&region.shape))
-                    .separates(oriented)
+                && match &region.shape {
+                    Shape::Segment(ends) => oriented.is_separated_from(ends),
+                    Shape::Triangle(corners) => oriented.is_separated_from(corners),
+                    Shape::HullInBox(hull) => {
+                        let mut planes = planes.get_or_init(|| facet_planes(hull)).iter();
+                        planes.any(|plane| plane.has_box_in_front(oriented))
+                    }
+                }
         };
         self.all_near_elements_satisfy(is_far, work, |element| holds(element.face))
     }

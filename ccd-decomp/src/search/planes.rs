@@ -86,34 +86,10 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     }
 }
 
-/// The tests by which oriented boxes are separated from a shape.
-pub(super) enum SeparationTests<'a> {
-    /// The box's axes are tested as separating axes against these points, which span the shape.
-    Points(&'a [DVec3]),
-    /// The box is tested to be in front of one of these planes, which have the shape behind them.
-    Planes(Vec<Plane>),
-}
-
-impl<'a> SeparationTests<'a> {
-    pub(super) fn for_shape(shape: &'a Shape) -> Self {
-        match shape {
-            Shape::Segment(ends) => SeparationTests::Points(ends),
-            Shape::Triangle(corners) => SeparationTests::Points(corners),
-            Shape::HullInBox(Hull { facets, .. }) => {
-                let tested = facets.iter().take(MAX_TESTED_FACETS);
-                SeparationTests::Planes(tested.map(|&facet| Plane::from_triangle(facet)).collect())
-            }
-        }
-    }
-
-    pub(super) fn separates(&self, oriented: &OrientedBox) -> bool {
-        match self {
-            SeparationTests::Points(points) => oriented.is_separated_from(points),
-            SeparationTests::Planes(planes) => {
-                planes.iter().any(|of| of.has_box_in_front(oriented))
-            }
-        }
-    }
+/// Returns the planes of the largest facets of a hull, which have the hull behind them.
+pub(super) fn facet_planes(hull: &Hull) -> Vec<Plane> {
+    let tested = hull.facets.iter().take(MAX_TESTED_FACETS);
+    tested.map(|&facet| Plane::from_triangle(facet)).collect()
 }
 
 /// Adds the planes through the line `p q` and parallel to a coordinate axis that separate the hub from the points
