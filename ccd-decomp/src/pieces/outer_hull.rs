@@ -78,7 +78,7 @@ fn excess_bound(mesh: &TriangleMesh, topology: &Topology, hull: &Hull) -> f64 {
         }
         by_shrinking = shrink::excess_bound(&target, hull, centre).unwrap_or(f64::INFINITY);
     }
-    if by_shrinking <= EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal() {
+    if by_shrinking <= EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal {
         return by_shrinking;
     }
     lesser(by_shrinking, search::excess_bound(&target, hull))

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 /// [`under`] gives a better bound. Boxes around the hull are split, largest bound first, until that bound is near a
 /// distance that was found, the work is spent, or too many boxes wait.
 pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
-    let floor = EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal();
+    let floor = EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal;
     let mut search = Search {
         enclosed_mesh: target,
         hull: FacetPlanes::new(hull, target),
@@ -76,7 +76,7 @@ impl Search<'_> {
     fn examine_bounding_box(&mut self) {
         let whole = BoundedBox {
             bound: f64::INFINITY,
-            bounds: self.enclosed_mesh.bounds(),
+            bounds: self.enclosed_mesh.bounds,
             planes: (0..self.hull.planes.len() as u32).collect(),
         };
         let examined = self.examine(&whole, whole.bounds);
@@ -127,7 +127,7 @@ impl Search<'_> {
         let (target, hull, work) = (self.enclosed_mesh, &self.hull, &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
-        let reach = half.length() + target.slack();
+        let reach = half.length() + target.slack;
         work.spend(1 + planes.len() / PLANE_TESTS_PER_STEP);
         let mut examined = BoxExamination::default();
         if let Some(meeting) = hull.box_position(centre, half, planes) {

@@ -20,10 +20,14 @@ pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
     search: BoxTree,
     is_solid: bool,
-    is_inside_out: bool,
-    bounds: [DVec3; 2],
+    /// 1 if the mesh's normals point out of the solid, −1 if they point into it.
+    pub(super) orientation_sign: f64,
+    /// The lower and the upper corner of the mesh's bounding box.
+    pub(super) bounds: [DVec3; 2],
+    /// Half the diagonal of the mesh's bounding box, to which tolerances are relative.
+    pub(super) half_diagonal: f64,
     /// A bound on the rounding error of distances to the mesh.
-    slack: f64,
+    pub(super) slack: f64,
 }
 
 /// Whether a point is in the solid, with a bound on its distance to the surface.
@@ -40,6 +44,7 @@ impl<'a> Target<'a> {
         let bounds = mesh.bounding_box();
         let [lo, hi] = bounds;
         let farthest = lo.abs().max(hi.abs()).max_element();
+        let half_diagonal = (hi - lo).length() / 2.0;
         Target {
             mesh,
             search: BoxTree::from_faces(
@@ -48,19 +53,15 @@ impl<'a> Target<'a> {
                 0..mesh.faces().len() as u32,
             ),
             is_solid: topology.is_solid(),
-            is_inside_out: topology.is_inside_out(),
+            orientation_sign: if topology.is_inside_out() { -1.0 } else { 1.0 },
             bounds,
-            slack: excess_rounding(half_diagonal(bounds), farthest),
+            half_diagonal,
+            slack: excess_rounding(half_diagonal, farthest),
         }
     }
 
     pub(super) fn triangles(&self) -> impl ExactSizeIterator<Item = [DVec3; 3]> {
         (0..self.mesh.faces().len() as u32).map(|face| self.mesh.triangle(face))
-    }
-
-    /// Returns 1 if the mesh's normals point out of the solid, −1 if they point into it.
-    pub(super) fn orientation_sign(&self) -> f64 {
-        if self.is_inside_out { -1.0 } else { 1.0 }
     }
 
     /// Returns the triangles whose bounding boxes meet a given box; `None` if there are more than `most`.
@@ -80,31 +81,16 @@ impl<'a> Target<'a> {
         all.then_some(found)
     }
 
-    /// Returns the lower and the upper corner of the mesh's bounding box.
-    pub(super) fn bounds(&self) -> [DVec3; 2] {
-        self.bounds
-    }
-
-    /// Returns half the diagonal of the mesh's bounding box, to which tolerances are relative.
-    pub(super) fn half_diagonal(&self) -> f64 {
-        half_diagonal(self.bounds)
-    }
-
-    /// Returns a bound on the rounding error of distances to the mesh.
-    pub(super) fn slack(&self) -> f64 {
-        self.slack
-    }
-
     /// Returns whether a point is in the solid, with a bound on its distance to the surface.
     pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
         let (found, reached) = self.distance_bounds(point, work);
         if self.has_nonzero_winding_number(point, work) {
             Location::Inside {
-                least_depth: greater(0.0, lesser(found, reached) - self.slack()),
+                least_depth: greater(0.0, lesser(found, reached) - self.slack),
             }
         } else {
             Location::Outside {
-                distance_bound: reached + self.slack(),
+                distance_bound: reached + self.slack,
             }
         }
     }
@@ -155,10 +141,6 @@ impl<'a> Target<'a> {
         });
         winding != 0
     }
-}
-
-fn half_diagonal([lo, hi]: [DVec3; 2]) -> f64 {
-    (hi - lo).length() / 2.0
 }
 
 /// Returns a lower bound of the distance from a point to a needle: the distance to its longest side, less its height.

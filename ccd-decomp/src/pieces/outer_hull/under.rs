@@ -23,7 +23,7 @@ pub(super) fn excess_bound_above_surface(
     let bounds = [centre - 3.0 * half, centre + 3.0 * half];
     let near = target.triangles_meeting_box(bounds, MAX_NEARBY_TRIANGLES, work)?;
     let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
-    let up = unit(target.orientation_sign() * normals.sum::<DVec3>())?;
+    let up = unit(target.orientation_sign * normals.sum::<DVec3>())?;
     let height = |p: DVec3| up.dot(p - centre);
     let mut part = Vec::new();
     let mut lowest = f64::INFINITY;
@@ -31,17 +31,17 @@ pub(super) fn excess_bound_above_surface(
         clip_to_box(&triangle, bounds, &mut part);
         lowest = part.iter().copied().map(height).fold(lowest, lesser);
     }
-    lowest -= target.slack();
+    lowest -= target.slack;
     let deepest = centre - 3.0 * half * up.signum();
     if !(height(deepest) < lowest) || !target.has_nonzero_winding_number(deepest, work) {
         return None;
     }
     let sinks = greater(
         0.0,
-        height_bound(planes, up, [centre, half], target.slack()) - lowest,
+        height_bound(planes, up, [centre, half], target.slack) - lowest,
     );
     let stays = (sinks * up.abs()).cmple(2.0 * half).all();
-    stays.then_some(sinks + target.slack())
+    stays.then_some(sinks + target.slack)
 }
 
 /// Returns an upper bound of the height of the hull within a box, along `up` from the box's centre. The hull is behind

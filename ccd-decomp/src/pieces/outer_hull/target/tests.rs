@@ -65,8 +65,8 @@ fn worst_distance() {
         // Inside, the lesser of the two is the depth; outside, the second is the distance.
         let error = greater(lesser(found, reached) - truth, truth - reached);
         // Query points are in hulls of the mesh's points. A mesh of one point has no hull.
-        let near = truth <= 2.0 * target.half_diagonal() && target.half_diagonal() > 0.0;
-        near.then(|| share(error, target.slack()))
+        let near = truth <= 2.0 * target.half_diagonal && target.half_diagonal > 0.0;
+        near.then(|| share(error, target.slack))
     });
     // The search must find triangles that are barely not needles.
     found.assert_tight_bound(1e8);
