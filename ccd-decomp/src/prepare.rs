@@ -103,28 +103,18 @@ impl PiecesChoice {
     fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
         let (topology, turned) = Topology::with_reoriented_mesh(mesh);
         let mesh = turned.as_ref().unwrap_or(mesh);
-        let (parts, why) = match detail {
+        let requested = |pieces| (pieces, PieceReason::Requested);
+        let (pieces, reason) = match detail {
             Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK_BUDGET)),
-            Detail::Triangles | Detail::Surface => {
-                (PiecesOfOneKind::Triangles, PieceReason::Requested)
-            }
-            Detail::Patches(order) => (
-                PiecesOfOneKind::Patches(decompose(mesh, order)?),
-                PieceReason::Requested,
-            ),
+            Detail::Triangles | Detail::Surface => requested(PiecesOfOneKind::Triangles),
+            Detail::Patches(order) => requested(PiecesOfOneKind::Patches(decompose(mesh, order)?)),
             Detail::Hull => {
                 let polytope = convex_polytope(&solid_surface(mesh)?)?;
-                (
-                    PiecesOfOneKind::Hull(Box::new(polytope)),
-                    PieceReason::Requested,
-                )
+                requested(PiecesOfOneKind::Hull(Box::new(polytope)))
             }
             Detail::OuterHull => {
                 let hull = outer_hull(mesh, &topology)?;
-                (
-                    PiecesOfOneKind::OuterHull(Box::new(hull)),
-                    PieceReason::Requested,
-                )
+                requested(PiecesOfOneKind::OuterHull(Box::new(hull)))
             }
         };
         let volume = if topology.is_solid() && detail != Detail::Surface {
@@ -134,8 +124,8 @@ impl PiecesChoice {
         };
         Ok(PiecesChoice {
             volume,
-            pieces: parts,
-            reason: why,
+            pieces,
+            reason,
             topology,
             reoriented_mesh: turned,
         })
