@@ -160,6 +160,10 @@ impl fmt::Display for PiecesKind {
 
 impl fmt::Display for PieceReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let slower = |f: &mut fmt::Formatter<'_>, pieces, times: f64| {
+            let takes = "a query is estimated to take";
+            write!(f, "over {pieces} {takes} {times:.1} times as long")
+        };
         match self {
             PieceReason::Requested => write!(f, "asked for"),
             PieceReason::Convex => write!(
@@ -177,18 +181,10 @@ impl fmt::Display for PieceReason {
                 )
             }
             PieceReason::TrianglesFaster(QueryTimes { triangles, patches }) => {
-                let times = patches / triangles;
-                write!(
-                    f,
-                    "over patches a query is estimated to take {times:.1} times as long"
-                )
+                slower(f, "patches", patches / triangles)
             }
             PieceReason::PatchesFaster(QueryTimes { triangles, patches }) => {
-                let times = triangles / patches;
-                write!(
-                    f,
-                    "over triangles a query is estimated to take {times:.1} times as long"
-                )
+                slower(f, "triangles", triangles / patches)
             }
         }
     }
