@@ -111,47 +111,44 @@ struct PieceCentre {
 }
 
 /// Builds the subtree over some pieces, in parallel if they are many.
-fn build_subtree(leaves: &[Node], centres: &mut [PieceCentre], slot: Slot<'_, Node>) {
-    if centres.len() > MAX_CLUSTER_PIECES {
-        let is_shared = centres.len() > PIECES_PER_TASK;
-        return split_at_median(centres, slot, |[left, right]| {
-            let build_left = || build_subtree(leaves, left.0, left.1);
-            let build_right = || build_subtree(leaves, right.0, right.1);
-            if is_shared {
-                rayon::join(build_left, build_right);
-            } else {
-                build_left();
-                build_right();
-            }
-        });
+fn build_subtree(leaves: &[Node], centres: &mut [PieceCentre], mut slot: Slot<'_, Node>) {
+    if centres.len() <= MAX_CLUSTER_PIECES {
+        return build_cluster(leaves, centres, slot);
     }
+    let is_shared = centres.len() > PIECES_PER_TASK;
+    let (low, high) = split_at_median(centres);
+    if let Some([left, right]) = slot.children(high.len()) {
+        let build_left = || build_subtree(leaves, low, left);
+        let build_right = || build_subtree(leaves, high, right);
+        if is_shared {
+            rayon::join(build_left, build_right);
+        } else {
+            build_left();
+            build_right();
+        }
+    }
+    *slot.node = Node {
+        cuboid: slot.descendants[0].cuboid.union(slot.descendants[1].cuboid),
+        content: NodeContent::Children(slot.first_descendant),
+    };
+}
+
+/// Builds the subtree over a few pieces by agglomeration.
+fn build_cluster(leaves: &[Node], centres: &[PieceCentre], slot: Slot<'_, Node>) {
     let of_cluster = centres.iter().map(|centre| leaves[centre.piece as usize]);
     let tree = agglomerate(&of_cluster.collect::<Vec<_>>());
-    // Node k > 0 of the small tree becomes node k + offset of the large one.
-    let moved = |node: &Node| Node {
-        content: match node.content {
-            NodeContent::Children(child) => {
-                NodeContent::Children(child - 1 + slot.first_descendant)
-            }
-            leaf => leaf,
-        },
-        ..*node
-    };
-    for (to, from) in std::iter::once(slot.node)
-        .chain(slot.descendants)
-        .zip(&tree)
-    {
-        *to = moved(from);
+    let nodes = std::iter::once(slot.node).chain(slot.descendants);
+    for (to, &from) in nodes.zip(&tree) {
+        *to = from;
+        // Node k > 0 of the small tree becomes node k + offset of the large one.
+        if let NodeContent::Children(child) = &mut to.content {
+            *child = *child - 1 + slot.first_descendant;
+        }
     }
 }
 
-/// Splits pieces at the median of their centres along the longest axis, calls `make` to build both halves, and joins
-/// them under a node.
-fn split_at_median(
-    centres: &mut [PieceCentre],
-    mut slot: Slot<'_, Node>,
-    make: impl FnOnce([(&mut [PieceCentre], Slot<'_, Node>); 2]),
-) {
+/// Splits pieces at the median of their centres along the longest axis.
+fn split_at_median(centres: &mut [PieceCentre]) -> (&mut [PieceCentre], &mut [PieceCentre]) {
     let spread = centres.iter().fold(AabbF32::EMPTY, |all, centre| {
         all.union(AabbF32::from_point(centre.position.into()))
     });
@@ -161,14 +158,7 @@ fn split_at_median(
         let order = a.position[axis].total_cmp(&b.position[axis]);
         order.then(a.piece.cmp(&b.piece))
     });
-    let (low, high) = centres.split_at_mut(half);
-    if let Some([left, right]) = slot.children(high.len()) {
-        make([(low, left), (high, right)]);
-    }
-    *slot.node = Node {
-        cuboid: slot.descendants[0].cuboid.union(slot.descendants[1].cuboid),
-        content: NodeContent::Children(slot.first_descendant),
-    };
+    centres.split_at_mut(half)
 }
 
 #[cfg(test)]

@@ -64,16 +64,12 @@ impl TreeBuilder<'_> {
         let Some([left, right]) = slot.children(of_right.len()) else {
             return Ok(());
         };
+        let build_left = || self.build_subtree(of_left, left);
+        let build_right = || self.build_subtree(of_right, right);
         let (grown_left, grown_right) = if count >= MIN_PARALLEL_PIECES {
-            rayon::join(
-                || self.build_subtree(of_left, left),
-                || self.build_subtree(of_right, right),
-            )
+            rayon::join(build_left, build_right)
         } else {
-            (
-                self.build_subtree(of_left, left),
-                self.build_subtree(of_right, right),
-            )
+            (build_left(), build_right())
         };
         grown_left.and(grown_right)?;
         let children = &slot.descendants[..2];

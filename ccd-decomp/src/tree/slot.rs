@@ -14,11 +14,10 @@ impl<'n, N> Slot<'n, N> {
     /// Returns the slot of the whole tree; `None` for a tree without nodes.
     pub(super) fn of_whole_tree(nodes: &'n mut [N]) -> Option<Self> {
         let (node, below) = nodes.split_first_mut()?;
-        let first = 1;
         Some(Slot {
             node,
             descendants: below,
-            first_descendant: first,
+            first_descendant: 1,
         })
     }
 

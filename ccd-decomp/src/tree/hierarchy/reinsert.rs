@@ -70,12 +70,8 @@ impl<'a> Tree<'a> {
             .collect();
         moves.sort_unstable_by(|a, b| b.area_reduction.total_cmp(&a.area_reduction));
         self.is_changed.fill(false);
-        for Reinsertion {
-            subtree: from,
-            new_sibling: to,
-            ..
-        } in moves
-        {
+        for best in moves {
+            let (from, to) = (best.subtree, best.new_sibling);
             let [old, new] = [from, to].map(|node| self.parents[node as usize]);
             let changed = [to, from, sibling(from), new, old].map(|node| node as usize);
             if !changed.iter().any(|&node| self.is_changed[node]) {
@@ -109,10 +105,7 @@ impl<'a> Tree<'a> {
                 if gain - area <= best.area_reduction {
                     continue;
                 }
-                let Node {
-                    cuboid: old,
-                    content: below,
-                } = self.nodes[node as usize];
+                let old = self.nodes[node as usize].cuboid;
                 let gain = gain - old.union(cuboid).half_area();
                 if gain > best.area_reduction {
                     best = Reinsertion {
@@ -121,7 +114,7 @@ impl<'a> Tree<'a> {
                         ..best
                     };
                 }
-                if let NodeContent::Children(first) = below {
+                if let NodeContent::Children(first) = self.nodes[node as usize].content {
                     let gain = gain + old.half_area();
                     stack.extend([(gain, first), (gain, first + 1)]);
                 }
