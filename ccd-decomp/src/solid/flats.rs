@@ -19,7 +19,7 @@ pub(crate) struct ConvexPolygons {
 }
 
 /// A convex polygon of a mesh's surface: exactly coplanar faces without holes.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct ConvexPolygon {
     /// The faces that make up the polygon, in ascending order.
     pub(crate) faces: Vec<u32>,
@@ -149,35 +149,22 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             return true;
         }
         // The common run of edges, seen from the first region. It is never a whole rim: it lies on one line.
-        let Some(first) = self.last_half_edge_beside_region(
-            edge,
-            |merger, h| merger.previous_half_edge[h as usize],
-            other,
-        ) else {
+        let ends = [
+            self.last_half_edge_beside_region(edge, |merger| &merger.previous_half_edge, other),
+            self.last_half_edge_beside_region(edge, |merger| &merger.next_half_edge, other),
+        ];
+        let [Some(first), Some(last)] = ends else {
             return false;
         };
-        let Some(last) = self.last_half_edge_beside_region(
-            edge,
-            |merger, h| merger.next_half_edge[h as usize],
-            other,
-        ) else {
-            return false;
-        };
+        let before = |h: HalfEdge| self.previous_half_edge[h as usize];
+        let after = |h: HalfEdge| self.next_half_edge[h as usize];
         let twin = |h: HalfEdge| self.manifold.twin(h);
         let joints = [
-            (
-                self.previous_half_edge[first as usize],
-                self.next_half_edge[twin(first) as usize],
-            ),
-            (
-                self.previous_half_edge[twin(last) as usize],
-                self.next_half_edge[last as usize],
-            ),
+            (before(first), after(twin(first))),
+            (before(twin(last)), after(last)),
         ];
-        if !joints
-            .iter()
-            .all(|&joint| self.is_straight_or_left_turn(joint))
-        {
+        let is_proper = |&joint: &_| self.is_straight_or_left_turn(joint);
+        if !joints.iter().all(is_proper) {
             return false;
         }
         for (before, after) in joints {
@@ -193,12 +180,12 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     fn last_half_edge_beside_region(
         &mut self,
         edge: HalfEdge,
-        step: impl Fn(&Self, HalfEdge) -> HalfEdge,
+        onward: impl Fn(&Self) -> &[HalfEdge],
         beyond: u32,
     ) -> Option<HalfEdge> {
         let mut last = edge;
         loop {
-            let next = step(self, last);
+            let next = onward(self)[last as usize];
             if next == edge {
                 return None;
             }
@@ -222,34 +209,32 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     /// Converts the merged regions to convex polygons.
     pub(crate) fn into_polygons(mut self) -> ConvexPolygons {
         let flat_of = self.regions.set_numbers();
-        let flat = |faces: Vec<u32>| ConvexPolygon {
-            faces,
-            ..ConvexPolygon::default()
-        };
-        let mut flats: Vec<ConvexPolygon> = members(&flat_of).into_iter().map(flat).collect();
-        for (number, flat) in flats.iter_mut().enumerate() {
+        let flat = |(number, faces): (usize, Vec<u32>)| {
             let outer =
                 |&h: &HalfEdge| flat_of[self.manifold.twin(h) as usize / 3] as usize != number;
-            let own = flat.faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
-            let Some(start) = own.into_iter().find(outer) else {
-                continue;
-            };
+            let mut own = faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
+            let start = own.find(outer);
             let onward =
-                |&h: &HalfEdge| Some(self.next_half_edge[h as usize]).filter(|&h| h != start);
+                |&h: &HalfEdge| Some(self.next_half_edge[h as usize]).filter(|&h| Some(h) != start);
             // A convex polygon has one rim, on which each half-edge is once.
-            let most = 3 * flat.faces.len();
-            flat.rim = std::iter::successors(Some(start), onward)
-                .take(most)
-                .collect();
-            let plane = Projection::new(self.manifold.triangle(flat.faces[0]));
-            let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
-            let points = self.manifold.mesh().vertices();
-            flat.corners = plane.map_or(starts.clone(), |p| {
-                strictly_convex_corners(points, &starts, p)
-            });
-        }
+            let rim = std::iter::successors(start, onward).take(3 * faces.len());
+            let rim: Vec<HalfEdge> = rim.collect();
+            let starts: Vec<u32> = rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
+            let corners = match Projection::new(self.manifold.triangle(faces[0])) {
+                Some(plane) => {
+                    strictly_convex_corners(self.manifold.mesh().vertices(), &starts, plane)
+                }
+                None => starts,
+            };
+            ConvexPolygon {
+                faces,
+                rim,
+                corners,
+            }
+        };
+        let flats = members(&flat_of).into_iter().enumerate().map(flat);
         ConvexPolygons {
-            polygons: flats,
+            polygons: flats.collect(),
             polygon_of_face: flat_of,
         }
     }
