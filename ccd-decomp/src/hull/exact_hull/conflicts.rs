@@ -170,13 +170,9 @@ impl<'a> HullBuilder<'a> {
         // Every facet is removed once.
         while let Some(&seen) = removed.get(at) {
             at += 1;
-            let Facet {
-                corners,
-                adjacent_facets: adjacent,
-                ..
-            } = self.facets[seen as usize];
+            let corners = self.facets[seen as usize].corners;
             for k in 0..3 {
-                let beyond = adjacent[k];
+                let beyond = self.facets[seen as usize].adjacent_facets[k];
                 if !self.facets[beyond as usize].is_on_hull {
                     continue;
                 }
@@ -202,13 +198,11 @@ impl<'a> HullBuilder<'a> {
             plane,
             last_test,
             ..
-        } = self.facets[facet as usize];
-        if last_test.0 == v {
-            return last_test.1;
+        } = &mut self.facets[facet as usize];
+        if last_test.0 != v {
+            *last_test = (v, self.points.is_in_front(plane, *corners, v));
         }
-        let seen = self.points.is_in_front(&plane, corners, v);
-        self.facets[facet as usize].last_test = (v, seen);
-        seen
+        last_test.1
     }
 }
 
