@@ -21,15 +21,12 @@ impl Axis {
     /// Creates the axis along a direction of any length, with its support gap; −∞ for a zero direction.
     pub(crate) fn from_direction(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
-        let known = direction != DVec3::ZERO;
-        Axis {
-            direction,
-            gap: if known {
-                gap(placed, direction)
-            } else {
-                f64::NEG_INFINITY
-            },
-        }
+        let gap = if direction == DVec3::ZERO {
+            f64::NEG_INFINITY
+        } else {
+            gap(placed, direction)
+        };
+        Axis { direction, gap }
     }
 
     /// Returns whether the support gap along the axis equals the given distance, up to rounding.
@@ -45,9 +42,9 @@ impl Axis {
 /// Returns the support gap `min_B n·y − max_A n·x` along a unit vector.
 pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
     let highest = placed.a.0.vertices.iter().map(|v| n.dot(v.point));
-    let own = placed.b.local_direction(n);
+    let own = placed.b.to_a.inverse_vector(n);
     let lowest = placed.b.shape().vertices.iter().map(|v| own.dot(v.point));
-    lowest.fold(f64::INFINITY, lesser) + n.dot(placed.b.origin())
+    lowest.fold(f64::INFINITY, lesser) + n.dot(placed.b.to_a.translation)
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
@@ -56,7 +53,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal_vertex(n)).point;
     let shape = placed.b.shape();
-    let own = -placed.b.local_direction(n);
+    let own = -placed.b.to_a.inverse_vector(n);
     let lowest = placed.b.vertex(shape.extremal_vertex(own));
     // The axis of a zero direction separates nothing.
     let known = n != DVec3::ZERO;

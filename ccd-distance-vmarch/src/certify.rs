@@ -53,7 +53,11 @@ pub(crate) fn certify_march_end(
         };
         end = march(placed, from, counters);
     }
-    let found = search_common_point(placed, extremal_pair(placed, placed.b.origin()), counters);
+    let found = search_common_point(
+        placed,
+        extremal_pair(placed, placed.b.to_a.translation),
+        counters,
+    );
     found.ok_or(why)
 }
 

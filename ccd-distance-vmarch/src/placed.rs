@@ -3,7 +3,7 @@
 use crate::polytope::{Edge, Polytope};
 use crate::tolerance::PLACEMENT_ERROR;
 use ccd_core::Frame;
-use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
 /// A polytope in A's frame.
@@ -49,8 +49,8 @@ pub(crate) struct PlacedA<'a>(pub(crate) &'a Polytope);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedB<'a> {
     shape: &'a Polytope,
-    rotation: DMat3,
-    translation: DVec3,
+    /// The transform from the polytope's frame to A's; its translation is the position of the polytope's origin.
+    pub(crate) to_a: Frame,
 }
 
 /// Both polytopes in A's frame, and the size to which rounding errors are proportional.
@@ -83,29 +83,15 @@ impl<'a> PlacedPair<'a> {
             a: PlacedA(a),
             b: PlacedB {
                 shape: b,
-                rotation: b_to_a.rotation,
-                translation,
+                to_a: Frame {
+                    translation,
+                    ..*b_to_a
+                },
             },
             scale: RoundingScale {
                 size: a.reach + b.reach + translation.length(),
             },
         }
-    }
-}
-
-impl PlacedB<'_> {
-    /// Returns the position of the polytope's origin in A's frame.
-    pub(crate) fn origin(&self) -> DVec3 {
-        self.translation
-    }
-
-    /// Rotates a direction from A's frame to the polytope's own.
-    pub(crate) fn local_direction(&self, vector: DVec3) -> DVec3 {
-        DVec3::new(
-            self.rotation.x_axis.dot(vector),
-            self.rotation.y_axis.dot(vector),
-            self.rotation.z_axis.dot(vector),
-        )
     }
 }
 
@@ -161,12 +147,12 @@ impl PlacedPolytope for PlacedB<'_> {
 
     #[inline(always)]
     fn point(&self, local: DVec3) -> DVec3 {
-        self.rotation * local + self.translation
+        self.to_a.point(local)
     }
 
     #[inline(always)]
     fn vector(&self, local: DVec3) -> DVec3 {
-        self.rotation * local
+        self.to_a.rotation * local
     }
 }
 

@@ -37,7 +37,7 @@ impl Cache {
     #[inline]
     pub(crate) fn start_features(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {
-            return extremal_pair(placed, placed.b.origin());
+            return extremal_pair(placed, placed.b.to_a.translation);
         };
         // The last feature of an unchanged polytope is nearer than an extremal vertex.
         let fingerprints = fingerprints(placed);
@@ -94,12 +94,8 @@ fn extremal_vertex_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
 }
 
 fn extremal_vertex_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
-    Feature::Vertex(
-        placed
-            .b
-            .shape()
-            .extremal_vertex(-placed.b.local_direction(axis)),
-    )
+    let own = placed.b.to_a.inverse_vector(axis);
+    Feature::Vertex(placed.b.shape().extremal_vertex(-own))
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ fn worst_placing() {
         let [x, y] =
             [given(&a, i, &points[0]), given(&b, j, &points[1])].map(Exact3::from_coordinates);
         let columns = [0, 1, 2].map(|k| Exact3::from_coordinates(frame.rotation.col(k)));
-        let to = Exact3::from_coordinates(placed.b.origin());
+        let to = Exact3::from_coordinates(placed.b.to_a.translation);
         let [x, y] = [
             x.minus(&Exact3::from_coordinates(a.origin)),
             y.minus(&Exact3::from_coordinates(b.origin)),
