@@ -53,11 +53,8 @@ fn features<X: PlacedPolytope, Y: PlacedPolytope>(
     crossing: &Crossing,
     scale: RoundingScale,
 ) -> Option<(Feature, Feature)> {
-    let Crossing {
-        edge_ends: on_edge,
-        face_corners: on_face,
-        face,
-    } = crossing;
+    let (on_edge, on_face) = (&crossing.edge_ends, &crossing.face_corners);
+    let face = Feature::Face(crossing.face);
     let some = scale.rounding() / scale.size;
     let [start, end] = on_edge.vertices;
     let of_x = match on_edge.weights {
@@ -66,15 +63,11 @@ fn features<X: PlacedPolytope, Y: PlacedPolytope>(
         _ => edge_between(x.shape(), start, end)?,
     };
     let corners = on_face.vertices.iter().zip(on_face.weights);
-    let mut held = corners
-        .filter(|(_, weight)| *weight > some)
-        .map(|(&v, _)| v);
+    let mut held = corners.filter(|at| at.1 > some).map(|at| *at.0);
     let of_y = match (held.next(), held.next(), held.next(), held.next()) {
         (Some(v), None, ..) => Feature::Vertex(v),
-        (Some(v), Some(w), None, _) => {
-            edge_between(y.shape(), v, w).unwrap_or(Feature::Face(*face))
-        }
-        (_, _, Some(_), None) => Feature::Face(*face),
+        (Some(v), Some(w), None, _) => edge_between(y.shape(), v, w).unwrap_or(face),
+        (_, _, Some(_), None) => face,
         _ => return None,
     };
     if let (Feature::Edge(e), Feature::Face(f)) = (of_x, of_y) {

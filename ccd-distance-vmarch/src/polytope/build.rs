@@ -38,7 +38,8 @@ impl Polytope {
             return Ok(Self::from_outlines(points, &ends, &[]));
         }
         let facets = match points.len() {
-            3 => Facets::from_triangle(points),
+            // Front and back of a triangle without thickness.
+            3 => Facets::from_loops(points, vec![vec![0, 1, 2], vec![0, 2, 1]]),
             _ => Facets::new(points, piece.facets.iter()),
         };
         let facets = facets.ok_or(GiveUpReason::BadFacets)?;

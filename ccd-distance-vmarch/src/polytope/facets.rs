@@ -47,12 +47,8 @@ impl Facets {
         Self::from_loops(points, kept)
     }
 
-    /// Creates the two facets of a triangle without thickness: its front and its back.
-    pub(crate) fn from_triangle(points: &[DVec3]) -> Option<Self> {
-        Self::from_loops(points, vec![vec![0, 1, 2], vec![0, 2, 1]])
-    }
-
-    fn from_loops(points: &[DVec3], loops: Vec<Vec<u32>>) -> Option<Self> {
+    /// Connects polygons of distinct corners; `None` if the surface is not closed.
+    pub(crate) fn from_loops(points: &[DVec3], loops: Vec<Vec<u32>>) -> Option<Self> {
         let mut sides: Vec<(u32, u32, u32)> = Vec::new();
         for (corners, facet) in loops.iter().zip(0..) {
             sides.extend(sides_of_loop(corners).map(|(v, w)| (v, w, facet)));
