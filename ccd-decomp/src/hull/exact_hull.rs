@@ -19,15 +19,6 @@ pub(crate) struct ExactHull {
     corners: Vec<u32>,
 }
 
-/// The change of a hull when one point is inserted: the facets to remove and to add.
-#[derive(Clone, Debug)]
-pub(crate) struct HullGrowth {
-    /// For each facet, whether the inserted point is in front of it. Such facets are removed.
-    is_facet_visible: Vec<bool>,
-    /// The new triangles, all of which have the inserted point as a corner.
-    fan: Vec<[u32; 3]>,
-}
-
 impl ExactHull {
     /// Creates the flat hull of a strictly convex polygon: two triangle fans, back to back. It has no volume, and
     /// only points off its plane may be inserted.
@@ -81,43 +72,28 @@ impl ExactHull {
         &self.corners
     }
 
-    /// Computes the change of the hull by the insertion of a point; `None` if the point is inside or on the hull. O(f
-    /// log f) in the number of facets.
-    pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<HullGrowth> {
-        let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
-        let seen: Vec<bool> = self.facets.iter().map(sees).collect();
-        if !seen.contains(&true) {
+    /// Inserts a point, and returns the bounding box of all facets that this removes or adds; `None` if the point is inside
+    /// or on the hull. O(f log f) in the number of facets.
+    pub(crate) fn insert(&mut self, points: &[DVec3], point: u32) -> Option<Bounds> {
+        let is_visible = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
+        let (removed, mut facets): (Vec<[u32; 3]>, Vec<[u32; 3]>) =
+            self.facets.iter().partition(|facet| is_visible(facet));
+        if removed.is_empty() {
             return None;
         }
-        let mut edges: Vec<(u32, u32)> = Vec::new();
-        for (&[a, b, c], _) in self.facets.iter().zip(&seen).filter(|(_, seen)| **seen) {
-            edges.extend([(a, b), (b, c), (c, a)]);
-        }
+        let edges = removed
+            .iter()
+            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+        let mut edges: Vec<(u32, u32)> = edges.collect();
         edges.sort_unstable();
         // The visible part has one rim, and strictly turns away from it: no new facet is flat.
-        let rim = edges
-            .iter()
-            .filter(|(a, b)| edges.binary_search(&(*b, *a)).is_err());
-        Some(HullGrowth {
-            fan: rim.map(|&(a, b)| [a, b, point]).collect(),
-            is_facet_visible: seen,
-        })
-    }
-
-    /// Returns the bounding box of all facets that an insertion adds or removes.
-    pub(crate) fn bounds_of_change(&self, points: &[DVec3], growth: &HullGrowth) -> Bounds {
-        let removed = self.facets.iter().zip(&growth.is_facet_visible);
-        let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
-        let corners = removed.chain(&growth.fan).flatten();
-        Bounds::enclosing(corners.map(|&v| points[v as usize]))
-    }
-
-    /// Changes the hull as [`growth`](Self::growth) computed for the insertion of a point.
-    pub(crate) fn grow(&mut self, growth: HullGrowth) {
-        let mut seen = growth.is_facet_visible.into_iter();
-        self.facets.retain(|_| !seen.next().unwrap_or(false));
-        self.facets.extend(growth.fan);
-        *self = ExactHull::from_facets(std::mem::take(&mut self.facets));
+        let is_rim = |&&(a, b): &&(u32, u32)| edges.binary_search(&(b, a)).is_err();
+        let kept = facets.len();
+        facets.extend(edges.iter().filter(is_rim).map(|&(a, b)| [a, b, point]));
+        let changed = removed.iter().chain(&facets[kept..]).flatten();
+        let changed = Bounds::enclosing(changed.map(|&v| points[v as usize]));
+        *self = ExactHull::from_facets(facets);
+        Some(changed)
     }
 }
 

@@ -52,12 +52,14 @@ proptest! {
         points.push(DVec3::from_array(new));
         let last = points.len() as u32 - 1;
         let before = hull.facets().to_vec();
-        match hull.growth(&points, last) {
+        match hull.insert(&points, last) {
             None => prop_assert!(before.iter().all(|f| side_of(&points, *f, last) != Ordering::Greater)),
-            Some(growth) => {
-                let lost = before.iter().zip(&growth.is_facet_visible).filter(|(_, s)| **s).count();
-                prop_assert!(lost > 0 && growth.fan.len() >= 3);
-                hull.grow(growth);
+            Some(changed) => {
+                let lost = before.iter().filter(|f| !hull.facets().contains(f));
+                let gained = hull.facets().iter().filter(|f| !before.contains(f));
+                prop_assert!(lost.clone().count() > 0 && gained.clone().count() >= 3);
+                let mut corners = lost.chain(gained).flatten().map(|&v| points[v as usize]);
+                prop_assert!(corners.all(|p| changed.meets(&Bounds::enclosing([p]))));
                 check(&points, &hull)?;
                 prop_assert!(hull.corners().contains(&last));
             }
@@ -77,11 +79,9 @@ fn a_polygon_grows_to_either_side() {
     ];
     let mut hull = ExactHull::from_polygon(&[0, 1, 2, 3]);
     assert_eq!(hull.facets().len(), 4);
-    let growth = hull.growth(&points, 4).unwrap();
-    hull.grow(growth);
+    hull.insert(&points, 4).unwrap();
     assert_eq!(hull.facets().len(), 6);
-    let growth = hull.growth(&points, 5).unwrap();
-    hull.grow(growth);
+    hull.insert(&points, 5).unwrap();
     assert_eq!(hull.facets().len(), 8);
     check(&points, &hull).unwrap();
 }

@@ -153,10 +153,8 @@ impl GrowingPatch {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;
         for &v in new {
-            if let Some(growth) = hull.growth(points, v) {
-                let more = hull.bounds_of_change(points, &growth);
+            if let Some(more) = hull.insert(points, v) {
                 changed = Some(changed.map_or(more, |bounds| bounds.union(more)));
-                hull.grow(growth);
             }
         }
         (hull, changed)
