@@ -111,11 +111,6 @@ impl<'m> Manifold<'m> {
         self.twins[half_edge as usize]
     }
 
-    /// Returns the three faces that share an edge with a face.
-    pub(crate) fn neighbours(&self, face: u32) -> [u32; 3] {
-        [0, 1, 2].map(|k| self.twin(3 * face + k) / 3)
-    }
-
     /// Returns the start and end vertex of a half-edge.
     pub(crate) fn ends(&self, half_edge: HalfEdge) -> [u32; 2] {
         let face = self.faces[half_edge as usize / 3];

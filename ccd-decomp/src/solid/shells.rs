@@ -51,10 +51,8 @@ pub(crate) fn check_orientation(
 pub(crate) fn shell_numbers(manifold: &Manifold<'_>) -> Vec<u32> {
     let faces = manifold.faces().len();
     let mut shells = DisjointSets::new(faces);
-    for face in 0..faces as u32 {
-        for next in manifold.neighbours(face) {
-            shells.join(face, next);
-        }
+    for half_edge in 0..3 * faces as u32 {
+        shells.join(half_edge / 3, manifold.twin(half_edge) / 3);
     }
     shells.set_numbers()
 }
