@@ -52,17 +52,14 @@ impl TriangleBoxes {
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        if !self
-            .tree_outside_fans
-            .all_near_faces_satisfy(region, work, &mut holds)
-        {
-            return false;
-        }
-        self.bounds
-            .all_meeting_boxes_satisfy(&region.bounds, |fan| {
-                let fan = &self.fans[fan as usize];
-                work.spend(1) && fan.all_near_faces_satisfy(&region.shape, work, &mut holds)
-            })
+        let tree = &self.tree_outside_fans;
+        tree.all_near_faces_satisfy(region, work, &mut holds)
+            && self
+                .bounds
+                .all_meeting_boxes_satisfy(&region.bounds, |fan| {
+                    let fan = &self.fans[fan as usize];
+                    work.spend(1) && fan.all_near_faces_satisfy(&region.shape, work, &mut holds)
+                })
     }
 
     /// Returns an upper bound, up to rounding, of the largest distance from `point` to any point of the triangles.

@@ -113,36 +113,28 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         let own = self.polygon_of_face[face as usize];
         // Pairs with a face of a polygon are reported for the other face.
         if own == NO_POLYGON {
-            let faces = &self.faces_outside_polygons.faces;
+            let FaceGroup { faces, boxes } = &self.faces_outside_polygons;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
-            if !self
-                .faces_outside_polygons
-                .boxes
-                .all_near_faces_satisfy(region, work, later)
-            {
+            if !boxes.all_near_faces_satisfy(region, work, later) {
                 return false;
             }
         }
+        let mut polygon_satisfies = |number: u32| {
+            let polygon = &self.polygons[number as usize];
+            let new_group = || FaceGroup::new(self.manifold, polygon.faces.clone());
+            let FaceGroup { faces, boxes } = polygon.group.get_or_init(new_group);
+            boxes.all_near_faces_satisfy(region, work, |other| {
+                let other = faces[other as usize];
+                // Pairs of faces of two polygons are found twice.
+                own != NO_POLYGON && other < face || holds(other)
+            })
+        };
         self.bounds
             .all_meeting_boxes_satisfy(&region.bounds, |number| {
-                if number == own {
-                    return true;
-                }
-                if !work.spend(STEPS_PER_POLYGON) {
-                    return false;
-                }
-                if self.is_separated_from_polygon(face, number) {
-                    return true;
-                }
-                let polygon = &self.polygons[number as usize];
-                let group = polygon
-                    .group
-                    .get_or_init(|| FaceGroup::new(self.manifold, polygon.faces.clone()));
-                group.boxes.all_near_faces_satisfy(region, work, |other| {
-                    let other = group.faces[other as usize];
-                    // Pairs of faces of two polygons are found twice.
-                    own != NO_POLYGON && other < face || holds(other)
-                })
+                number == own
+                    || work.spend(STEPS_PER_POLYGON)
+                        && (self.is_separated_from_polygon(face, number)
+                            || polygon_satisfies(number))
             })
     }
 
