@@ -2,7 +2,6 @@
 
 use crate::messages::{FileError, LFS_ADVICE};
 use ccd_core::limits::MAX_COORDINATE;
-use std::fmt;
 use std::io;
 
 /// The error of reading a mesh: the file, and its fault, which names the line and the element.
@@ -173,19 +172,17 @@ impl MeshFault {
     }
 
     /// Creates the error of content that is not supported, and of what to export instead.
-    pub(crate) fn unsupported(what: impl Into<String>, instead: &'static str) -> Self {
-        let what = what.into();
+    pub(crate) fn unsupported(content: impl Into<String>, alternative: &'static str) -> Self {
         MeshFault::Unsupported {
-            unsupported_content: what,
-            alternative: instead,
+            unsupported_content: content.into(),
+            alternative,
         }
     }
 
     /// Creates the error of a file that ends before an element is complete.
     pub(crate) fn truncated_file(missing: impl Into<String>) -> Self {
-        let missing = missing.into();
         MeshFault::Truncated {
-            missing_element: missing,
+            missing_element: missing.into(),
         }
     }
 
@@ -248,7 +245,7 @@ const MAX_NAMED_PARTS: usize = 20;
 
 fn list_of_parts(parts: &[Option<String>]) -> String {
     let label = |(number, name): (usize, &Option<String>)| match name {
-        Some(name) => format!("{number} {:?}", QuotedName(name)),
+        Some(name) => format!("{number} {}", quoted(name)),
         None => number.to_string(),
     };
     let named = parts.iter().enumerate().take(MAX_NAMED_PARTS).map(label);
@@ -270,22 +267,18 @@ fn list_of_numbers(numbers: &[usize]) -> String {
     named.chain(more).collect::<Vec<_>>().join(", ")
 }
 
-/// A name from a file, quoted and truncated for messages.
-pub(crate) struct QuotedName<'a>(pub(crate) &'a str);
-
-impl fmt::Debug for QuotedName<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.char_indices().nth(MAX_QUOTED_NAME_CHARS) {
-            Some((end, _)) => write!(f, "{:?}", format!("{}…", &self.0[..end])),
-            None => write!(f, "{:?}", self.0),
-        }
+/// Returns a name from a file, quoted and truncated for messages.
+pub(crate) fn quoted(name: &str) -> String {
+    match name.char_indices().nth(MAX_QUOTED_NAME_CHARS) {
+        Some((end, _)) => format!("{:?}", format!("{}…", &name[..end])),
+        None => format!("{name:?}"),
     }
 }
 
 /// Returns the name of an element for messages, such as `node 2 "lid"`.
 pub(crate) fn element_name(kind: &str, number: usize, name: Option<&str>) -> String {
     match name {
-        Some(name) => format!("{kind} {number} {:?}", QuotedName(name)),
+        Some(name) => format!("{kind} {number} {}", quoted(name)),
         None => format!("{kind} {number}"),
     }
 }

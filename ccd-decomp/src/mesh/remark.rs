@@ -1,6 +1,6 @@
 //! Remarks of mesh readers about content that was skipped or changed.
 
-use super::error::QuotedName;
+use super::error::quoted;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -56,7 +56,7 @@ impl Remarks {
         count: usize,
         line: Option<usize>,
     ) {
-        let what = format!("{kind} {:?} passed over", QuotedName(name));
+        let what = format!("{kind} {} passed over", quoted(name));
         self.add(&what, count, line);
     }
 

@@ -2,7 +2,7 @@
 
 use super::schema::{Buffer, Root};
 use super::{element, extensions};
-use crate::mesh::error::{MeshFault, QuotedName, element_name};
+use crate::mesh::error::{MeshFault, element_name, quoted};
 use crate::mesh::format::LinkedFiles;
 use base64::Engine;
 use base64::alphabet::STANDARD;
@@ -135,7 +135,7 @@ fn decode_base64(data: &str) -> Result<Vec<u8>, MeshFault> {
 /// Decodes the percent escapes of a URI to a path: `%20` is a space, and so on.
 fn path_from_uri(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
-        let problem = format!("its URI {:?} {what}", QuotedName(uri));
+        let problem = format!("its URI {} {what}", quoted(uri));
         Err(MeshFault::malformed_content(problem))
     };
     // This also refuses drive letters.

@@ -1,7 +1,7 @@
 //! Checks the extensions that a glTF requires of its readers. Only those that do not change shapes are accepted.
 
 use super::schema::Root;
-use crate::mesh::error::{MeshFault, QuotedName};
+use crate::mesh::error::{MeshFault, quoted};
 
 /// The name prefixes of extensions that do not change shapes, such as those about appearance, lights, audio, animation
 /// and metadata.
@@ -41,7 +41,7 @@ pub(super) fn check_required_extensions(root: &Root) -> Result<(), MeshFault> {
         Some(DRACO_EXTENSION) => Err(draco_fault()),
         Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt_fault()),
         Some(name) => Err(MeshFault::unsupported(
-            format!("what the extension {:?} says", QuotedName(name)),
+            format!("what the extension {} says", quoted(name)),
             "glTF without this extension",
         )),
     }
