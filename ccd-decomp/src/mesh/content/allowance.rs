@@ -37,12 +37,9 @@ impl ExpansionBudget {
 
     /// Spends a cost from the budget; returns an error if too little is left.
     pub(crate) fn spend(&mut self, cost: u64) -> Result<(), MeshFault> {
-        match self.remaining_cost.checked_sub(cost) {
-            Some(left) => {
-                self.remaining_cost = left;
-                Ok(())
-            }
-            None => Err(MeshFault::TooManyRepeats { limit: self.limit }),
-        }
+        let left = self.remaining_cost.checked_sub(cost);
+        let limit = self.limit;
+        self.remaining_cost = left.ok_or(MeshFault::TooManyRepeats { limit })?;
+        Ok(())
     }
 }

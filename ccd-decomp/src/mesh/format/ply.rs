@@ -96,18 +96,14 @@ fn check_unique_names(bytes: &[u8]) -> Result<(), MeshFault> {
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
         let line = String::from_utf8_lossy(line);
         let mut words = line.split_whitespace();
-        let (kind, names) = match words.next() {
+        let (kind, name, names) = match words.next() {
             Some("end_header") => break,
-            Some(kind @ "element") => {
+            Some("element") => {
                 properties.clear();
-                (kind, &mut elements)
+                ("element", words.next(), &mut elements)
             }
-            Some(kind @ "property") => (kind, &mut properties),
+            Some("property") => ("property", words.next_back(), &mut properties),
             _ => continue,
-        };
-        let name = match kind {
-            "element" => words.next(),
-            _ => words.next_back(),
         };
         if let Some(name) = name
             && !names.insert(name.to_owned())
