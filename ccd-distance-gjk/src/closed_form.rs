@@ -7,7 +7,7 @@ mod pierce;
 mod tests;
 
 use crate::tolerance::{INTERSECTION_TEST_SHARE, MIN_CERTIFIED_SHARE};
-use axis::SeparatingAxisCandidates;
+use axis::best_separating_axis;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
 use ccd_core::{
@@ -99,8 +99,7 @@ fn best_axis_and_points(
     near: NearestPoints,
 ) -> (DVec3, NearestPoints) {
     let w = near.difference(p, q);
-    let (axis, gap) =
-        vectorize!(level, level => SeparatingAxisCandidates::new(level, p, q, w).best());
+    let (axis, gap) = vectorize!(level, level => best_separating_axis(level, p, q, w));
     if gap >= INTERSECTION_TEST_SHARE * w.length() && gap > 0.0 {
         return (axis, near);
     }

@@ -6,62 +6,48 @@ use ccd_core::fearless_simd::{Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Candidates for the separating axis of two triangles, with the gaps along them.
+/// Returns the unit vector with the largest gap of the candidates for the separating axis of two triangles, and that gap.
+/// The nearest points of the triangles differ by about `w`. Without a candidate the vector is zero, and the gap −∞.
 ///
 /// The difference `w` of the nearest points is rounded, so that it may leave the cone of normals that it belongs to.
 /// The borders of that cone are also candidates: for a vertex and an edge, `w` made perpendicular to the edge; for two
 /// edges, their cross product; for a face, its normal; and in one plane, the normals of the edges within it.
-#[derive(Debug)]
-pub(crate) struct SeparatingAxisCandidates<L: Simd> {
-    directions: [FourVectors<L>; LANE_GROUP_COUNT],
-    /// The support gaps along the unit vectors of the directions; −∞ for a zero direction.
-    gaps: [f64x4<L>; LANE_GROUP_COUNT],
-}
-
-const LANE_GROUP_COUNT: usize = 8;
-
-impl<L: Simd> SeparatingAxisCandidates<L> {
-    /// Computes the candidates of two triangles whose nearest points differ by about `w`.
-    #[inline(always)]
-    pub(crate) fn new(level: L, p: &Corners, q: &Corners, w: DVec3) -> Self {
-        let (edges_p, edges_q) = (edges(p), edges(q));
-        let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
-        let lanes_q = pack_four_lanes(level, edges_q, DVec3::ZERO);
-        // Nearly parallel edges have a cross product that rounding tilts along them.
-        let cross = |e: DVec3| {
-            let e = FourVectors::splat(level, e);
-            let n = e.cross(lanes_q);
-            n.perpendicular_part(e).perpendicular_part(lanes_q)
-        };
-        let w = FourVectors::splat(level, w);
-        let mut out = SeparatingAxisCandidates {
-            directions: [
-                cross(edges_p[0]),
-                cross(edges_p[1]),
-                cross(edges_p[2]),
-                w.perpendicular_part(pack_four_lanes(level, edges_p, DVec3::ZERO)),
-                w.perpendicular_part(lanes_q),
-                pack_four_lanes(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
-                pack_four_lanes(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
-                axes_of_longest_edge(level, &edges_p, &edges_q),
-            ],
-            gaps: [splat(level, 0.0); LANE_GROUP_COUNT],
-        };
-        for (n, gap) in out.directions.iter_mut().zip(&mut out.gaps) {
-            (*n, *gap) = orient_to_larger_gap(p, q, *n);
-        }
-        out
+#[inline(always)]
+pub(crate) fn best_separating_axis<L: Simd>(
+    level: L,
+    p: &Corners,
+    q: &Corners,
+    w: DVec3,
+) -> (DVec3, f64) {
+    let (edges_p, edges_q) = (edges(p), edges(q));
+    let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
+    let lanes_q = pack_four_lanes(level, edges_q, DVec3::ZERO);
+    // Nearly parallel edges have a cross product that rounding tilts along them.
+    let cross = |e: DVec3| {
+        let e = FourVectors::splat(level, e);
+        let n = e.cross(lanes_q);
+        n.perpendicular_part(e).perpendicular_part(lanes_q)
+    };
+    let w = FourVectors::splat(level, w);
+    let mut directions = [
+        cross(edges_p[0]),
+        cross(edges_p[1]),
+        cross(edges_p[2]),
+        w.perpendicular_part(pack_four_lanes(level, edges_p, DVec3::ZERO)),
+        w.perpendicular_part(lanes_q),
+        pack_four_lanes(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
+        pack_four_lanes(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
+        axes_of_longest_edge(level, &edges_p, &edges_q),
+    ];
+    // The support gaps along the unit vectors of the directions; −∞ for a zero direction.
+    let mut gaps = [splat(level, 0.0); 8];
+    for (n, gap) in directions.iter_mut().zip(&mut gaps) {
+        (*n, *gap) = orient_to_larger_gap(p, q, *n);
     }
-
-    /// Returns the unit vector of the candidate with the largest gap, and that gap. Without a candidate the vector is
-    /// zero, and the gap −∞.
-    pub(crate) fn best(&self) -> (DVec3, f64) {
-        let gap = |k: usize| self.gaps[k / 4][k % 4];
-        let best =
-            (0..4 * LANE_GROUP_COUNT).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
-        let direction = unit(self.directions[best / 4].lane(best % 4));
-        (direction.unwrap_or(DVec3::ZERO), gap(best))
-    }
+    let gap = |k: usize| gaps[k / 4][k % 4];
+    let best = (0..4 * gaps.len()).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
+    let direction = unit(directions[best / 4].lane(best % 4));
+    (direction.unwrap_or(DVec3::ZERO), gap(best))
 }
 
 /// Orients each direction towards the larger support gap, and returns the gaps along the unit vectors.
