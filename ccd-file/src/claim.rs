@@ -34,13 +34,11 @@ impl Claim {
     pub fn new(target: PathBuf) -> io::Result<Self> {
         let partial = sibling(&target, PARTIAL_EXTENSION);
         for _ in 0..MAX_LOCK_ATTEMPTS {
-            let options = File::options()
+            let file = File::options()
                 .read(true)
                 .write(true)
                 .create(true)
                 .truncate(false)
-                .clone();
-            let file = options
                 .open(&partial)
                 .map_err(|error| error_with_path(&partial, &error))?;
             match file.try_lock() {
@@ -56,16 +54,16 @@ impl Claim {
                     let problem = format!("{} is no file", partial.display());
                     return Err(io::Error::new(io::ErrorKind::AlreadyExists, problem));
                 }
-                let left = about.len();
-                let temporary = TempFile {
+                let left_length = about.len();
+                let temp_file = TempFile {
                     file,
                     path: partial,
                     target,
-                    is_kept_on_drop: left > 0,
+                    is_kept_on_drop: left_length > 0,
                 };
                 return Ok(Claim {
-                    temp_file: temporary,
-                    left_length: left,
+                    temp_file,
+                    left_length,
                 });
             }
         }
@@ -112,14 +110,9 @@ impl Claim {
     /// # Errors
     /// Errors of the operating system.
     pub fn truncate(&mut self, bytes: u64) -> io::Result<()> {
-        let TempFile {
-            file,
-            is_kept_on_drop: is_kept,
-            ..
-        } = &mut self.temp_file;
-        file.set_len(bytes)?;
-        file.seek(SeekFrom::Start(bytes))?;
-        *is_kept &= bytes > 0;
+        self.file().set_len(bytes)?;
+        self.file().seek(SeekFrom::Start(bytes))?;
+        self.temp_file.is_kept_on_drop &= bytes > 0;
         Ok(())
     }
 
