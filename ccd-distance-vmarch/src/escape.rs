@@ -1,33 +1,24 @@
 //! Escapes from local minima, where a feature is behind the plane of one face of the other polytope `[VCLIP98 §3.3]`.
 
-use crate::feature::{Crossing, Feature, LocalMinimum};
+use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::penetration;
 use crate::placed::{PlacedPolytope, RoundingScale};
 use ccd_core::glam::DVec3;
 
-/// How the march continues from a local minimum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Escape {
-    /// The march continues at this face: the feature is in front of it, and farther than in front of any other face.
-    Face(u32),
-    /// The feature is behind all faces, and exact signs prove a common point of the polytopes.
-    CommonPoint(Crossing),
-    /// The feature is behind all faces up to rounding, but exact signs could not prove a common point.
-    Unclear,
-}
-
-/// Returns the face of Y that a feature of X is farthest in front of, or a common point if it is behind all faces.
+/// Returns the step out of a local minimum of a feature of X: to the face of Y that the feature is farthest in front of, or
+/// to a common point, proven by exact signs, if it is behind all faces. The local minimum itself is returned if the
+/// feature is behind all faces up to rounding, but exact signs could not prove a common point.
 pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     minimum: LocalMinimum,
     y: &Y,
     scale: RoundingScale,
-) -> Escape {
+) -> MarchStep {
     if let Some((face, height)) = face_farthest_below(minimum.point, y)
         && height > scale.rounding()
         && face != minimum.face
     {
-        return Escape::Face(face);
+        return MarchStep::Continue(minimum.feature, Feature::Face(face));
     }
     let inside = match minimum.feature {
         Feature::Vertex(v) => penetration::inner_corner_crossing(x, v, y),
@@ -39,7 +30,10 @@ pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
         }
         Feature::Face(_) => None,
     };
-    inside.map_or(Escape::Unclear, Escape::CommonPoint)
+    match inside {
+        Some(crossing) => MarchStep::CommonPoint(WhichPolytope::X, crossing),
+        None => MarchStep::LocalMinimum(WhichPolytope::X, minimum),
+    }
 }
 
 /// Returns the face whose plane the point is highest above, and the signed height; `None` for a polytope without faces.

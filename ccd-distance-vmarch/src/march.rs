@@ -1,7 +1,7 @@
 //! Marches from one pair of features to a nearer pair, until no pair is nearer `[VCLIP98 §3]`.
 
 use crate::counters::Counters;
-use crate::escape::{Escape, escape_local_minimum};
+use crate::escape::escape_local_minimum;
 use crate::feature::{Feature, LocalMinimum, MarchStep, Pair, WhichPolytope};
 use crate::placed::{PlacedPair, PlacedPolytope};
 use crate::termination::{BrentCycleDetector, MarchEnd};
@@ -18,29 +18,18 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
     let mut brent = BrentCycleDetector::new(start);
     for _ in 0..MAX_STEPS_PER_FEATURE * features {
         counters.steps += 1;
-        pair = match step(placed, pair) {
+        let mut next = step(placed, pair);
+        if let MarchStep::LocalMinimum(which, minimum) = next {
+            counters.local_minima += 1;
+            next = escape(placed, which, minimum);
+        }
+        pair = match next {
             MarchStep::Continue(a, b) => Pair { a, b },
             MarchStep::Stop(certainty) => return MarchEnd::Nearest(pair, certainty),
             MarchStep::CommonPoint(which, crossing) => {
                 return MarchEnd::CommonPoint(pair, which, crossing);
             }
-            MarchStep::LocalMinimum(which, minimum) => {
-                counters.local_minima += 1;
-                match escape(placed, which, minimum) {
-                    Escape::Face(face) => {
-                        let (feature, face) = (minimum.feature, Feature::Face(face));
-                        let (a, b) = match which {
-                            WhichPolytope::X => (feature, face),
-                            WhichPolytope::Y => (face, feature),
-                        };
-                        Pair { a, b }
-                    }
-                    Escape::CommonPoint(crossing) => {
-                        return MarchEnd::CommonPoint(pair, which, crossing);
-                    }
-                    Escape::Unclear => return MarchEnd::Unclear(pair),
-                }
-            }
+            MarchStep::LocalMinimum(..) => return MarchEnd::Unclear(pair),
         };
         if brent.record_and_detect(pair) {
             counters.cycles += 1;
@@ -52,11 +41,11 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
 
 /// Finds how the march continues from a local minimum; `which` is the polytope of its feature, X for A and Y for B.
 #[cold]
-fn escape(placed: &PlacedPair<'_>, which: WhichPolytope, minimum: LocalMinimum) -> Escape {
+fn escape(placed: &PlacedPair<'_>, which: WhichPolytope, minimum: LocalMinimum) -> MarchStep {
     let PlacedPair { a, b, scale } = placed;
     match which {
         WhichPolytope::X => escape_local_minimum(a, minimum, b, *scale),
-        WhichPolytope::Y => escape_local_minimum(b, minimum, a, *scale),
+        WhichPolytope::Y => escape_local_minimum(b, minimum, a, *scale).swapped(),
     }
 }
 

@@ -1,12 +1,12 @@
 //! Tests escapes from local minima, for points and needles behind a face of a cube.
 
-use super::{Escape, escape_local_minimum, face_farthest_below};
-use crate::feature::{Feature, LocalMinimum};
+use super::{escape_local_minimum, face_farthest_below};
+use crate::feature::{Feature, LocalMinimum, MarchStep};
 use crate::placed::PlacedPolytope;
 use crate::tests::setting::{cube, face_along, needle, pair_with_b_moved, point};
 use ccd_core::glam::DVec3;
 
-fn escape_of_point(at: DVec3) -> Escape {
+fn escape_of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = pair_with_b_moved(&cube, &point, at);
     let minimum = LocalMinimum {
@@ -17,20 +17,24 @@ fn escape_of_point(at: DVec3) -> Escape {
     escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale)
 }
 
+fn step_to_face(face: u32) -> MarchStep {
+    MarchStep::Continue(Feature::Vertex(0), Feature::Face(face))
+}
+
 #[test]
 fn leads_to_the_face_it_is_highest_above() {
     let below = face_along(&cube(), -DVec3::Z);
-    assert_eq!(escape_of_point(-3.0 * DVec3::Z), Escape::Face(below));
+    assert_eq!(escape_of_point(-3.0 * DVec3::Z), step_to_face(below));
     let beside = face_along(&cube(), DVec3::X);
     let at = DVec3::new(5.0, 2.0, 0.0);
-    assert_eq!(escape_of_point(at), Escape::Face(beside));
+    assert_eq!(escape_of_point(at), step_to_face(beside));
 }
 
 #[test]
 fn proves_features_inside() {
     assert!(matches!(
         escape_of_point(DVec3::new(0.2, 0.3, 0.4)),
-        Escape::CommonPoint(_)
+        MarchStep::CommonPoint(..)
     ));
 }
 
@@ -38,7 +42,8 @@ fn proves_features_inside() {
 fn is_unclear_without_proof_by_exact_signs() {
     // Beyond a face by less than rounding.
     let at = DVec3::new(1.0 + f64::EPSILON, 0.3, 0.4);
-    assert_eq!(escape_of_point(at), Escape::Unclear);
+    let found = escape_of_point(at);
+    assert!(matches!(found, MarchStep::LocalMinimum(..)), "{found:?}");
 }
 
 #[test]
@@ -52,7 +57,7 @@ fn edges_go_through_or_are_inside() {
             face: face_along(&cube, DVec3::Z),
         };
         let found = escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale);
-        let Escape::CommonPoint(crossing) = found else {
+        let MarchStep::CommonPoint(_, crossing) = found else {
             panic!("{found:?}");
         };
         let corners = crossing
