@@ -100,30 +100,20 @@ impl<'m> Shells<'m> {
         let mut order: Vec<usize> = (0..around.len()).collect();
         order.sort_by_key(|&shell| around[shell].shells.len());
         let mut sides = vec![1; around.len()];
-        let mut unclear = Tally::default();
+        let mut nesting = MisorientedShells::default();
         for shell in order {
-            let SurroundingShells {
-                shells,
-                is_shell_crossed: crossed,
-            } = &around[shell];
+            let (shells, crossed) = (&around[shell].shells, around[shell].is_shell_crossed);
             let windings: i32 = shells.iter().map(|&other| sides[other as usize]).sum();
             let outermost = shells.iter().map(|&k| k as usize);
             let outermost = outermost.min_by_key(|&k| around[k].shells.len());
             let as_around = outermost.map(|k| sides[k] * orientations[k] * orientations[shell]);
-            sides[shell] = match windings {
-                1 if *crossed => 1,
-                1 => -1,
-                _ => 1,
-            };
-            if is_unknown[shell] || *crossed && windings > 0 && as_around != Some(1) {
-                unclear.add(self.representative_face(shell));
+            sides[shell] = if windings == 1 && !crossed { -1 } else { 1 };
+            if is_unknown[shell] || crossed && windings > 0 && as_around != Some(1) {
+                let face = self.representative_face(shell);
+                nesting.unclear_shells.add(face);
             }
         }
         let is_wrong = |shell: usize| orientations[shell] * sides[shell] < 0;
-        let mut nesting = MisorientedShells {
-            unclear_shells: unclear,
-            ..MisorientedShells::default()
-        };
         let has_volume = |&shell: &usize| orientations[shell] != 0;
         // A mesh that is entirely inside out is consistent.
         if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
@@ -159,10 +149,9 @@ impl<'m> Shells<'m> {
         }
         let crossing = self.shells_crossing(shell);
         shells.retain(|other| !crossing.contains(other));
-        let crossed = !crossing.is_empty();
         Some(SurroundingShells {
             shells,
-            is_shell_crossed: crossed,
+            is_shell_crossed: !crossing.is_empty(),
         })
     }
 
