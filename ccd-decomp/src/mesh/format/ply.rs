@@ -173,25 +173,21 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
             matches!(kind, PropertyType::Scalar(_))
         })?;
     }
-    let mut faces = [FACE_ELEMENT_NAME, STRIPS_ELEMENT_NAME]
-        .into_iter()
-        .filter_map(|name| header.elements.get(name))
+    let names = [FACE_ELEMENT_NAME, STRIPS_ELEMENT_NAME];
+    let mut faces = names
+        .iter()
+        .filter_map(|&name| header.elements.get(name))
         .peekable();
     if faces.peek().is_none() {
         return Err(MeshFault::NoFaces);
     }
+    let is_integers = |kind: &PropertyType| match kind {
+        PropertyType::List(_, number) => !matches!(number, ScalarType::Float | ScalarType::Double),
+        PropertyType::Scalar(_) => false,
+    };
     faces.try_for_each(|element| {
-        check_has_property(
-            element,
-            &CORNER_PROPERTY_NAMES,
-            "a list of integers",
-            |kind| match kind {
-                PropertyType::List(_, number) => {
-                    !matches!(number, ScalarType::Float | ScalarType::Double)
-                }
-                PropertyType::Scalar(_) => false,
-            },
-        )
+        let names = &CORNER_PROPERTY_NAMES;
+        check_has_property(element, names, "a list of integers", is_integers)
     })
 }
 
