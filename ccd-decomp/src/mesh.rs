@@ -124,17 +124,15 @@ impl TriangleMesh {
         let positions = weld_vertices(&vertices);
         let drop_duplicate = mark_duplicate_faces(&all_faces, &positions);
         let drop_collapsed = mark_covered_collapsed_faces(&all_faces, &positions);
-        let (mut faces, mut face_ids) = (Vec::new(), Vec::new());
-        faces.reserve_exact(all_faces.len());
-        face_ids.reserve_exact(all_faces.len());
+        let mut faces = Vec::with_capacity(all_faces.len());
+        let mut face_ids = Vec::with_capacity(all_faces.len());
         for (k, (face, id)) in all_faces.into_iter().zip(all_ids).enumerate() {
             if drop_duplicate[k] {
                 repairs.duplicate_faces.add(id);
             } else if drop_collapsed[k] {
                 repairs.collapsed_faces.add(id);
             } else {
-                let [a, b, c] = face.map(|v| vertices[v as usize]);
-                if has_zero_area([a, b, c]) {
+                if has_zero_area(face.map(|v| vertices[v as usize])) {
                     repairs.zero_area_faces.add(id);
                 }
                 faces.push(face);

@@ -62,13 +62,9 @@ impl Projection {
 /// along one axis differ by a factor of more than 1e90.
 pub(crate) fn has_zero_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
-    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(unit_upscale_factor));
+    let factor = |x: f64| if x < 1.0 { unit_scale_factor(x) } else { 1.0 };
+    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(factor));
     is_degenerate(triangle.map(|p| p * scale))
-}
-
-/// Returns the power of two that scales a number below 1 to about 1; 1 for any other number.
-fn unit_upscale_factor(x: f64) -> f64 {
-    if x < 1.0 { unit_scale_factor(x) } else { 1.0 }
 }
 
 /// Returns the power of two that scales a positive number to about 1; 1 for any other number.

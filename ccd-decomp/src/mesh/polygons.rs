@@ -88,9 +88,8 @@ impl Polygons {
     /// a non-convex polygon it covers more; that is reported if the polygon intersects itself and cannot be
     /// triangulated otherwise.
     pub(super) fn triangulate(&self, repairs: &mut Repairs) -> (Vec<[u32; 3]>, Vec<u32>) {
-        let (mut faces, mut ids) = (Vec::new(), Vec::new());
-        faces.reserve_exact(self.corners.len() - 2 * self.corner_ends.len());
-        ids.reserve_exact(faces.capacity());
+        let count = self.corners.len() - 2 * self.corner_ends.len();
+        let (mut faces, mut ids) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for (face, corners) in self.faces().enumerate() {
             let id = face as u32;
             let start = faces.len();

@@ -108,16 +108,8 @@ impl fmt::Display for Repairs {
 
 /// Marks every face with the same points as an earlier face, in the same orientation.
 pub(crate) fn mark_duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
-    let mut keyed: Vec<([u32; 3], u32)> = faces
-        .iter()
-        .zip(0..)
-        .map(|(face, k)| {
-            (
-                with_smallest_corner_first(face.map(|v| positions[v as usize])),
-                k,
-            )
-        })
-        .collect();
+    let key = |face: &[u32; 3]| with_smallest_corner_first(face.map(|v| positions[v as usize]));
+    let mut keyed: Vec<([u32; 3], u32)> = faces.iter().map(key).zip(0..).collect();
     keyed.sort_unstable();
     let mut duplicate = vec![false; faces.len()];
     for pair in keyed.windows(2) {

@@ -50,12 +50,7 @@ const MAX_TESTED_FACETS: usize = 16;
 /// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
 pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
-        Shape::Segment([p, q]) => {
-            vec![
-                Plane::from_triangle([hub, *p, *q]),
-                Plane::from_triangle([hub, *q, *p]),
-            ]
-        }
+        &Shape::Segment([p, q]) => Vec::from([[hub, p, q], [hub, q, p]].map(Plane::from_triangle)),
         Shape::HullInBox(Hull { facets, .. }) => {
             let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
