@@ -68,8 +68,7 @@ impl AffineMap {
     /// Returns whether the map takes all points to one point: its matrix is zero.
     #[cfg(feature = "gltf")]
     pub(crate) fn collapses_to_point(&self) -> bool {
-        let matrix = self.0.matrix3;
-        [matrix.x_axis, matrix.y_axis, matrix.z_axis] == [DVec3::ZERO; 3]
+        self.0.matrix3.to_cols_array() == [0.0; 9]
     }
 
     pub(crate) fn is_identity(&self) -> bool {

@@ -61,13 +61,8 @@ impl<'a> AccessorReader<'a> {
             check_accessor_type(about, "SCALAR")?;
             let component = ComponentType::index_type_from_code(about.component_type)?;
             let whole = |row: &[u8]| (component.read)(row) as u32;
-            accessors.read_elements(
-                about,
-                component.byte_count,
-                expansion_cost(0, about.count),
-                0,
-                whole,
-            )
+            let price = expansion_cost(0, about.count);
+            accessors.read_elements(about, component.byte_count, price, 0, whole)
         })
     }
 

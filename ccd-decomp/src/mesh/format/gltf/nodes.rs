@@ -97,9 +97,8 @@ impl SceneTraversal<'_> {
             element(&self.root.nodes, "node", child)?;
             is_below[child] = true;
         }
-        let tops: Vec<usize> = (0..is_below.len())
-            .filter(|&node| !is_below[node])
-            .collect();
+        let tops = (0..is_below.len()).filter(|&node| !is_below[node]);
+        let tops: Vec<usize> = tops.collect();
         if tops.is_empty() {
             return Err(MeshFault::malformed_content("is below itself")
                 .at_element(element_name("node", 0, None)));
@@ -110,35 +109,26 @@ impl SceneTraversal<'_> {
     /// Adds remarks about content that was skipped, or that was read in its rest pose.
     fn add_remarks(&mut self) {
         let root = self.root;
-        let with_mesh = root
-            .nodes
-            .iter()
-            .zip(&self.visited_nodes)
-            .filter(|(node, _)| node.mesh.is_some());
+        let nodes = root.nodes.iter().zip(&self.visited_nodes);
+        let with_mesh = nodes.filter(|(node, _)| node.mesh.is_some());
         let (shown, others): (Vec<_>, Vec<_>) = with_mesh.partition(|(_, visited)| **visited);
         let skinned = shown.iter().filter(|(node, _)| node.skin.is_some());
-        let used = self
-            .shape_of_mesh
-            .keys()
-            .flat_map(|&mesh| &root.meshes[mesh].primitives);
-        let thin = used
-            .clone()
-            .filter(|primitive| primitive.is_points_or_lines());
-        let changing = used.filter(|primitive| !primitive.targets.is_empty());
-        for (what, count) in [
-            (
-                "nodes that the scene does not show passed over",
-                others.len(),
-            ),
-            ("primitives of points or lines passed over", thin.count()),
-            ("nodes taken without their skin", skinned.count()),
-            (
-                "primitives with morph targets taken at rest",
-                changing.count(),
-            ),
-        ] {
-            self.assembly.remarks.add(what, count, None);
-        }
+        let used = self.shape_of_mesh.keys();
+        let used = used.flat_map(|&mesh| &root.meshes[mesh].primitives);
+        let thin = used.clone().filter(|used| used.is_points_or_lines());
+        let changing = used.filter(|used| !used.targets.is_empty());
+        let remarks = &mut self.assembly.remarks;
+        let mut add = |what, count| remarks.add(what, count, None);
+        add(
+            "nodes that the scene does not show passed over",
+            others.len(),
+        );
+        add("primitives of points or lines passed over", thin.count());
+        add("nodes taken without their skin", skinned.count());
+        add(
+            "primitives with morph targets taken at rest",
+            changing.count(),
+        );
     }
 
     fn place(
@@ -155,10 +145,9 @@ impl SceneTraversal<'_> {
                 let shape = primitive::read_mesh(about, &mut self.accessor_reader)
                     .map_err(|fault| fault.at_element(place()))?;
                 self.assembly.shapes.push(shape);
-                *self
-                    .shape_of_mesh
-                    .entry(mesh)
-                    .or_insert(self.assembly.shapes.len() - 1)
+                let number = self.assembly.shapes.len() - 1;
+                self.shape_of_mesh.insert(mesh, number);
+                number
             }
         };
         // A mesh without faces is no part.
