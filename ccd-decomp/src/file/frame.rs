@@ -57,14 +57,11 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
         return Err(StoreFault::Truncated);
     }
     let end = read_up_to(&mut reader, size_of::<u32>() as u64)?;
-    if u32::from_le_bytes(take_array(&mut &end[..])?) != checksum(&header, &payload) {
+    let is_damaged = u32::from_le_bytes(take_array(&mut &end[..])?) != checksum(&header, &payload);
+    if is_damaged || !read_up_to(&mut reader, 1)?.is_empty() {
         return Err(StoreFault::ChecksumMismatch);
     }
-    if read_up_to(&mut reader, 1)?.is_empty() {
-        Ok(payload)
-    } else {
-        Err(StoreFault::ChecksumMismatch)
-    }
+    Ok(payload)
 }
 
 /// Reads up to `count` bytes; fewer if the reader ends before.
