@@ -79,8 +79,12 @@ impl BoundsTree {
 }
 
 fn aabb(bounds: &Bounds) -> Aabb {
-    let vector = |p: DVec3| Vector::new(p.x, p.y, p.z);
-    Aabb::new(vector(bounds.lo), vector(bounds.hi))
+    Aabb::new(to_parry(bounds.lo), to_parry(bounds.hi))
+}
+
+/// Converts a vector to one of the version of `glam` that `parry3d` uses.
+pub(crate) fn to_parry(p: DVec3) -> Vector {
+    Vector::new(p.x, p.y, p.z)
 }
 
 #[cfg(test)]

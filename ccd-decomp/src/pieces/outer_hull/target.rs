@@ -1,6 +1,6 @@
 //! The solid or surface that the hull encloses, with queries for the location and distance of a point.
 
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, to_parry};
 use crate::exact::predicates::{side, side_of_line_along};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
@@ -10,7 +10,6 @@ use crate::tolerance::{MAX_NEEDLE_RATIO, excess_rounding};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::Triangle;
 use std::cmp::Ordering;
@@ -183,10 +182,6 @@ fn ray_crossing_sign(triangle: [DVec3; 3], point: DVec3) -> i32 {
         _ => Ordering::Greater,
     };
     around * i32::from(side(triangle, point) == below)
-}
-
-fn to_parry(p: DVec3) -> Vector {
-    Vector::new(p.x, p.y, p.z)
 }
 
 #[cfg(test)]
