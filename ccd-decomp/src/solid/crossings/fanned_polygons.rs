@@ -71,12 +71,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         let mut polygons = Vec::new();
         let mut polygon_of = vec![NO_POLYGON; manifold.faces().len()];
         for number in 0..flats.len() as u32 {
-            let flat = flats.get(number);
-            let is_large = has_fan(manifold, &flat.faces);
-            let Some(polygon) = is_large
-                .then(|| FannedPolygon::new(manifold, flat))
-                .flatten()
-            else {
+            let Some(polygon) = FannedPolygon::new(manifold, flats.get(number)) else {
                 continue;
             };
             let number = polygons.len() as u32;
@@ -195,7 +190,11 @@ fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
 }
 
 impl FannedPolygon {
+    /// Prepares a polygon for searches; `None` if it has no large fan.
     fn new(manifold: &Manifold<'_>, flat: &ConvexPolygon) -> Option<Self> {
+        if !has_fan(manifold, &flat.faces) {
+            return None;
+        }
         let plane = manifold.triangle(*flat.faces.first()?);
         let starts = || flat.rim.iter().map(|&h| manifold.ends(h)[0]);
         let triples = starts()
