@@ -59,10 +59,8 @@ impl MeshFile {
             }
             format.parse(&bytes, &linked)
         };
-        match read() {
-            Ok(content) => Ok(MeshFile::new(content, Some(path.into()))),
-            Err(fault) => Err(MeshError::new(path, fault)),
-        }
+        let content = read().map_err(|fault| MeshError::new(path, fault))?;
+        Ok(MeshFile::new(content, Some(path.into())))
     }
 
     /// Reads a self-contained file in a given format from any reader.

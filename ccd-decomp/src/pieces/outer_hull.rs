@@ -13,6 +13,7 @@ use crate::solid::manifold::Manifold;
 use crate::solid::star_shaped::star_centre;
 use crate::solid::topology::Topology;
 use crate::tolerance::EXCESS_TOLERANCE_PER_HALF_DIAGONAL;
+use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use ccd_core::{Facet, FacetOrigin, Hull, Polytope};
 use target::Target;
@@ -41,10 +42,8 @@ pub(crate) fn outer_hull(mesh: &TriangleMesh, topology: &Topology) -> Result<Out
     let mut corners: Vec<u32> = mesh.faces().iter().flatten().copied().collect();
     corners.sort_unstable();
     corners.dedup();
-    let points: Vec<_> = corners
-        .iter()
-        .map(|&v| mesh.vertices()[v as usize])
-        .collect();
+    let at = |&v: &u32| mesh.vertices()[v as usize];
+    let points: Vec<DVec3> = corners.iter().map(at).collect();
     let hull = hull(&points).map_err(|error| HullError {
         point: corners[error.point as usize],
     })?;

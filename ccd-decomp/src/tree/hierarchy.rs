@@ -41,14 +41,8 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
         NodeContent::Piece(piece) => HierarchyNode::Leaf(piece),
         NodeContent::Children(first) => HierarchyNode::Inner(first, first + 1),
     };
-    Hierarchy::new(
-        nodes
-            .par_iter()
-            .with_min_len(PIECES_PER_TASK)
-            .map(node)
-            .collect(),
-        pieces.len(),
-    )
+    let nodes = nodes.par_iter().with_min_len(PIECES_PER_TASK).map(node);
+    Hierarchy::new(nodes.collect(), pieces.len())
 }
 
 /// Creates a leaf for each piece, with a box in f32. The boxes are scaled to the unit cube, so that pieces that are
@@ -62,12 +56,8 @@ fn leaves_in_unit_cube(pieces: &Pieces) -> Vec<Node> {
             hi: hi + piece.radius,
         }
     };
-    let all = 0..pieces.len();
-    let boxes: Vec<Bounds> = all
-        .into_par_iter()
-        .with_min_len(PIECES_PER_TASK)
-        .map(bounds)
-        .collect();
+    let all = (0..pieces.len()).into_par_iter();
+    let boxes: Vec<Bounds> = all.with_min_len(PIECES_PER_TASK).map(bounds).collect();
     // Shares of fixed size do not depend on the number of threads.
     let corners = |share: &[Bounds]| Bounds::enclosing(share.iter().flat_map(|b| [b.lo, b.hi]));
     let shares: Vec<Bounds> = boxes.par_chunks(PIECES_PER_TASK).map(corners).collect();

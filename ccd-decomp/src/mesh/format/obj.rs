@@ -248,10 +248,7 @@ fn remark_on_skipped_statement(
         "l" => remarks.add("lines passed over", 1, Some(line)),
         "p" => remarks.add("points passed over", 1, Some(line)),
         "curv" | "cdc" => remarks.add("curves passed over", 1, Some(line)),
-        other
-            if HARMLESS_KEYWORDS
-                .split(' ')
-                .any(|harmless| harmless == other) => {}
+        _ if HARMLESS_KEYWORDS.split(' ').any(|word| word == keyword) => {}
         "V" | "F" => {
             let known = keyword.to_ascii_lowercase();
             let problem = format!("{keyword:?} instead of {known:?}");

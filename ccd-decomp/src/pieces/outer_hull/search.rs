@@ -100,13 +100,11 @@ impl Search<'_> {
             .iter()
             .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
             .collect();
-        let examined: Vec<BoxExamination> = octants
-            .par_iter()
-            .map(|(cell, bounds)| self.examine(cell, *bounds))
-            .collect();
-        examined
-            .into_iter()
-            .for_each(|examined| self.record(examined));
+        let examine = |&(cell, bounds): &(&BoundedBox, _)| self.examine(cell, bounds);
+        let examined: Vec<BoxExamination> = octants.par_iter().map(examine).collect();
+        for examined in examined {
+            self.record(examined);
+        }
         !worst.is_empty()
             && self.steps_spent < EXCESS_WORK_BUDGET
             && self.waiting_boxes.len() < MAX_EXCESS_BOXES

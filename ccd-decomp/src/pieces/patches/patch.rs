@@ -27,10 +27,7 @@ impl Patch {
         region: &GrowingPatch,
     ) -> Self {
         let members: Vec<&ConvexPolygon> = region.polygons.iter().map(|&f| flats.get(f)).collect();
-        let mut faces: Vec<u32> = members
-            .iter()
-            .flat_map(|f| f.faces.iter().copied())
-            .collect();
+        let mut faces: Vec<u32> = members.iter().flat_map(|f| &f.faces).copied().collect();
         faces.sort_unstable();
         let facets = region.facets(manifold.mesh().vertices());
         let facets = facets
