@@ -14,10 +14,8 @@ use ccd_core::glam::DVec3;
 /// a march, this does not compare directions of decreasing distance, which are rounding at a tie, but distances, which
 /// are accurate.
 pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
-    let (a, b) = (
-        SurroundingFeatures::new(&placed.a, pair.a),
-        SurroundingFeatures::new(&placed.b, pair.b),
-    );
+    let a = SurroundingFeatures::new(&placed.a, pair.a);
+    let b = SurroundingFeatures::new(&placed.b, pair.b);
     if a.edges.len() * b.edges.len() > MAX_TIE_EDGE_PAIRS {
         return None;
     }

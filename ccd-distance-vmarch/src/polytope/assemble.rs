@@ -22,10 +22,8 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
         first_side: 0,
         end_side: 0,
     });
-    let outlines = loops
-        .iter()
-        .map(|outline| outline.iter().map(|&v| corner(v)));
-    let outlines: Vec<Vec<u32>> = outlines.map(Iterator::collect).collect();
+    let outline = |outline: &Vec<u32>| outline.iter().map(|&v| corner(v)).collect();
+    let outlines: Vec<Vec<u32>> = loops.iter().map(outline).collect();
     let mut out = Polytope {
         origin,
         reach: numbers
@@ -47,10 +45,11 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
         sides: Vec::with_capacity(loops.iter().map(Vec::len).sum()),
         start_vertex_table: None,
     };
+    let at = |v: u32| points[numbers[v as usize] as usize];
     let edge = |v: u32, w: u32| Edge {
         start: out.vertices[v as usize].point,
-        along: unit(points[numbers[w as usize] as usize] - points[numbers[v as usize] as usize]),
-        length: points[numbers[w as usize] as usize].distance(points[numbers[v as usize] as usize]),
+        along: unit(at(w) - at(v)),
+        length: at(w).distance(at(v)),
         inward_directions: [DVec3::ZERO; 2],
         ends: [v, w],
         faces: [NO_FACE; 2],
