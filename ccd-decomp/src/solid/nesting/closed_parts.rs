@@ -48,17 +48,10 @@ fn half_edges_of_open_parts(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<E
 /// Returns the pairs of faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all
 /// are paired.
 fn face_pairs_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Vec<(u32, u32)> {
-    let Some(around) = AngularOrder::new(mesh, ends, edge) else {
+    let Some(mut order) = in_angular_order(mesh, ends, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face(), pair[1].face())).collect();
     };
-    let mut order = edge.to_vec();
-    // Among faces at one angle, those that end a wedge come first.
-    order.sort_by(|one, other| {
-        around
-            .order(*one, *other)
-            .then(other.direction_sign().cmp(&one.direction_sign()))
-    });
     let (mut begun, mut pairs) = (Vec::new(), Vec::new());
     // A wedge that begins before the first face ends in the second round; paired faces are removed.
     for _ in 0..2 {
@@ -79,64 +72,35 @@ fn face_pairs_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -
     pairs
 }
 
-/// The order of faces around an edge by angle, counter-clockwise from the first face, with the edge pointing at the
-/// viewer.
-struct AngularOrder<'m> {
-    mesh: &'m TriangleMesh,
-    /// The welded end vertices of the edge, the smaller first.
-    ends: [u32; 2],
-    first_apex: DVec3,
-    /// The projection of the first face's plane to a coordinate plane.
-    projection: Projection,
-}
-
-impl<'m> AngularOrder<'m> {
-    /// Creates the angular order of the faces around an edge, with the first given face at angle 0. Returns `None` if a
-    /// face is degenerate or a coordinate is too near to 0 for exact predicates.
-    fn new(mesh: &'m TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Option<Self> {
-        let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
-        let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
-        let first = *apexes.first()?;
-        let is_too_fine = first_point_below_exact_range(&[v, w])
-            .or(first_point_below_exact_range(&apexes))
-            .is_some();
-        let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
-        if is_too_fine || apexes.iter().any(flat) {
-            return None;
-        }
-        Some(AngularOrder {
-            mesh,
-            ends,
-            first_apex: first,
-            projection: Projection::new([v, w, first])?,
-        })
+/// Returns the half-edges on an edge in the order of their faces by angle, counter-clockwise from the first face, with the
+/// edge pointing at the viewer. Among faces at one angle, those that end a wedge come first. Returns `None` if a face is
+/// degenerate or a coordinate is too near to 0 for exact predicates.
+fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Option<Vec<EdgeUse>> {
+    let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
+    let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
+    let first = *apexes.first()?;
+    let is_too_fine = first_point_below_exact_range(&[v, w])
+        .or(first_point_below_exact_range(&apexes))
+        .is_some();
+    let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
+    if is_too_fine || apexes.iter().any(flat) {
+        return None;
     }
-
-    fn order(&self, one: EdgeUse, other: EdgeUse) -> Ordering {
-        let [v, w] = self.points();
-        let [one, other] = [one, other].map(|of| apex(self.mesh, self.ends, of));
-        let by_turn = || side([v, w, other], one);
-        self.angle_class(one)
-            .cmp(&self.angle_class(other))
-            .then_with(by_turn)
-    }
-
-    fn points(&self) -> [DVec3; 2] {
-        self.ends.map(|v| self.mesh.vertices()[v as usize])
-    }
-
-    /// Classifies the angle about the edge from the first face to a point: 0 for no angle, 1 below half a turn, 2 for
-    /// half a turn, 3 above.
-    fn angle_class(&self, point: DVec3) -> u32 {
-        let [v, w] = self.points();
-        let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
-        match side([v, w, self.first_apex], point) {
-            Ordering::Equal if is_near() => 0,
-            Ordering::Greater => 1,
-            Ordering::Equal => 2,
-            Ordering::Less => 3,
-        }
-    }
+    let projection = Projection::new([v, w, first])?;
+    // 0 for no angle from the first face, 1 below half a turn, 2 for half a turn, 3 above.
+    let angle_class = |p: DVec3| match side([v, w, first], p) {
+        Ordering::Equal if projection.turn(v, w, p) == Ordering::Greater => 0,
+        Ordering::Greater => 1,
+        Ordering::Equal => 2,
+        Ordering::Less => 3,
+    };
+    let mut order: Vec<(EdgeUse, DVec3)> = edge.iter().copied().zip(apexes).collect();
+    order.sort_by(|&(one, p), &(other, q)| {
+        let by_class = angle_class(p).cmp(&angle_class(q));
+        let by_angle = by_class.then_with(|| side([v, w, q], p));
+        by_angle.then(other.direction_sign().cmp(&one.direction_sign()))
+    });
+    Some(order.into_iter().map(|(one, _)| one).collect())
 }
 
 /// Returns the corner of a face that is opposite to the edge with the given ends.
