@@ -168,27 +168,21 @@ fn check_accessor_type(about: &schema::Accessor, kind: &str) -> Result<(), MeshF
 
 impl ComponentType {
     fn from_code(number: u32) -> Result<Self, MeshFault> {
-        let integer = |byte_count, largest: u32, read| ComponentType {
-            byte_count,
-            largest: Some(largest.into()),
-            read,
-        };
+        macro_rules! integer {
+            ($type:ty) => {
+                ComponentType {
+                    byte_count: size_of::<$type>(),
+                    largest: Some(<$type>::MAX.into()),
+                    read: |bytes| <$type>::from_le_bytes(first_bytes(bytes)).into(),
+                }
+            };
+        }
         Ok(match number {
-            5120 => integer(1, 0x7f, |bytes| {
-                i8::from_le_bytes(first_bytes(bytes)).into()
-            }),
-            5121 => integer(1, 0xff, |bytes| {
-                u8::from_le_bytes(first_bytes(bytes)).into()
-            }),
-            5122 => integer(2, 0x7fff, |bytes| {
-                i16::from_le_bytes(first_bytes(bytes)).into()
-            }),
-            5123 => integer(2, 0xffff, |bytes| {
-                u16::from_le_bytes(first_bytes(bytes)).into()
-            }),
-            5125 => integer(4, u32::MAX, |bytes| {
-                u32::from_le_bytes(first_bytes(bytes)).into()
-            }),
+            5120 => integer!(i8),
+            5121 => integer!(u8),
+            5122 => integer!(i16),
+            5123 => integer!(u16),
+            5125 => integer!(u32),
             5126 => ComponentType {
                 byte_count: 4,
                 largest: None,
