@@ -13,10 +13,6 @@ mod lines;
 pub mod motions;
 pub mod paths;
 mod position;
-mod quotes;
 pub mod records;
 mod remark_collector;
 pub mod results;
-
-pub use lines::LineEndReader;
-pub use quotes::QuoteTracker;

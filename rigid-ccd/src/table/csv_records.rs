@@ -5,7 +5,6 @@ use crate::table::error::{RowProblem, TableError};
 use crate::table::foreign;
 use crate::table::lines::LineEndReader;
 use crate::table::position::RowPosition;
-use crate::table::quotes::QuoteTracker;
 use crate::table::records::{Record, Records};
 use std::borrow::Cow;
 use std::io::{self, Read};
@@ -23,7 +22,11 @@ pub struct CsvRecords<R> {
     checksum: crc32fast::Hasher,
 }
 
-type Reader<R> = csv::Reader<io::Chain<QuoteTracker<LineEndReader<R>>, &'static [u8]>>;
+type Reader<R> = csv::Reader<io::Chain<LineEndReader<R>, &'static [u8]>>;
+
+/// What follows the input. The line number of a row is computed from its end, so that the last row needs a line end,
+/// too. No row takes the second one, unless a quote is still open.
+const END: &[u8] = b"\n\n";
 
 impl<R: Read> CsvRecords<R> {
     /// Opens the table, and reads its header as the current record.
@@ -35,22 +38,28 @@ impl<R: Read> CsvRecords<R> {
         let mut reader = csv::ReaderBuilder::new()
             .flexible(true)
             .has_headers(false)
-            // Every line needs a line end, including the last one: the line number of a row is computed from
-            // its end.
-            .from_reader(QuoteTracker::new(input).chain(&b"\n"[..]));
-        let mut raw = csv::ByteRecord::new();
-        reader.read_byte_record(&mut raw)?;
-        if let Some(line) = unclosed_quote_line(&reader) {
+            .from_reader(input.chain(END));
+        let mut raw_record = csv::ByteRecord::new();
+        reader.read_byte_record(&mut raw_record)?;
+        let mut records = CsvRecords {
+            reader,
+            raw_record,
+            row_count: 0,
+            checksum: crc32fast::Hasher::new(),
+        };
+        if let Some(line) = records.unclosed_quote_line() {
             return Err(TableError::UnclosedQuote { row: None, line });
         }
-        let mut checksum = crc32fast::Hasher::new();
-        add(&mut checksum, &raw);
-        Ok(CsvRecords {
-            reader,
-            raw_record: raw,
-            row_count: 0,
-            checksum,
-        })
+        add(&mut records.checksum, &records.raw_record);
+        Ok(records)
+    }
+
+    /// Returns the line of a quote that the current record opens and does not close; `None` without one.
+    fn unclosed_quote_line(&self) -> Option<u64> {
+        let (input, _) = self.reader.get_ref().get_ref();
+        let (end, last_cell) = (self.reader.position(), self.raw_record.iter().next_back()?);
+        let is_open = end.byte() == input.output_byte_count() + END.len() as u64;
+        is_open.then(|| end.line() - line_end_count(last_cell))
     }
 }
 
@@ -75,10 +84,8 @@ impl<R: Read> Records for CsvRecords<R> {
     }
 
     fn consumed_bytes(&self) -> u64 {
-        let (quotes, _) = self.reader.get_ref().get_ref();
-        quotes
-            .input()
-            .input_bytes_for(self.reader.position().byte())
+        let (input, _) = self.reader.get_ref().get_ref();
+        input.input_bytes_for(self.reader.position().byte())
     }
 
     fn checksum(&self) -> u32 {
@@ -90,7 +97,7 @@ impl<R: Read> Records for CsvRecords<R> {
         if !self.reader.read_byte_record(&mut self.raw_record)? {
             return Ok(None);
         }
-        if let Some(line) = unclosed_quote_line(&self.reader) {
+        if let Some(line) = self.unclosed_quote_line() {
             let row = Some(self.row_count);
             return Err(TableError::UnclosedQuote { row, line });
         }
@@ -99,8 +106,7 @@ impl<R: Read> Records for CsvRecords<R> {
         self.row_count += 1;
         // The reader also skips empty lines before the row, so the line number is computed from the row's
         // end.
-        let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
-        let within: u64 = self.raw_record.iter().map(ends).sum();
+        let within: u64 = self.raw_record.iter().map(line_end_count).sum();
         let after = self.reader.position().line();
         Ok(Some(RowPosition {
             row,
@@ -162,8 +168,9 @@ fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
     }
 }
 
-/// Returns the line of a quote that the last record opens and does not close; `None` without one.
-fn unclosed_quote_line<R: Read>(reader: &Reader<R>) -> Option<u64> {
-    let (quotes, _) = reader.get_ref().get_ref();
-    quotes.open_quote_line(reader.position().line())
+fn line_end_count(cell: &[u8]) -> u64 {
+    cell.iter().filter(|&&byte| byte == b'\n').count() as u64
 }
+
+#[cfg(test)]
+mod tests;

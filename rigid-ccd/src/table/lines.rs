@@ -5,7 +5,7 @@ use std::io::{self, Read};
 /// A reader that converts every line end (`\n`, `\r\n`, `\r`) to `\n`, so that lines can be counted, and drops byte order
 /// marks at the start.
 #[derive(Debug)]
-pub struct LineEndReader<R> {
+pub(super) struct LineEndReader<R> {
     input: io::Chain<io::Cursor<Vec<u8>>, R>,
     is_after_carriage_return: bool,
     /// The number of bytes read from the input.
@@ -21,7 +21,7 @@ impl<R: Read> LineEndReader<R> {
     ///
     /// # Errors
     /// The first bytes cannot be read.
-    pub fn new(mut input: R) -> io::Result<Self> {
+    pub(super) fn new(mut input: R) -> io::Result<Self> {
         let (mut start, mut marks) = (Vec::new(), 0);
         loop {
             // Pipes may cut a mark.
@@ -41,8 +41,13 @@ impl<R: Read> LineEndReader<R> {
         })
     }
 
+    /// Returns the number of bytes that this reader has given so far.
+    pub(super) fn output_byte_count(&self) -> u64 {
+        self.byte_count - self.dropped_byte_count
+    }
+
     /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
-    pub fn input_bytes_for(&self, taken: u64) -> u64 {
+    pub(super) fn input_bytes_for(&self, taken: u64) -> u64 {
         self.byte_count.min(taken + self.dropped_byte_count)
     }
 }
