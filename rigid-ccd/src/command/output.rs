@@ -1,6 +1,7 @@
 //! Outputs of a run: streams, and files that this process reserves and first writes under a temporary name.
 
 use ccd_file::{Claim, Destination};
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -16,9 +17,8 @@ pub struct OutputError {
 
 impl OutputError {
     pub(super) fn for_path(path: &Path, source: io::Error) -> Self {
-        let place = output_name(path);
         OutputError {
-            file_or_stream: place,
+            file_or_stream: output_name(path),
             source,
         }
     }
@@ -32,42 +32,42 @@ impl OutputError {
 pub(super) const JOURNAL_EXTENSION: &str = ".resume";
 
 /// A destination that is checked and reserved before anything is written to it.
-pub(super) enum Output {
-    /// A file, reserved so that no other process writes it, with its path as the user gave it. An older file of this
-    /// name is kept until the new one is complete.
-    File(Claim, PathBuf),
-    /// Standard output, a pipe, a terminal or a device.
-    Stream(PathBuf),
+pub(super) struct Output {
+    /// The path as the user gave it.
+    path: PathBuf,
+    /// The file, reserved so that no other process writes it. An older file of this name is kept until the new one is
+    /// complete. `None` for standard output, a pipe, a terminal or a device.
+    pub(super) claim: Option<Claim>,
 }
 
 impl Output {
     /// Reserves an output before the work starts, so that an output that cannot be written fails at once.
     pub(super) fn claim(path: &Path) -> Result<Self, OutputError> {
-        let claim = || {
-            if is_standard_output(path) {
-                return Ok(Output::Stream(path.to_owned()));
-            }
-            Ok(match Destination::resolve(path)? {
-                Destination::File(target) => Output::File(Claim::new(target)?, path.to_owned()),
-                Destination::Stream => Output::Stream(path.to_owned()),
-            })
+        let claim = || match Destination::resolve(path)? {
+            Destination::File(target) => Claim::new(target).map(Some),
+            Destination::Stream => Ok(None),
         };
-        claim().map_err(|source| OutputError::for_path(path, source))
+        let claim = if is_standard_output(path) {
+            Ok(None)
+        } else {
+            claim()
+        };
+        Ok(Output {
+            path: path.to_owned(),
+            claim: claim.map_err(|source| OutputError::for_path(path, source))?,
+        })
     }
 
     /// Reserves an output for a table other than a query's results; refuses to overwrite an interrupted query.
     pub(super) fn claim_table(path: &Path) -> Result<Self, OutputError> {
         let output = Output::claim(path)?;
-        match &output {
-            Output::File(claim, _)
-                if claim.left_length() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() =>
-            {
+        match &output.claim {
+            Some(claim) if claim.left_length() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() => {
                 let problem = format!(
                     "{} has rows of an interrupted query; continue that with --resume, or delete the file",
                     claim.partial_path().display()
                 );
-                let source = io::Error::new(io::ErrorKind::ResourceBusy, problem);
-                Err(OutputError::for_path(path, source))
+                Err(output.error(io::Error::new(io::ErrorKind::ResourceBusy, problem)))
             }
             _ => Ok(output),
         }
@@ -75,13 +75,24 @@ impl Output {
 
     /// Returns the name that messages give to the output.
     pub(super) fn name(&self) -> String {
-        match self {
-            Output::File(_, path) | Output::Stream(path) => output_name(path),
-        }
+        output_name(&self.path)
     }
 
     pub(super) fn is_stream(&self) -> bool {
-        matches!(self, Output::Stream(_))
+        self.claim.is_none()
+    }
+
+    pub(super) fn error(&self, source: io::Error) -> OutputError {
+        OutputError::for_path(&self.path, source)
+    }
+
+    /// Opens the output for writing; a file is written from its current position.
+    pub(super) fn open(&mut self) -> io::Result<Box<dyn Write>> {
+        Ok(match &mut self.claim {
+            Some(claim) => Box::new(claim.file().try_clone()?),
+            None if is_standard_output(&self.path) => Box::new(io::stdout().lock()),
+            None => Box::new(File::options().append(true).open(&self.path)?),
+        })
     }
 
     /// Writes the whole output with one call of `fill`.
@@ -89,16 +100,12 @@ impl Output {
         self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), OutputError> {
-        let place = self.name();
-        let written = match self {
-            Output::File(claim, _) => claim.write(fill),
-            Output::Stream(path) if is_standard_output(&path) => fill(&mut io::stdout().lock()),
-            Output::Stream(path) => ccd_file::write(path, fill),
+        let written = match self.claim {
+            Some(claim) => claim.write(fill),
+            None if is_standard_output(&self.path) => fill(&mut io::stdout().lock()),
+            None => ccd_file::write(&self.path, fill),
         };
-        written.map_err(|source| OutputError {
-            file_or_stream: place,
-            source,
-        })
+        written.map_err(|source| OutputError::for_path(&self.path, source))
     }
 }
 

@@ -1,9 +1,8 @@
 //! Writes a CSV table row by row, to a file or a stream.
 
-use super::output::{Output, OutputError, is_standard_output};
+use super::output::{Output, OutputError};
 use ccd_file::Claim;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 
@@ -12,9 +11,8 @@ use std::path::Path;
 /// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
 /// name ends in `.partial`, and which stays if the run is interrupted. A stream is written directly.
 pub struct TableWriter {
-    name: String,
+    output: Output,
     writer: csv::Writer<MeasuringWriter>,
-    claim: Option<Claim>,
 }
 
 /// The length in bytes and the checksum of the part of a table that has been written.
@@ -38,74 +36,47 @@ impl TableWriter {
     }
 
     /// Starts a table in a reserved output, and discards what an earlier run left there.
-    pub(super) fn start(output: Output, header: &[&str]) -> Result<Self, OutputError> {
-        let name = output.name();
-        let opened = match output {
-            Output::File(mut claim, _) => claim
-                .truncate(0)
-                .and_then(|()| cloned_file(&mut claim))
-                .map(|to| (to, Some(claim))),
-            Output::Stream(path) if is_standard_output(&path) => {
-                Ok((Box::new(io::stdout().lock()) as Box<dyn Write>, None))
-            }
-            Output::Stream(path) => {
-                let file = File::options().append(true).open(path);
-                file.map(|file| (Box::new(file) as Box<dyn Write>, None))
-            }
-        };
-        let (to, claim) = opened.map_err(|source| OutputError {
-            file_or_stream: name.clone(),
-            source,
-        })?;
-        let measured = MeasuringWriter {
-            to,
-            bytes: 0,
-            checksum: crc32fast::Hasher::new(),
-        };
-        let mut table = TableWriter::new(name, measured, claim);
+    pub(super) fn start(mut output: Output, header: &[&str]) -> Result<Self, OutputError> {
+        let emptied = output
+            .claim
+            .as_mut()
+            .map_or(Ok(()), |claim| claim.truncate(0));
+        let opened = emptied.and_then(|()| output.open());
+        let to = opened.map_err(|source| output.error(source))?;
+        let mut table = TableWriter::new(output, MeasuringWriter::new(to));
         table.write(|writer| writer.write_record(header))?;
         Ok(table)
     }
 
     /// Continues a table after the part that was `written`, and truncates what follows. Returns `None` if that part has
-    /// changed since.
+    /// changed since, or the output is a stream.
     pub(super) fn resume(
-        mut claim: Claim,
+        mut output: Output,
         written: LengthAndChecksum,
     ) -> Result<Option<Self>, OutputError> {
-        let name = claim.target().display().to_string();
-        let opened = (|| {
+        let mut open = || {
+            let Some(claim) = &mut output.claim else {
+                return Ok(None);
+            };
             claim.file().rewind()?;
-            let (found, checksum) = measure_beginning(claim.file(), written.bytes)?;
-            if found != written {
+            let found = measure_beginning(claim.file(), written.bytes)?;
+            if found.measured() != written {
                 return Ok(None);
             }
             claim.truncate(written.bytes)?;
-            let to = cloned_file(&mut claim)?;
-            Ok(Some(MeasuringWriter {
-                to,
-                bytes: written.bytes,
-                checksum,
-            }))
-        })();
-        match opened {
-            Ok(measured) => {
-                Ok(measured.map(|measured| TableWriter::new(name, measured, Some(claim))))
-            }
-            Err(source) => Err(OutputError {
-                file_or_stream: name,
-                source,
-            }),
-        }
+            let to = output.open()?;
+            Ok(Some(MeasuringWriter { to, ..found }))
+        };
+        let opened = open().map_err(|source| output.error(source))?;
+        Ok(opened.map(|writer| TableWriter::new(output, writer)))
     }
 
-    fn new(name: String, measured: MeasuringWriter, claim: Option<Claim>) -> Self {
+    fn new(output: Output, writer: MeasuringWriter) -> Self {
         let mut builder = csv::WriterBuilder::new();
         let builder = builder.has_headers(false).buffer_capacity(1 << 16);
         TableWriter {
-            name,
-            writer: builder.from_writer(measured),
-            claim,
+            output,
+            writer: builder.from_writer(writer),
         }
     }
 
@@ -114,7 +85,7 @@ impl TableWriter {
         &mut self,
         row: impl FnOnce(&mut csv::Writer<MeasuringWriter>) -> Result<(), csv::Error>,
     ) -> Result<(), OutputError> {
-        row(&mut self.writer).map_err(|error| self.output_error(io_error_from_csv(error)))
+        row(&mut self.writer).map_err(|error| self.output.error(io_error_from_csv(error)))
     }
 
     /// Adds a row, given as serialisable cells.
@@ -130,32 +101,34 @@ impl TableWriter {
     /// Flushes all rows to the file, and returns the length and checksum of the table.
     pub(super) fn flush_and_measure(&mut self) -> Result<LengthAndChecksum, OutputError> {
         let flushed = self.writer.flush();
-        flushed.map_err(|source| self.output_error(source))?;
-        if let Some(claim) = &mut self.claim {
+        flushed.map_err(|source| self.output.error(source))?;
+        if let Some(claim) = &mut self.output.claim {
             claim.keep_on_drop();
         }
-        let MeasuringWriter {
-            bytes, checksum, ..
-        } = self.writer.get_ref();
-        Ok(LengthAndChecksum {
-            bytes: *bytes,
-            checksum: checksum.clone().finalize(),
-        })
+        Ok(self.writer.get_ref().measured())
     }
 
     /// Renames the complete table to its final name.
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.flush()?;
-        match self.claim.take().map_or(Ok(()), Claim::place) {
-            Ok(()) => Ok(()),
-            Err(source) => Err(self.output_error(source)),
+        let placed = self.output.claim.take().map_or(Ok(()), Claim::place);
+        placed.map_err(|source| self.output.error(source))
+    }
+}
+
+impl MeasuringWriter {
+    fn new(to: Box<dyn Write>) -> Self {
+        MeasuringWriter {
+            to,
+            bytes: 0,
+            checksum: crc32fast::Hasher::new(),
         }
     }
 
-    fn output_error(&self, source: io::Error) -> OutputError {
-        OutputError {
-            file_or_stream: self.name.clone(),
-            source,
+    pub(super) fn measured(&self) -> LengthAndChecksum {
+        LengthAndChecksum {
+            bytes: self.bytes,
+            checksum: self.checksum.clone().finalize(),
         }
     }
 }
@@ -173,27 +146,11 @@ impl Write for MeasuringWriter {
     }
 }
 
-fn cloned_file(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
-    Ok(Box::new(claim.file().try_clone()?))
-}
-
-/// Returns the length and checksum of the first `bytes` bytes of a table, with a hasher that can continue the checksum.
-pub(super) fn measure_beginning(
-    table: impl Read,
-    bytes: u64,
-) -> io::Result<(LengthAndChecksum, crc32fast::Hasher)> {
-    let mut measured = MeasuringWriter {
-        to: Box::new(io::sink()),
-        bytes: 0,
-        checksum: crc32fast::Hasher::new(),
-    };
+/// Reads the first `bytes` bytes of a table, and returns a writer to nowhere that has measured them.
+pub(super) fn measure_beginning(table: impl Read, bytes: u64) -> io::Result<MeasuringWriter> {
+    let mut measured = MeasuringWriter::new(Box::new(io::sink()));
     io::copy(&mut table.take(bytes), &mut measured)?;
-    let checksum = measured.checksum;
-    let written = LengthAndChecksum {
-        bytes: measured.bytes,
-        checksum: checksum.clone().finalize(),
-    };
-    Ok((written, checksum))
+    Ok(measured)
 }
 
 fn io_error_from_csv(error: csv::Error) -> io::Error {

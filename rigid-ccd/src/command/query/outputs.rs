@@ -59,7 +59,7 @@ impl OpenedTables {
         places: ClaimedFiles,
         recorded: &RecordedOptions,
     ) -> Result<Self> {
-        let Output::File(results, _) = &places.results else {
+        let Some(results) = &places.results.claim else {
             return Ok(OpenedTables::New(Outputs::create(
                 args, places, recorded, None,
             )?));
@@ -97,13 +97,12 @@ impl ClaimedFiles {
         recorded: &RecordedOptions,
         (earlier, journal): (Option<EarlierRun>, PathBuf),
     ) -> Result<OpenedTables> {
-        let left = match &self.results {
-            Output::File(results, _) if results.left_length() > 0 => {
-                earlier.map(|earlier| (earlier, results))
-            }
-            _ => None,
-        };
-        match left {
+        let left = self
+            .results
+            .claim
+            .as_ref()
+            .filter(|results| results.left_length() > 0);
+        match earlier.zip(left) {
             Some((earlier, results)) if args.resume => {
                 let rows = results.partial_path().display().to_string();
                 let advice = format!("delete {rows} to start over");
@@ -143,21 +142,21 @@ impl ClaimedFiles {
 /// Renames a complete table to its final name, unless the table already has that name. Returns whether a file of that
 /// name exists.
 fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bool> {
-    let Output::File(mut claim, _) = table else {
+    let Some(mut claim) = table.claim else {
         return Ok(true);
     };
     let target = claim.target().to_owned();
     let name_it = || {
         if claim.left_length() == written.bytes
-            && measure_beginning(claim.file(), u64::MAX)?.0 == written
+            && measure_beginning(claim.file(), u64::MAX)?.measured() == written
         {
             claim.place()?;
         }
         if !target.exists() {
             return Ok(None);
         }
-        let (found, _) = measure_beginning(File::open(&target)?, u64::MAX)?;
-        Ok(Some(found == written))
+        let found = measure_beginning(File::open(&target)?, u64::MAX)?;
+        Ok(Some(found.measured() == written))
     };
     match name_it().map_err(|source| OutputError::for_path(&target, source))? {
         Some(false) => bail!(
@@ -251,11 +250,11 @@ impl Outputs {
 
 /// Opens a table of an interrupted run, to append to it.
 fn resume_table(table: Output, written: LengthAndChecksum) -> Result<TableWriter> {
-    let Output::File(claim, _) = table else {
+    let Some(claim) = &table.claim else {
         bail!("--resume needs files");
     };
     let partial = claim.partial_path().display().to_string();
-    let table = TableWriter::resume(claim, written)?;
+    let table = TableWriter::resume(table, written)?;
     table.with_context(|| {
         format!(
             "--resume: {partial} is not as the interrupted run left it; delete it to start over"
