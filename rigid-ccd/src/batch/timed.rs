@@ -3,7 +3,6 @@
 use super::{Bodies, Question, Solve, SolverKind, TimedAnswer, median};
 use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
-use crate::table::results::ResultRow;
 use ccd_core::Settings;
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -19,18 +18,6 @@ pub(crate) struct TimedQuestion {
     pub(crate) settings: Settings,
     /// The number of times that each query is answered; the time is the median.
     pub(crate) repetitions: NonZeroUsize,
-}
-
-impl TimedQuestion {
-    /// Returns the row of the table of results for the answer or error of a query.
-    pub(crate) fn row(
-        &self,
-        bodies: Bodies<'_>,
-        course: &Movements,
-        answer: &Result<TimedAnswer, RowProblem>,
-    ) -> ResultRow {
-        bodies.row(self.question, &self.settings, course, answer)
-    }
 }
 
 impl Default for TimedQuestion {

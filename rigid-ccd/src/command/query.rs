@@ -1,6 +1,5 @@
 //! `ccd query`: reads two bodies and a table of motions, and writes a table of results.
 
-mod answering;
 mod args;
 mod help;
 mod journal;
@@ -16,11 +15,13 @@ use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, RowsPage, title, write_rows_page};
 use super::{RunOutcome, print_error};
-use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion};
+use crate::batch::{
+    BatchSize, BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion, parallel_solver,
+};
+use crate::command::bad_rows::BadRowCounter;
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
 use crate::picture::{QueryContext, TimeMeaning};
-use answering::BatchRun;
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
@@ -60,10 +61,15 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     if timing.method.bound == BoundKind::Published {
         print_error("--bound published: times are not certified, contacts may be late or missed");
     }
-    let progress = Progress::for_rows(length, args.quiet);
+    let solver = parallel_solver(args.threads, || timing.method.solver(args.instructions));
     let mut run = QueryRun {
         args,
-        batch_run: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
+        bodies: pair.bodies(),
+        timed_question: timing,
+        batch_size: BatchSize::new(solver.threads()),
+        solver,
+        bad_rows: BadRowCounter::new(input_name(&args.motions)),
+        progress: Progress::for_rows(length, args.quiet),
         outputs,
         page_rows: args
             .html
@@ -73,8 +79,8 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     };
     let end = run.answer_rows(&mut rows, start)?;
     run.outputs.finish(end)?;
-    drop(run.batch_run.progress);
-    run.batch_run.bad_row_counter.print_total();
+    drop(run.progress);
+    run.bad_rows.print_total();
     let shown = write_page(args, &pair, run.page_rows.zip(html))?;
     if run.summary.counts.row_count() == 0 && earlier.is_none() {
         warn_of_no_rows(args, start.rows);

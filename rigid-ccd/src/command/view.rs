@@ -73,7 +73,8 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
             None => {
                 let answer = answer_timed(pair.bodies(), &course, &timing, solver.as_mut());
-                Some(timing.row(pair.bodies(), &course, &answer))
+                let (question, settings) = (timing.question, &timing.settings);
+                Some(pair.bodies().row(question, settings, &course, &answer))
             }
         };
         if let Some(row) = row {
