@@ -26,19 +26,18 @@ use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use clap::ArgMatches;
-use journal::{CHECKSUM_PREFIX, Checkpoint, RecordedOptions};
+use journal::{CHECKSUM_PREFIX, Checkpoint, options_text};
 use outputs::{ClaimedFiles, OpenedTables};
 use run::QueryRun;
 use std::io::{self, Write};
+use std::iter::once;
 use std::num::NonZeroUsize;
 use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     refuse_shared_files(args)?;
-    refuse_unused_bound(args)?;
-    refuse_options_unfit_for_question(args)?;
-    refuse_check_without_proof(args)?;
+    refuse_options_unfit_for_each_other(args)?;
     let (mut rows, length) = open_movement_rows(&args.motions, args.ask.path_grouping())?;
     refuse_options_unfit_for_paths(args, &rows)?;
     let places = ClaimedFiles::claim(args)?;
@@ -46,8 +45,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let pair = args.bodies.load(method(args), args.quiet)?;
     let (mut outputs, earlier) =
         match OpenedTables::new(args, places, &recorded_options(args, given, &pair))? {
-            OpenedTables::New(outputs) => (outputs, None),
-            OpenedTables::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
+            OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
             OpenedTables::Finished(end) => {
                 return resume::verify_and_report_finished(args, &mut rows, end);
             }
@@ -152,19 +150,15 @@ fn refuse_shared_files(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
-/// Refuses `--bound` for a schedule that uses no bound on the motion.
-fn refuse_unused_bound(args: &QueryArgs) -> Result<()> {
-    match args.bound {
-        Some(bound) if !args.schedule.uses_velocity_bound() => {
-            bail!("--bound {bound} needs --schedule fast or naive")
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Refuses options that do not apply to the question of `--ask`.
-fn refuse_options_unfit_for_question(args: &QueryArgs) -> Result<()> {
+/// Refuses `--bound` for a schedule that uses no bound on the motion, options that do not apply to the question of
+/// `--ask`, and `--check` with options under which no answer is a proof.
+fn refuse_options_unfit_for_each_other(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
+    if let Some(bound) = args.bound
+        && !args.schedule.uses_velocity_bound()
+    {
+        bail!("--bound {bound} needs --schedule fast or naive");
+    }
     if args.clearance.is_some() && !ask.is_for_a_distance() {
         bail!(
             "--clearance needs --ask closest-approach or distance; --margin keeps a distance otherwise"
@@ -184,19 +178,10 @@ fn refuse_options_unfit_for_question(args: &QueryArgs) -> Result<()> {
     if ignores_start_contacts(args) && !ask.is_for_one_contact() {
         bail!("--start leave needs --ask first-contact or is-free");
     }
-    Ok(())
-}
-
-/// Refuses `--check` with options under which no answer is a proof.
-fn refuse_check_without_proof(args: &QueryArgs) -> Result<()> {
-    let ask = args.ask;
-    if !args.check {
-        return Ok(());
-    }
-    if args.bound == Some(BoundKind::Published) {
+    if args.check && args.bound == Some(BoundKind::Published) {
         bail!("--check needs certified answers, which --bound published does not give");
     }
-    if ask.is_for_a_distance() && args.clearance.is_none() {
+    if args.check && ask.is_for_a_distance() && args.clearance.is_none() {
         bail!(
             "--check needs --clearance with --ask {ask}: a distance alone is neither good nor bad"
         );
@@ -224,13 +209,12 @@ fn ignores_start_contacts(args: &QueryArgs) -> bool {
 
 /// Returns the version, the options and the bodies' checksums that determine the tables of the run. The checksum of the
 /// motions is in each checkpoint.
-fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> RecordedOptions {
-    let mut recorded = vec![("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned())];
-    recorded.extend(args.recorded_options(given));
-    for (option, checksum) in &pair.checksums {
-        recorded.push((format!("{CHECKSUM_PREFIX}{option}"), checksum.clone()));
-    }
-    RecordedOptions(recorded)
+fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> String {
+    let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
+    let checksums = (pair.checksums.iter())
+        .map(|(option, checksum)| (format!("{CHECKSUM_PREFIX}{option}"), checksum.clone()));
+    let options = args.recorded_options(given).into_iter();
+    options_text(once(version).chain(options).chain(checksums))
 }
 
 fn method(args: &QueryArgs) -> SolverKind {

@@ -8,7 +8,6 @@ use crate::command::output::OutputError;
 use crate::command::table::LengthAndChecksum;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -33,10 +32,6 @@ pub(super) struct Checkpoint {
     pub(super) finished: bool,
 }
 
-/// The options that determine the tables of a run, each with its value.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct RecordedOptions(pub(super) Vec<(String, String)>);
-
 /// The prefix of an option's name in an entry that holds the checksum of the option's file.
 pub(super) const CHECKSUM_PREFIX: &str = "content-of:";
 
@@ -51,50 +46,22 @@ pub(super) struct Journal {
 /// The line between the options and the checkpoints in the journal.
 const CHECKPOINTS_HEADING: &str = "\nmarks:\n";
 
-impl RecordedOptions {
-    /// Returns the options as text with one line each; line ends within values are escaped.
-    fn to_text(&self) -> String {
-        let mut text = String::new();
-        for (option, value) in &self.0 {
-            let _ = writeln!(text, "{option} {}", value.escape_debug());
-        }
-        text.trim_end().to_owned()
-    }
-
-    /// Describes the options that differ from those in `before`; `None` if all are the same.
-    fn describe_changes(&self, before: &str) -> Option<String> {
-        let now = self.to_text();
-        if before == now {
-            return None;
-        }
-        let split = |line| str::split_once(line, ' ').unwrap_or((line, ""));
-        let then: Vec<_> = before.lines().map(split).collect();
-        let now: Vec<_> = now.lines().map(split).collect();
-        let (version, known) = (then.first(), now.iter().map(|(option, _)| option));
-        if version != now.first() || !known.eq(then.iter().map(|(option, _)| option)) {
-            return Some("another version of ccd wrote it".to_owned());
-        }
-        let mut changes = Vec::new();
-        for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
-            match option.strip_prefix(CHECKSUM_PREFIX) {
-                None => changes.push(format!("{option} was {then} and is now {now}")),
-                // A changed file name implies changed content, so one message is enough.
-                Some(_) if !changes.is_empty() => {}
-                Some(option) => changes.push(format!("the file of {option} has changed since")),
-            }
-        }
-        Some(changes.join(", "))
-    }
+/// Returns options with their values as text with one line each; line ends within values are escaped.
+pub(super) fn options_text(options: impl IntoIterator<Item = (String, String)>) -> String {
+    let lines = options
+        .into_iter()
+        .map(|(option, value)| format!("{option} {}", value.escape_debug()));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 impl Journal {
     /// Replaces any older journal by a new one with the run's options and, if the run is resumed, its checkpoint.
     pub(super) fn start(
         path: PathBuf,
-        recorded: &RecordedOptions,
+        options: &str,
         from: Option<&Checkpoint>,
     ) -> Result<Self, OutputError> {
-        let mut text = format!("{}{CHECKPOINTS_HEADING}", recorded.to_text());
+        let mut text = format!("{options}{CHECKPOINTS_HEADING}");
         let mut sum = Hasher::new();
         sum.update(text.as_bytes());
         let mut open = || {
@@ -167,8 +134,27 @@ impl EarlierRun {
     }
 
     /// Describes the options that differ from those of the earlier run; `None` if all are the same.
-    pub(super) fn describe_changes(&self, recorded: &RecordedOptions) -> Option<String> {
-        recorded.describe_changes(&self.options)
+    pub(super) fn describe_changes(&self, now: &str) -> Option<String> {
+        if self.options == now {
+            return None;
+        }
+        let split = |line| str::split_once(line, ' ').unwrap_or((line, ""));
+        let [then, now] =
+            [&self.options, now].map(|text| text.lines().map(split).collect::<Vec<_>>());
+        let (version, known) = (then.first(), now.iter().map(|(option, _)| option));
+        if version != now.first() || !known.eq(then.iter().map(|(option, _)| option)) {
+            return Some("another version of ccd wrote it".to_owned());
+        }
+        let mut changes = Vec::new();
+        for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
+            match option.strip_prefix(CHECKSUM_PREFIX) {
+                None => changes.push(format!("{option} was {then} and is now {now}")),
+                // A changed file name implies changed content, so one message is enough.
+                Some(_) if !changes.is_empty() => {}
+                Some(option) => changes.push(format!("the file of {option} has changed since")),
+            }
+        }
+        Some(changes.join(", "))
     }
 }
 

@@ -4,7 +4,7 @@
 //! a half-written one for instance, are dropped when a run continues.
 
 use super::args::QueryArgs;
-use super::journal::{Checkpoint, EarlierRun, Journal, JournalError, RecordedOptions};
+use super::journal::{Checkpoint, EarlierRun, Journal, JournalError};
 use crate::command::output::{JOURNAL_EXTENSION, Output, OutputError};
 use crate::command::table::{LengthAndChecksum, TableWriter, measure_beginning};
 use crate::table::contacts;
@@ -22,10 +22,8 @@ pub(super) struct Outputs {
 
 /// The opened tables of a run; the variant says which rows are left to answer.
 pub(super) enum OpenedTables {
-    /// New tables: all rows are left.
-    New(Outputs),
-    /// The tables of an interrupted run with the same options: the rows after the checkpoint are left.
-    Resumed(Outputs, Checkpoint),
+    /// New tables, or those of an interrupted run with the same options: the rows after its checkpoint are left.
+    Unfinished(Box<Outputs>, Option<Checkpoint>),
     /// The tables of a finished run with the same options: no row is left.
     Finished(Checkpoint),
 }
@@ -39,10 +37,10 @@ pub(super) struct ClaimedFiles {
 impl ClaimedFiles {
     /// Reserves the files of the table of results and, if `--contacts` is given, of the table of contacts.
     pub(super) fn claim(args: &QueryArgs) -> Result<Self> {
-        let contacts = args.contacts.as_deref();
+        let contacts = args.contacts.as_deref().map(Output::claim_table);
         let places = ClaimedFiles {
             results: Output::claim(&args.out)?,
-            contacts: contacts.map(Output::claim_table).transpose()?,
+            contacts: contacts.transpose()?,
         };
         let streams = [Some(&places.results), places.contacts.as_ref()];
         if args.resume && streams.into_iter().flatten().any(Output::is_stream) {
@@ -54,15 +52,10 @@ impl ClaimedFiles {
 
 impl OpenedTables {
     /// Creates the tables, or opens those of an earlier run with the same options.
-    pub(super) fn new(
-        args: &QueryArgs,
-        places: ClaimedFiles,
-        recorded: &RecordedOptions,
-    ) -> Result<Self> {
+    pub(super) fn new(args: &QueryArgs, places: ClaimedFiles, options: &str) -> Result<Self> {
         let Some(results) = &places.results.claim else {
-            return Ok(OpenedTables::New(Outputs::create(
-                args, places, recorded, None,
-            )?));
+            let outputs = Outputs::create(args, places, options, None)?;
+            return Ok(OpenedTables::Unfinished(Box::new(outputs), None));
         };
         let journal = results.sibling(JOURNAL_EXTENSION);
         let earlier = match EarlierRun::read(&journal) {
@@ -80,12 +73,12 @@ impl OpenedTables {
             && let Some(finished) = &earlier
             && finished.checkpoint.finished
         {
-            if places.rename_finished_tables(finished, recorded)? {
+            if places.rename_finished_tables(finished, options)? {
                 return Ok(OpenedTables::Finished(finished.checkpoint));
             }
             places = ClaimedFiles::claim(args)?;
         }
-        places.create_or_resume_tables(args, recorded, (earlier, journal))
+        places.create_or_resume_tables(args, options, (earlier, journal))
     }
 }
 
@@ -94,7 +87,7 @@ impl ClaimedFiles {
     fn create_or_resume_tables(
         self,
         args: &QueryArgs,
-        recorded: &RecordedOptions,
+        options: &str,
         (earlier, journal): (Option<EarlierRun>, PathBuf),
     ) -> Result<OpenedTables> {
         let left = self
@@ -106,9 +99,12 @@ impl ClaimedFiles {
             Some((earlier, results)) if args.resume => {
                 let rows = results.partial_path().display().to_string();
                 let advice = format!("delete {rows} to start over");
-                refuse_changed_options(&earlier, recorded, "interrupted", &advice)?;
-                let outputs = Outputs::resume(self, &earlier.checkpoint, recorded, journal)?;
-                Ok(OpenedTables::Resumed(outputs, earlier.checkpoint))
+                refuse_changed_options(&earlier, options, "interrupted", &advice)?;
+                let outputs = Outputs::resume(self, &earlier.checkpoint, options, journal)?;
+                Ok(OpenedTables::Unfinished(
+                    Box::new(outputs),
+                    Some(earlier.checkpoint),
+                ))
             }
             Some((earlier, results)) if earlier.checkpoint.counts.row_count() > 0 => bail!(
                 "{} has {} rows of an interrupted run; add --resume to continue it, or delete the file \
@@ -116,24 +112,22 @@ impl ClaimedFiles {
                 results.partial_path().display(),
                 earlier.checkpoint.counts.row_count()
             ),
-            _ => Ok(OpenedTables::New(Outputs::create(
-                args,
-                self,
-                recorded,
-                Some(journal),
-            )?)),
+            _ => {
+                let outputs = Outputs::create(args, self, options, Some(journal))?;
+                Ok(OpenedTables::Unfinished(Box::new(outputs), None))
+            }
         }
     }
 
     /// Renames the tables of a finished run that still have a temporary name. Returns whether all its tables exist.
-    fn rename_finished_tables(self, run: &EarlierRun, recorded: &RecordedOptions) -> Result<bool> {
+    fn rename_finished_tables(self, run: &EarlierRun, options: &str) -> Result<bool> {
         let Checkpoint {
             results, contacts, ..
         } = run.checkpoint;
         if !rename_complete_table(self.results, results)? {
             return Ok(false);
         }
-        refuse_changed_options(run, recorded, "finished", "omit --resume to start over")?;
+        refuse_changed_options(run, options, "finished", "omit --resume to start over")?;
         self.contacts
             .map_or(Ok(true), |table| rename_complete_table(table, contacts))
     }
@@ -171,11 +165,11 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
 /// Returns an error if the options differ from those of the earlier run.
 fn refuse_changed_options(
     earlier: &EarlierRun,
-    recorded: &RecordedOptions,
+    options: &str,
     run: &str,
     advice: &str,
 ) -> Result<()> {
-    match earlier.describe_changes(recorded) {
+    match earlier.describe_changes(options) {
         Some(changes) => bail!(
             "--resume: the {run} run had other options: {changes}; give the same options, or {advice}"
         ),
@@ -187,36 +181,33 @@ impl Outputs {
     fn resume(
         places: ClaimedFiles,
         from: &Checkpoint,
-        recorded: &RecordedOptions,
+        options: &str,
         journal: PathBuf,
     ) -> Result<Self> {
-        let contacts = places.contacts;
-        let contacts = contacts.map(|table| resume_table(table, from.contacts));
+        let contacts = (places.contacts).map(|table| resume_table(table, from.contacts));
         Ok(Outputs {
             contacts: contacts.transpose()?,
             results: resume_table(places.results, from.results)?,
-            journal: Some(Journal::start(journal, recorded, Some(from))?),
+            journal: Some(Journal::start(journal, options, Some(from))?),
         })
     }
 
     fn create(
         args: &QueryArgs,
         places: ClaimedFiles,
-        recorded: &RecordedOptions,
+        options: &str,
         journal: Option<PathBuf>,
     ) -> Result<Self, OutputError> {
         // This comes first, because the journal of an earlier run does not describe these tables.
         let journal = journal
-            .map(|path| Journal::start(path, recorded, None))
+            .map(|path| Journal::start(path, options, None))
             .transpose()?;
         let results = TableWriter::start(places.results, &names(&args.columns()))?;
-        let contacts = places.contacts;
-        let contacts =
-            contacts.map(|place| TableWriter::start(place, &names(&contacts::columns())));
-        let contacts = contacts.transpose()?;
+        let header = names(&contacts::columns());
+        let contacts = (places.contacts).map(|place| TableWriter::start(place, &header));
         Ok(Outputs {
             results,
-            contacts,
+            contacts: contacts.transpose()?,
             journal,
         })
     }

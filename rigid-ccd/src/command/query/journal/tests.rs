@@ -1,18 +1,24 @@
 use super::*;
 
-fn recorded_options(values: [&str; 3]) -> RecordedOptions {
-    let options = ["ccd", "--a", "content-of:--a"];
-    let pairs = options.iter().zip(values);
-    RecordedOptions(
-        pairs
-            .map(|(o, v)| ((*o).to_owned(), v.to_owned()))
-            .collect(),
+fn recorded_options(values: [&str; 3]) -> String {
+    let options = ["ccd", "--a", "content-of:--a"].into_iter();
+    options_text(
+        options
+            .zip(values)
+            .map(|(o, v)| (o.to_owned(), v.to_owned())),
     )
+}
+
+fn run_with_options(options: &str) -> EarlierRun {
+    EarlierRun {
+        options: options.to_owned(),
+        checkpoint: Checkpoint::default(),
+    }
 }
 
 #[test]
 fn changes_are_described() {
-    let before = recorded_options(["1", "a \nb.obj", "12"]).to_text();
+    let before = run_with_options(&recorded_options(["1", "a \nb.obj", "12"]));
     for (values, expected) in [
         (["1", "a \nb.obj", "12"], None),
         (
@@ -28,12 +34,10 @@ fn changes_are_described() {
             Some("another version of ccd wrote it"),
         ),
     ] {
-        let changes = recorded_options(values).describe_changes(&before);
+        let changes = before.describe_changes(&recorded_options(values));
         assert_eq!(changes.as_deref(), expected, "{values:?}");
     }
-    let older = "ccd 1\nQueryArgs {\n    a: \"x\",\n}";
-    let changes = recorded_options(["1", "x", "12"])
-        .describe_changes(older)
-        .unwrap();
-    assert_eq!(changes, "another version of ccd wrote it");
+    let older = run_with_options("ccd 1\nQueryArgs {\n    a: \"x\",\n}");
+    let changes = older.describe_changes(&recorded_options(["1", "x", "12"]));
+    assert_eq!(changes.unwrap(), "another version of ccd wrote it");
 }
