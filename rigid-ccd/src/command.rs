@@ -14,7 +14,6 @@ mod named;
 mod numbers;
 mod output;
 mod pair;
-mod pieces;
 mod progress;
 mod query;
 mod scene;
@@ -27,7 +26,6 @@ pub use bad_rows::BadRowCounter;
 pub use files::{input_name, is_same_file, open_motions, refuse_overwriting};
 pub use output::OutputError;
 pub use progress::{Progress, TotalWork};
-pub use size::Size;
 pub use table::TableWriter;
 
 use crate::Remark;

@@ -154,7 +154,7 @@ fn refuse_prepared_body(mesh: &Path) -> Result<()> {
 
 impl DecomposeArgs {
     fn detail(&self) -> Result<Detail> {
-        match (self.meshes.pieces.detail(), self.order) {
+        match (self.meshes.detail(), self.order) {
             (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order)),
             (_, Some(_)) => bail!("--order needs --pieces patches"),
             (detail, None) => Ok(detail),

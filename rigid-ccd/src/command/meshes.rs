@@ -1,9 +1,8 @@
 //! The options for reading mesh files and for their pieces, shared by the subcommands.
 
 use super::named::{AXES, UNITS, named_value_parser};
-use super::pieces::PiecesArgs;
-use ccd_decomp::{Adjustments, Axis, Unit};
-use clap::Args;
+use ccd_decomp::{Adjustments, Axis, Detail, PatchOrder, Unit};
+use clap::{Args, ValueEnum};
 
 /// The options for reading mesh files, and for their convex pieces.
 #[derive(Clone, Debug, Args)]
@@ -21,8 +20,25 @@ pub(super) struct MeshArgs {
     /// Take all mesh files as hollow surfaces, even closed ones; for one file, write part.stl@surface
     #[arg(long, conflicts_with = "pieces")]
     surface: bool,
-    #[command(flatten)]
-    pub(super) pieces: PiecesArgs,
+    /// Convex pieces to split a mesh into; a prepared body (.ccd) keeps its pieces
+    #[arg(long, value_enum, default_value_t)]
+    pieces: PiecesArg,
+}
+
+/// The values of `--pieces`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum PiecesArg {
+    /// The fewest pieces that are exact: hull, patches or triangles
+    #[default]
+    Auto,
+    /// One piece for each triangle: exact for any mesh
+    Triangles,
+    /// Convex patches of the surface: exact, only for meshes that bound a solid
+    Patches,
+    /// The convex solid itself: exact, only for convex meshes
+    Hull,
+    /// The convex hull of any mesh: contacts may be reported early
+    OuterHull,
 }
 
 fn parse_scale_factor(text: &str) -> Result<f64, String> {
@@ -50,6 +66,17 @@ impl MeshArgs {
             all.treated_as_hollow()
         } else {
             all
+        }
+    }
+
+    /// Returns the value of `--pieces` as the library's type for the choice of pieces.
+    pub(super) fn detail(&self) -> Detail {
+        match self.pieces {
+            PiecesArg::Auto => Detail::Auto,
+            PiecesArg::Triangles => Detail::Triangles,
+            PiecesArg::Patches => Detail::Patches(PatchOrder::default()),
+            PiecesArg::Hull => Detail::Hull,
+            PiecesArg::OuterHull => Detail::OuterHull,
         }
     }
 

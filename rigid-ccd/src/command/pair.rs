@@ -5,7 +5,7 @@ use crate::Remark;
 use crate::batch::{Bodies, SolverKind};
 use crate::command::files::{Rows, is_same_file};
 use crate::command::progress::Progress;
-use crate::command::size::Size;
+use crate::command::size::{sides_text, warn_of_different_units};
 use crate::command::{print_error, print_escaped_to_stderr, print_remarks};
 use anyhow::{Context, Result};
 use ccd_core::Body;
@@ -64,7 +64,7 @@ impl BodiesArgs {
             let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
             match mixed_units_warning(sources) {
                 Some(remark) => print_error(&remark),
-                None => Size::warn_of_different_units(Size::of(&a), Size::of(b)),
+                None => warn_of_different_units(&a, b),
             }
         }
         let b = b.map(|(b, _)| b);
@@ -81,7 +81,7 @@ impl BodiesArgs {
         method: SolverKind,
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
-        let detail = self.meshes.pieces.detail();
+        let detail = self.meshes.detail();
         let progress = Progress::start_single_step(&format!("preparing {text}"), quiet);
         let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
         let PreparedBody {
@@ -96,8 +96,8 @@ impl BodiesArgs {
         drop(progress);
         let remarks = &report.repairs.remarks;
         if !quiet {
-            let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
-            let unit = unit.unwrap_or_default();
+            let unit = unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+            let size = sides_text(&body);
             print_escaped_to_stderr(&format!("{option} {text}: {report}, size {size}{unit}"));
         } else if !remarks.is_empty() {
             print_error(&format!("{option} {text}: {remarks}"));

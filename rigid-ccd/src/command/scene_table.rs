@@ -143,7 +143,7 @@ impl SceneTable {
             return Ok(());
         }
         let source: BodySource = text.parse()?;
-        let detail = how.meshes.pieces.detail();
+        let detail = how.meshes.detail();
         let prepared = source.load_adjusted(&how.meshes.adjustments(), detail)?;
         self.load_messages
             .push(format!("{text}: {}", prepared.report));
