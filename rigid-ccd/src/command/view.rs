@@ -3,14 +3,13 @@
 mod args;
 mod chosen;
 
-use args::PageSubject;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::ChosenRows;
 
 use super::files::{input_name, open_movement_rows, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
-use super::scene_table::{self, SceneArgs};
+use super::scene_table;
 use super::{RunOutcome, print_error};
 use crate::batch::{Question, SolverKind, TimedQuestion, answer_timed};
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
@@ -27,13 +26,11 @@ const MAX_ROWS_READ: usize = 10_000;
 
 /// Runs `ccd view`: writes the page of a table of motions or of a scene.
 pub(super) fn run(args: &ViewArgs) -> Result<RunOutcome> {
-    match args.page_subject() {
-        Some(PageSubject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
-        Some(PageSubject::Scene(path, how)) => {
-            view_scene(args, path, how)?;
-            Ok(RunOutcome::AllAnswered)
-        }
-        None => bail!("give either --a, --b and --motions, or --scene"),
+    match (&args.scene, args.rows()) {
+        (Some(scene), _) => view_scene(args, scene),
+        (None, Some((bodies, motions))) => view_rows(args, &bodies, motions),
+        // The parser prevents this.
+        (None, None) => bail!("give either --a, --b and --motions, or --scene"),
     }
 }
 
@@ -195,8 +192,8 @@ fn timed_question(args: &ViewArgs) -> TimedQuestion {
     }
 }
 
-fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
-    let table = scene_table::read(("--scene", path), how, &args.out)?;
+fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
+    let table = scene_table::read(("--scene", path), args.scene_args(), &args.out)?;
     if !args.quiet {
         table.report(args.tolerance);
     }
@@ -216,5 +213,6 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
             views: vec![view],
         }],
     };
-    write_page(&page, out, args.quiet)
+    write_page(&page, out, args.quiet)?;
+    Ok(RunOutcome::AllAnswered)
 }

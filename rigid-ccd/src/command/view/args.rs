@@ -47,7 +47,7 @@ pub(in crate::command) struct ViewArgs {
     pub(super) ids: Vec<String>,
     /// Table of the bodies of one scene, CSV: column `body` as in --a, columns px, vx, ... as in a table of motions
     #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]
-    scene: Option<PathBuf>,
+    pub(super) scene: Option<PathBuf>,
     /// Time at which the motions of --scene end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true)]
     duration: Option<f64>,
@@ -65,27 +65,23 @@ pub(in crate::command) struct ViewArgs {
     pub(super) quiet: bool,
 }
 
-/// What a page shows: rows of a table of motions, or a scene.
-pub(super) enum PageSubject<'a> {
-    /// The rows of a table of motions, given by the table's path, for two bodies.
-    Rows(BodiesArgs, &'a Path),
-    /// The bodies of a scene, given by the path of its table.
-    Scene(&'a Path, SceneArgs<'a>),
-}
-
 impl ViewArgs {
-    /// Returns what the page shows; `None` if an option for it is missing, which the parser prevents.
-    pub(super) fn page_subject(&self) -> Option<PageSubject<'_>> {
-        if let Some(scene) = &self.scene {
-            let (meshes, duration) = (&self.meshes, self.duration);
-            return Some(PageSubject::Scene(scene, SceneArgs { meshes, duration }));
-        }
+    /// Returns the two bodies and the table of motions; `None` if an option for them is missing.
+    pub(super) fn rows(&self) -> Option<(BodiesArgs, &Path)> {
         let bodies = BodiesArgs {
             a: self.a.clone()?,
             b: self.b.clone()?,
             meshes: self.meshes.clone(),
         };
-        Some(PageSubject::Rows(bodies, self.motions.as_deref()?))
+        Some((bodies, self.motions.as_deref()?))
+    }
+
+    /// Returns how the bodies of `--scene` are read.
+    pub(super) fn scene_args(&self) -> SceneArgs<'_> {
+        SceneArgs {
+            meshes: &self.meshes,
+            duration: self.duration,
+        }
     }
 }
 
