@@ -176,31 +176,19 @@ where
     }
 }
 
-impl fmt::Display for ScheduleKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_option_name(self, f)
-    }
+/// Displays values by their names on the command line.
+macro_rules! display_option_name {
+    ($($kind:ty),*) => {$(
+        impl fmt::Display for $kind {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let value = self.to_possible_value();
+                value.map_or(Ok(()), |value| f.pad(value.get_name()))
+            }
+        }
+    )*};
 }
 
-impl fmt::Display for BoundKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_option_name(self, f)
-    }
-}
-
-impl fmt::Display for OracleKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_option_name(self, f)
-    }
-}
-
-/// Writes the command-line name of a value.
-fn write_option_name(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    match value.to_possible_value() {
-        Some(value) => f.pad(value.get_name()),
-        None => Ok(()),
-    }
-}
+display_option_name!(ScheduleKind, BoundKind, OracleKind);
 
 #[cfg(test)]
 mod tests;
