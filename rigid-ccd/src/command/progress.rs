@@ -141,11 +141,6 @@ impl Progress {
         }
     }
 
-    /// Redraws the bar with the current time.
-    pub fn redraw_bar(&self) {
-        self.bar.tick();
-    }
-
     /// Replaces the message beside the bar.
     pub fn set_message(&self, message: &str) {
         self.bar.set_message(PrintableText(message).to_string());
