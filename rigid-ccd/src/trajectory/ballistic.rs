@@ -25,7 +25,7 @@ use ccd_core::{
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ballistic {
-    start_motion: Motion,
+    thrown: Motion,
     acceleration: DVec3,
 }
 
@@ -36,7 +36,7 @@ impl Ballistic {
     /// [`InputError::NotFinite`].
     pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Ballistic {
-            start_motion: thrown,
+            thrown,
             acceleration: check_finite_vector(acceleration, "acceleration")?,
         })
     }
@@ -45,7 +45,7 @@ impl Ballistic {
 impl SmoothTrajectory for Ballistic {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let Ballistic {
-            start_motion: thrown,
+            thrown,
             acceleration,
         } = self;
         let pose = thrown.pose(time);
@@ -78,7 +78,7 @@ impl SmoothTrajectory for Ballistic {
     /// Bounds the rounding errors of poses between two times.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let Ballistic {
-            start_motion: thrown,
+            thrown,
             acceleration,
         } = self;
         let time = greater(from.abs(), to.abs());

@@ -198,9 +198,9 @@ impl Poses {
         let motion = Motion::between(begin, end, self.centre, to - from)?;
         let mut stray = DeviationBound::NONE;
         // The rotation by which the chord deviates at a pose, and the time of that pose.
-        let mut last = (from, Deviation::default());
+        let mut last = (from, DeviationBound::NONE);
         for &(time, pose) in self.poses_between(from, to).iter().chain(&[(to, end)]) {
-            let deviation = Deviation::new(&motion, &pose, self.centre, time - from);
+            let deviation = deviation(&motion, &pose, self.centre, time - from);
             // The motion of the segment that ends at this pose.
             let (before, acceleration) = self.segment_motion_at(time, time)?;
             let since = time - last.0;
@@ -260,23 +260,14 @@ impl Trajectory for Poses {
     }
 }
 
-/// The deviation of a motion from a pose at one time: the displacement of the centre, and the angle in radians.
-#[derive(Clone, Copy, Debug, Default)]
-struct Deviation {
-    shift: f64,
-    turn: f64,
-}
-
-impl Deviation {
-    fn new(motion: &Motion, pose: &Pose, centre: DVec3, time: f64) -> Self {
-        let near = motion.pose(time);
-        let [at, true_at] = [&near, pose].map(|pose| pose.transform_point(centre));
-        let turned: DQuat = near.rotation().conjugate() * pose.rotation();
-        Deviation {
-            shift: at.distance(true_at),
-            // The rotation angle is twice the angle of the quaternion, whose sine is the length of its vector
-            // part.
-            turn: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
-        }
+/// Returns the deviation of a motion from a pose at one time: the displacement of the centre, and the angle in radians.
+fn deviation(motion: &Motion, pose: &Pose, centre: DVec3, time: f64) -> DeviationBound {
+    let near = motion.pose(time);
+    let [at, true_at] = [&near, pose].map(|pose| pose.transform_point(centre));
+    let turned: DQuat = near.rotation().conjugate() * pose.rotation();
+    DeviationBound {
+        shift: at.distance(true_at),
+        // The rotation angle is twice the angle of the quaternion, whose sine is the length of its vector part.
+        turn: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
     }
 }

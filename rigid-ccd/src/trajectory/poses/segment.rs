@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) struct Segment {
     motion: Motion,
     /// The rotation vector `e` from the motion's last orientation to that of the next pose, divided by the duration.
-    residual_angular_velocity: DVec3,
+    leftover_spin: DVec3,
 }
 
 /// The largest allowed correction of a segment's rotation, in radians: at half a turn, the number of turns would be
@@ -33,13 +33,13 @@ impl Segment {
         if spin == DVec3::ZERO {
             return Ok(Segment {
                 motion: Motion::between(from, to, centre, duration)?,
-                residual_angular_velocity: DVec3::ZERO,
+                leftover_spin: DVec3::ZERO,
             });
         }
         let way = to.transform_point(centre) - from.transform_point(centre);
         Ok(Segment {
             motion: Motion::about(from, way / duration, spin, centre)?,
-            residual_angular_velocity: residual_rotation([&from, &to], spin, duration) / duration,
+            leftover_spin: residual_rotation([&from, &to], spin, duration) / duration,
         })
     }
 
@@ -47,7 +47,7 @@ impl Segment {
     pub(super) fn motion_at(&self, time: f64) -> Result<Motion, InputError> {
         let Segment {
             motion,
-            residual_angular_velocity: leftover_spin,
+            leftover_spin,
         } = self;
         if time == 0.0 && *leftover_spin == DVec3::ZERO {
             return Ok(*motion);
@@ -69,7 +69,7 @@ impl Segment {
 
     /// Returns a bound on the angular acceleration. The angular velocity is `e + exp(s e) w`, per unit of time.
     pub(super) fn angular_acceleration(&self) -> f64 {
-        length(self.residual_angular_velocity) * length(self.motion.spin())
+        length(self.leftover_spin) * length(self.motion.spin())
     }
 }
 
