@@ -105,8 +105,10 @@ struct GapSampler<'a> {
 /// Bounds that hold between two times: of the closing speed of two bodies, and of their deviation from their motions.
 #[derive(Clone, Copy, Debug)]
 struct ApproachBounds {
-    closing_speed_bound: f64,
-    deviation_bound: f64,
+    /// The bound of the closing speed.
+    speed: f64,
+    /// The bound of the deviation, at the measured times and between them.
+    deviation: f64,
 }
 
 impl GapSampler<'_> {
@@ -118,10 +120,7 @@ impl GapSampler<'_> {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let ApproachBounds {
-                closing_speed_bound: speed,
-                deviation_bound: deviation,
-            } = self.approach_bounds(time, end)?;
+            let ApproachBounds { speed, deviation } = self.approach_bounds(time, end)?;
             let next = time + (point.lower - deviation) / speed;
             // At a contact the steps become shorter than rounding.
             if !(point.lower > deviation && next > time && next < end) {
@@ -166,10 +165,7 @@ impl GapSampler<'_> {
         if !(time > 1e-6 * self.movements.duration()) {
             return Ok(0.0);
         }
-        let ApproachBounds {
-            closing_speed_bound: speed,
-            deviation_bound: deviation,
-        } = self.approach_bounds(before.time, after.time)?;
+        let ApproachBounds { speed, deviation } = self.approach_bounds(before.time, after.time)?;
         let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
@@ -194,9 +190,8 @@ impl GapSampler<'_> {
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(ApproachBounds {
-            closing_speed_bound: (shift + turns + gains) * ROUNDING_FACTOR,
-            // Bound the deviation both at the measured times and between them.
-            deviation_bound: 2.0
+            speed: (shift + turns + gains) * ROUNDING_FACTOR,
+            deviation: 2.0
                 * (a.deviation_bound.at(reach_a) + b.deviation_bound.at(reach_b))
                 * ROUNDING_FACTOR,
         })
@@ -209,10 +204,7 @@ impl GapSampler<'_> {
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let ApproachBounds {
-                closing_speed_bound: speed,
-                deviation_bound: deviation,
-            } = self.approach_bounds(one.time, two.time)?;
+            let ApproachBounds { speed, deviation } = self.approach_bounds(one.time, two.time)?;
             let height = |point: GapSample| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);

@@ -37,15 +37,9 @@ impl RemarkCollector {
 
     /// Returns the remarks collected so far, one of each kind.
     pub(in crate::table) fn remarks(&self) -> Vec<Remark> {
-        let spin = self
-            .spin
-            .get()
-            .filter(|_| !self.has_radians.load(Ordering::Relaxed));
-        self.quaternion
-            .get()
-            .into_iter()
-            .chain(spin)
-            .copied()
-            .collect()
+        let has_radians = self.has_radians.load(Ordering::Relaxed);
+        let spin = self.spin.get().filter(|_| !has_radians);
+        let all = [self.quaternion.get(), spin].into_iter().flatten();
+        all.copied().collect()
     }
 }
