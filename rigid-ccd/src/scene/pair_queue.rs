@@ -8,7 +8,7 @@ use ccd_core::schedule::{BestFirst, FirstContact, Progress};
 use ccd_core::{InputError, Query};
 use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The share of the duration by which a pair is advanced before another pair takes its turn. It is so large that pairs
 /// are seldom put back, and so small that little is proven beyond the answer.
@@ -52,21 +52,15 @@ impl<'r, 'a> PairQueue<'r, 'a> {
 
     /// Removes the pair with the earliest proven time from the queue, and returns it with the next pair's proven time.
     fn next(&self) -> Option<(QueuedPair<'a>, f64)> {
-        let mut waiting = self
-            .waiting_pairs
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
+        let mut waiting = self.waiting_pairs();
         let entry = waiting.pop()?;
         let others = waiting.peek().map_or(f64::INFINITY, |other| other.time);
         Some((entry, others))
     }
 
-    fn put_back_pair(&self, entry: QueuedPair<'a>) {
-        let mut waiting = self
-            .waiting_pairs
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        waiting.push(entry);
+    fn waiting_pairs(&self) -> MutexGuard<'_, BinaryHeap<QueuedPair<'a>>> {
+        let waiting = self.waiting_pairs.lock();
+        waiting.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Returns the time up to which a pair at `time` is advanced next; infinite for [`Goal::AllPairs`], which needs the
@@ -105,44 +99,42 @@ impl WorkerMemory {
                 self.keep_search_for_reuse(search);
                 continue;
             }
-            let mut search = match search {
-                Some(search) => search,
-                None => match (pair_queue.query)(pair) {
-                    Ok(query) => Box::new(FirstContact::new(
-                        query,
-                        self.spare_searches.pop().unwrap_or_default(),
-                    )),
-                    Err(error) => {
-                        pair_queue.goal.record(pair, 0.0);
-                        events.push(Event::from_error(pair, error));
-                        continue;
-                    }
-                },
+            let search = search.map_or_else(|| self.begin_search(pair_queue, pair), Ok);
+            let advanced = search.and_then(|mut search| {
+                let until = pair_queue.next_target_time(time, others, limit);
+                Ok((search.advance(&mut self.oracle, until)?, search))
+            });
+            let event = match advanced {
+                Err(error) => Some(Event::from_error(pair, error)),
+                Ok((Progress::ApartUntil(time), search)) => {
+                    pair_queue.waiting_pairs().push(QueueEntry {
+                        time,
+                        pair,
+                        what: Some(search),
+                    });
+                    continue;
+                }
+                Ok((Progress::Answered(answer), search)) => {
+                    self.keep_search_for_reuse(Some(search));
+                    Event::from_answer(pair, &answer)
+                }
             };
-            match search.advance(
-                &mut self.oracle,
-                pair_queue.next_target_time(time, others, limit),
-            ) {
-                Err(error) => {
-                    self.keep_search_for_reuse(Some(search));
-                    pair_queue.goal.record(pair, 0.0);
-                    events.push(Event::from_error(pair, error));
-                }
-                Ok(Progress::ApartUntil(time)) => pair_queue.put_back_pair(QueueEntry {
-                    time,
-                    pair,
-                    what: Some(search),
-                }),
-                Ok(Progress::Answered(answer)) => {
-                    self.keep_search_for_reuse(Some(search));
-                    if let Some(event) = Event::from_answer(pair, &answer) {
-                        pair_queue.goal.record(pair, event.time);
-                        events.push(event);
-                    }
-                }
+            if let Some(event) = event {
+                pair_queue.goal.record(pair, event.time);
+                events.push(event);
             }
         }
         events
+    }
+
+    fn begin_search<'a>(
+        &mut self,
+        pair_queue: &PairQueue<'_, 'a>,
+        pair: [usize; 2],
+    ) -> Result<Search<'a>, InputError> {
+        let query = (pair_queue.query)(pair)?;
+        let memory = self.spare_searches.pop().unwrap_or_default();
+        Ok(Box::new(FirstContact::new(query, memory)))
     }
 
     fn keep_search_for_reuse(&mut self, search: Option<Search<'_>>) {
