@@ -7,7 +7,7 @@ use crate::command::files::{Rows, is_same_file};
 use crate::command::progress::Progress;
 use crate::command::size::{sides_text, warn_of_different_units};
 use crate::command::{print_error, print_escaped_to_stderr, print_remarks};
-use anyhow::{Context, Result};
+use anyhow::{Context, Error, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, PreparedBody, Unit, build_hull_tree};
 use clap::Args;
@@ -35,41 +35,42 @@ impl BodiesArgs {
     /// # Errors
     /// If an option names no body.
     pub(super) fn files_with_options(&self) -> Result<Vec<(&'static str, PathBuf)>> {
-        let mut found = Vec::new();
-        for (option, text) in [("--a", &self.a), ("--b", &self.b)] {
-            let source: BodySource = text.parse().context(option)?;
-            found.extend(
-                files_of_source(&source)
-                    .into_iter()
-                    .map(|path| (option, path)),
-            );
-        }
-        Ok(found)
+        let files = |(option, source): (_, BodySource)| {
+            files_of_source(&source)
+                .into_iter()
+                .map(move |path| (option, path))
+        };
+        Ok(self.sources()?.into_iter().flat_map(files).collect())
+    }
+
+    /// Returns where both bodies come from, each with the option that names it.
+    fn sources(&self) -> Result<[(&'static str, BodySource); 2]> {
+        let source = |option, text: &str| Ok::<_, Error>((option, text.parse().context(option)?));
+        Ok([source("--a", &self.a)?, source("--b", &self.b)?])
     }
 
     /// Loads both bodies, and prepares them for a solver of the given kind. If `quiet`, messages about them are
     /// suppressed.
     pub(super) fn load(&self, method: SolverKind, quiet: bool) -> Result<Pair> {
-        let source = |text: &str| text.parse::<BodySource>();
-        let source_a = source(&self.a).context("--a")?;
-        let source_b = source(&self.b).context("--b")?;
+        let sources = self.sources()?;
+        let [(_, source_a), (_, source_b)] = &sources;
         let load = |option, text, source| self.load_body((option, text), source, method, quiet);
-        let (a, unit_a) = load("--a", &self.a, &source_a)?;
-        let b = if is_same_source(&source_a, &source_b) {
+        let (a, unit_a) = load("--a", &self.a, source_a)?;
+        let b = if is_same_source(source_a, source_b) {
             None
         } else {
-            Some(load("--b", &self.b, &source_b)?)
+            Some(load("--b", &self.b, source_b)?)
         };
         if let (Some((b, unit_b)), false) = (&b, quiet) {
-            let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
+            let sources = [(source_a, unit_a), (source_b, *unit_b)];
             match mixed_units_warning(sources) {
                 Some(remark) => print_error(&remark),
                 None => warn_of_different_units(&a, b),
             }
         }
         let b = b.map(|(b, _)| b);
-        let checksums = [("--a", &source_a), ("--b", &source_b)]
-            .map(|(option, source)| (option, format!("{:08x}", checksum(source))));
+        let checksums = (sources.each_ref())
+            .map(|(option, source)| (*option, format!("{:08x}", checksum(source))));
         Ok(Pair { a, b, checksums })
     }
 
