@@ -20,17 +20,6 @@ pub(crate) struct TimedQuestion {
     pub(crate) repetitions: NonZeroUsize,
 }
 
-impl Default for TimedQuestion {
-    fn default() -> Self {
-        TimedQuestion {
-            question: Question::default(),
-            method: SolverKind::default(),
-            settings: Settings::DEFAULT,
-            repetitions: NonZeroUsize::MIN,
-        }
-    }
-}
-
 /// Answers a query as often as `timing` says, and returns the answer with the median time.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share

@@ -13,7 +13,7 @@ pub(super) use args::QueryArgs;
 
 use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
 use super::output::{Output, is_standard_output};
-use super::view::{ChosenRows, RowsPage, title, write_rows_page};
+use super::view::{ChosenRows, title, write_rows_page};
 use super::{RunOutcome, print_error};
 use crate::batch::{
     BatchSize, BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion, parallel_solver,
@@ -21,7 +21,7 @@ use crate::batch::{
 use crate::command::bad_rows::BadRowCounter;
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
-use crate::picture::{QueryContext, TimeMeaning};
+use crate::picture::{Painter, QueryContext, TimeMeaning};
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
@@ -102,12 +102,8 @@ fn write_page(
     let Some((chosen, html)) = page else {
         return Ok(RunOutcome::AllAnswered);
     };
-    let subject = RowsPage {
-        title: &title(&args.bodies),
-        pair,
-        context: query_context(args),
-    };
-    write_rows_page(subject, chosen, html, args.quiet)
+    let painter = Painter::new(pair.bodies(), query_context(args));
+    write_rows_page((&title(&args.bodies), painter), chosen, html, args.quiet)
 }
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.

@@ -8,7 +8,7 @@ pub(super) use chosen::ChosenRows;
 
 use super::files::{input_name, open_movement_rows, refuse_overwriting};
 use super::output::Output;
-use super::pair::{BodiesArgs, Pair};
+use super::pair::BodiesArgs;
 use super::scene_table;
 use super::{RunOutcome, print_error};
 use crate::batch::{Question, SolverKind, TimedQuestion, answer_timed};
@@ -19,6 +19,7 @@ use ccd_core::{Instructions, Settings};
 use ccd_view::{Group, Page};
 use std::collections::{HashMap, VecDeque};
 use std::fs::File;
+use std::num::NonZeroUsize;
 use std::path::Path;
 
 /// The maximum number of rows that are read to choose a few of them for the page.
@@ -46,7 +47,12 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = ChosenRows::new(args.ids.clone());
-    let timing = timed_question(args);
+    let timing = TimedQuestion {
+        question: Question::FirstContact,
+        method: SolverKind::default(),
+        settings: settings(args),
+        repetitions: NonZeroUsize::MIN,
+    };
     let asked = QueryContext {
         time_meaning: known
             .as_ref()
@@ -91,20 +97,8 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
             results.display()
         );
     }
-    let subject = RowsPage {
-        title: &title(bodies),
-        pair: &pair,
-        context: asked,
-    };
-    write_rows_page(subject, chosen, out, args.quiet)
-}
-
-/// The contents of a page of rows, apart from the rows: the title, the two bodies, and the context of the queries.
-#[derive(Clone, Copy)]
-pub(super) struct RowsPage<'a> {
-    pub(super) title: &'a str,
-    pub(super) pair: &'a Pair,
-    pub(super) context: QueryContext,
+    let painter = Painter::new(pair.bodies(), asked);
+    write_rows_page((&title(bodies), painter), chosen, out, args.quiet)
 }
 
 /// Returns the title of a page about two bodies: their names without folders, and the unit.
@@ -121,13 +115,9 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }
 
-/// Writes the page of the chosen rows. If no row can be shown, writes no page and prints a message.
+/// Writes the page of the chosen rows under a title. If no row can be shown, writes no page and prints a message.
 pub(super) fn write_rows_page(
-    RowsPage {
-        title,
-        pair,
-        context: asked,
-    }: RowsPage<'_>,
+    (title, mut painter): (&str, Painter<'_>),
     mut chosen: ChosenRows,
     out: Output,
     quiet: bool,
@@ -136,7 +126,6 @@ pub(super) fn write_rows_page(
     for id in chosen.ids_without_row() {
         print_error(&format!("no row has the id {id:?}"));
     }
-    let mut painter = Painter::new(pair.bodies(), asked);
     let mut views = Vec::new();
     for (course, row) in chosen.take_rows() {
         match painter.view(&course, &row) {
@@ -181,14 +170,11 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     Ok(known)
 }
 
-fn timed_question(args: &ViewArgs) -> TimedQuestion {
-    TimedQuestion {
-        settings: Settings {
-            tolerance: args.tolerance,
-            margin: args.margin,
-            ..Settings::DEFAULT
-        },
-        ..TimedQuestion::default()
+fn settings(args: &ViewArgs) -> Settings {
+    Settings {
+        tolerance: args.tolerance,
+        margin: args.margin,
+        ..Settings::DEFAULT
     }
 }
 
@@ -199,7 +185,7 @@ fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
     }
     let out = Output::claim(&args.out)?;
     let shown = table.bodies_to_draw();
-    let contacts = table.contacts(timed_question(args).settings);
+    let contacts = table.contacts(settings(args));
     let title = input_name(path);
     let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
     if !args.quiet {
