@@ -64,24 +64,21 @@ impl Statistics {
 
 impl fmt::Display for Statistics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let line = |f: &mut fmt::Formatter<'_>, name: &str, value: &str| match value {
-            "" => Ok(()),
-            value => writeln!(f, "{name:<14}{}", PrintableText(value)),
-        };
         let triangles = human_count(self.triangles);
-        line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;
-        line(f, "unit", self.unit.unwrap_or_default())?;
-        line(f, "remarks", &self.remarks)?;
-        line(f, "pieces", &self.pieces_text())?;
-        line(f, "why", &self.why)?;
-        line(
-            f,
-            "virtual faces",
-            &human_count(self.virtual_faces).to_string(),
-        )?;
-        line(f, "tree nodes", &self.tree_text())?;
-        line(f, "build", &format!("{:.1} ms", self.build_ms))?;
-        line(f, "memory", &format!("{:.1} MB", self.bytes as f64 / 1e6))?;
+        let lines = [
+            ("mesh", format!("{}: {triangles} triangles", self.mesh)),
+            ("unit", self.unit.unwrap_or_default().to_owned()),
+            ("remarks", self.remarks.clone()),
+            ("pieces", self.pieces_text()),
+            ("why", self.why.clone()),
+            ("virtual faces", human_count(self.virtual_faces).to_string()),
+            ("tree nodes", self.tree_text()),
+            ("build", format!("{:.1} ms", self.build_ms)),
+            ("memory", format!("{:.1} MB", self.bytes as f64 / 1e6)),
+        ];
+        for (name, value) in lines.iter().filter(|(_, value)| !value.is_empty()) {
+            writeln!(f, "{name:<14}{}", PrintableText(value))?;
+        }
         write!(f, "{:<14}{}", "error", self.excess_text())
     }
 }
