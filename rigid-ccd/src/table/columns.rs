@@ -288,30 +288,24 @@ fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> Tab
         return TableError::PandasIndex { column };
     }
     let lower = column.to_ascii_lowercase();
-    if lower == "time" {
-        return TableError::UnknownColumn {
-            column: column.to_owned(),
-            known: form.known_columns_text(),
-            most_similar_column: Some(TIME_COLUMN_NAME.to_owned()),
-        };
-    }
     if let Some(prefix) = body_prefix_of_angle_column(&lower, form) {
         let column = column.to_owned();
         return TableError::AngleColumn { column, prefix };
     }
     let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
     let names = form.names();
-    let nearest = names.iter().min_by_key(edit_distance);
+    // Names are short, so that a larger edit distance means another name.
+    let nearest = (names.iter().min_by_key(edit_distance))
+        .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count());
     // A velocity in a table of paths is not a misspelt position.
     let of_other_form = form == TableKind::Paths && TableKind::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
         known: form.known_columns_text(),
-        // Names are short, so that a larger edit distance means another name.
-        most_similar_column: nearest
-            .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
-            .filter(|name| **name == lower || !of_other_form)
-            .cloned(),
+        most_similar_column: match lower.as_str() {
+            "time" => Some(TIME_COLUMN_NAME.to_owned()),
+            _ => (nearest.filter(|name| **name == lower || !of_other_form)).cloned(),
+        },
     }
 }
 
