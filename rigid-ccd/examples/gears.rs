@@ -86,18 +86,8 @@ const STEPS: u32 = 8;
 /// The angle of rotation, in degrees of the first gear, over which one clearance is computed.
 const DEGREES_PER_INTERVAL: u32 = 1;
 
-/// Bounds on the least clearance over one interval of the rotation.
-struct IntervalClearance {
-    angle: u32,
-    lower: f64,
-    upper: f64,
-}
-
-/// Returns bounds on the least clearance in each interval of a full turn of the first gear.
-fn clearance_per_interval(
-    gears: [&Gear; 2],
-) -> Result<Vec<IntervalClearance>, Box<dyn std::error::Error>> {
-    let [a, b] = gears;
+/// Returns a lower and an upper bound of the least clearance in each interval of a full turn of the first gear.
+fn clearance_per_interval(a: &Gear, b: &Gear) -> Result<Vec<[f64; 2]>, Box<dyn std::error::Error>> {
     let bodies = [a.body()?, b.body()?];
     // The axes are a little farther apart than the pitch circles require.
     let distance = a.pitch_radius() + b.pitch_radius() + 0.02 * a.module;
@@ -125,11 +115,7 @@ fn clearance_per_interval(
             ),
             1.0,
         )?;
-        windows.push(IntervalClearance {
-            angle,
-            lower: closest.outcome.lower(),
-            upper: closest.outcome.upper(),
-        });
+        windows.push([closest.outcome.lower(), closest.outcome.upper()]);
     }
     Ok(windows)
 }
@@ -140,20 +126,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         module: 1.0,
         backlash: 0.1,
     };
-    let windows = clearance_per_interval([&gear(20), &gear(30)])?;
+    let windows = clearance_per_interval(&gear(20), &gear(30))?;
     let mut print = std::io::stdout().lock();
     writeln!(print, "degrees  least clearance, mm")?;
-    for IntervalClearance {
-        angle,
-        lower,
-        upper,
-    } in windows.iter().step_by(10)
-    {
+    let angles = (0..360).step_by(DEGREES_PER_INTERVAL as usize);
+    for (angle, [lower, upper]) in angles.zip(&windows).step_by(10) {
         writeln!(print, "{angle:>7}  {lower:.4} to {upper:.4}")?;
     }
-    let least = windows.iter().map(|window| window.lower);
+    let least = windows.iter().map(|[lower, _]| *lower);
     let least = least.min_by(f64::total_cmp).unwrap_or_default();
-    let most = windows.iter().map(|window| window.upper);
+    let most = windows.iter().map(|[_, upper]| *upper);
     let most = most.max_by(f64::total_cmp).unwrap_or_default();
     writeln!(
         print,
