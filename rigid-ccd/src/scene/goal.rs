@@ -1,5 +1,6 @@
 //! The goal of a query on a scene, and the time up to which a pair of bodies can contribute to it.
 
+use ccd_core::order::greater;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Which contacts a query on a scene asks for, with the times of the earliest events so far.
@@ -22,25 +23,24 @@ impl Goal {
     }
 
     /// Returns the time after which an event of the pair cannot change the answer.
-    pub(super) fn last_useful_time(&self, [a, b]: [usize; 2]) -> f64 {
-        match self {
-            Goal::First(earliest) => earliest.time(),
-            Goal::FirstOfEachBody(earliest) => {
-                let [a, b] = [earliest[a].time(), earliest[b].time()];
-                if a > b { a } else { b }
-            }
-            Goal::AllPairs => f64::INFINITY,
-        }
+    pub(super) fn last_useful_time(&self, pair: [usize; 2]) -> f64 {
+        let times = self.earliest_times(pair).map(EarliestTime::time);
+        times.reduce(greater).unwrap_or(f64::INFINITY)
     }
 
-    pub(super) fn record(&self, [a, b]: [usize; 2], time: f64) {
-        match self {
-            Goal::First(earliest) => earliest.record(time),
-            Goal::FirstOfEachBody(earliest) => {
-                [a, b].iter().for_each(|&k| earliest[k].record(time));
-            }
-            Goal::AllPairs => {}
-        }
+    pub(super) fn record(&self, pair: [usize; 2], time: f64) {
+        self.earliest_times(pair)
+            .for_each(|earliest| earliest.record(time));
+    }
+
+    /// Returns the times that an event of the pair may change.
+    fn earliest_times(&self, [a, b]: [usize; 2]) -> impl Iterator<Item = &EarliestTime> {
+        let times = match self {
+            Goal::First(earliest) => [Some(earliest), None],
+            Goal::FirstOfEachBody(earliest) => [a, b].map(|k| Some(&earliest[k])),
+            Goal::AllPairs => [None, None],
+        };
+        times.into_iter().flatten()
     }
 }
 
