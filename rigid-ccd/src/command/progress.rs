@@ -1,9 +1,10 @@
 //! Shows the progress of long work on standard error.
 
-use super::program_name;
+use super::print_error;
 use crate::text::PrintableText;
-use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{self, IsTerminal, Write};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt;
+use std::io::{self, IsTerminal};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -74,12 +75,7 @@ impl Progress {
                 return;
             }
             while still_working(PRINT_INTERVAL) {
-                let _ = writeln!(
-                    io::stderr(),
-                    "{}: {}",
-                    program_name(),
-                    line(&bar, total, &steps)
-                );
+                print_error(&line(&bar, total, &steps));
             }
         };
         // Without a thread nothing is shown, but the work is done.
@@ -174,7 +170,7 @@ fn progress_style(total: TotalWork, steps: Arc<AtomicU64>) -> ProgressStyle {
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .with_key(
             "rows",
-            move |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
+            move |state: &ProgressState, out: &mut dyn fmt::Write| {
                 let _ = out.write_str(&count_and_rate_text(&steps, state.elapsed()));
             },
         )
@@ -182,14 +178,12 @@ fn progress_style(total: TotalWork, steps: Arc<AtomicU64>) -> ProgressStyle {
 
 /// Returns the progress as one line of text.
 fn line(bar: &ProgressBar, total: TotalWork, steps: &AtomicU64) -> String {
-    let share = || 100 * bar.position() / bar.length().unwrap_or(1).max(1);
+    let percent = 100 * bar.position() / bar.length().unwrap_or(1).max(1);
     match total {
         TotalWork::Steps(steps) => format!("{} of {steps} {}", bar.position(), bar.message()),
-        TotalWork::Bytes(_) => format!(
-            "{}, {} %",
-            count_and_rate_text(steps, bar.elapsed()),
-            share()
-        ),
+        TotalWork::Bytes(_) => {
+            format!("{}, {percent} %", count_and_rate_text(steps, bar.elapsed()))
+        }
         TotalWork::Unknown => count_and_rate_text(steps, bar.elapsed()),
         TotalWork::SingleStep => format!("{}, {} s", bar.message(), bar.elapsed().as_secs()),
     }
