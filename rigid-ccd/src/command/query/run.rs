@@ -14,7 +14,7 @@ use crate::command::view::ChosenRows;
 use crate::table::contacts;
 use crate::table::courses::{CourseRow, Movements};
 use crate::table::motions::{RowPosition, RowProblem, TableError};
-use crate::table::results::{Line, ResultRow};
+use crate::table::results::{Line, ResultRow, Status};
 use anyhow::{Context, Result};
 use std::time::Instant;
 
@@ -103,7 +103,7 @@ impl QueryRun<'_> {
                 Ok(timed) => self.summary.add(row.status, timed),
                 Err(problem) => {
                     self.bad_rows.report(position, problem, &self.progress);
-                    self.summary.add_error();
+                    self.summary.counts.add(Status::Error);
                 }
             }
             row.micros = row.micros.filter(|_| !self.args.no_micros);

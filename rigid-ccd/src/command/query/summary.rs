@@ -19,6 +19,7 @@ pub(super) struct Summary {
     pub(super) counts: StatusCounts,
     /// The number of rows that an earlier run answered; only their status is known.
     earlier_row_count: usize,
+    /// The times of the queries of this run, in microseconds.
     time_histogram: TimeHistogram,
     /// The number of pairs of nodes visited in all queries.
     pub(super) iterations: u64,
@@ -73,30 +74,11 @@ impl Summary {
         self.time_histogram.add(timed.micros);
     }
 
-    /// Counts a row of status `error`.
-    pub(super) fn add_error(&mut self) {
-        self.counts.add(Status::Error);
-    }
-
-    /// Returns the number of rows answered in this run.
-    fn answered_row_count(&self) -> u64 {
-        self.time_histogram.count
-    }
-
-    /// Returns the median time of a query in microseconds, rounded to a thousandth; NaN without queries.
-    pub(super) fn median_micros(&self) -> f64 {
-        self.time_histogram.median()
-    }
-
-    /// Returns the mean time of a query in microseconds; NaN without queries.
-    pub(super) fn mean_micros(&self) -> f64 {
-        self.time_histogram.total / self.time_histogram.count as f64
-    }
-
     /// Returns the means of the counters as one line; `None` without answers.
     pub(super) fn describe_means(&self) -> Option<String> {
-        let mean = |total: u64| total as f64 / self.answered_row_count() as f64;
-        (self.answered_row_count() > 0).then(|| {
+        let count = self.time_histogram.count;
+        let mean = |total: u64| total as f64 / count as f64;
+        (count > 0).then(|| {
             format!(
                 "means: {:.1} advancements, {:.1} oracle calls, {:.1} oracle steps",
                 mean(self.advancements),
@@ -129,6 +111,12 @@ impl TimeHistogram {
         self.total += micros;
     }
 
+    /// Returns the mean time; NaN without times.
+    fn mean(&self) -> f64 {
+        self.total / self.count as f64
+    }
+
+    /// Returns the median time, rounded to a thousandth; NaN without times.
     fn median(&self) -> f64 {
         0.5 * (self.time_at_rank(self.count.saturating_sub(1) / 2)
             + self.time_at_rank(self.count / 2))
@@ -163,14 +151,14 @@ impl fmt::Display for Summary {
             0 => write!(f, "; 0 in this run")?,
             here => write!(f, "; {here} in this run")?,
         }
-        if self.answered_row_count() == 0 {
+        if self.time_histogram.count == 0 {
             return Ok(());
         }
         write!(
             f,
             "; median {:.1} µs, mean {:.1} µs; {} iterations, {} oracle calls",
-            self.median_micros(),
-            self.mean_micros(),
+            self.time_histogram.median(),
+            self.time_histogram.mean(),
             self.iterations,
             self.oracle_calls
         )?;
