@@ -130,21 +130,17 @@ impl QueryArgs {
             !UNRECORDED_OPTIONS.contains(&id)
         });
         let recorded = options.map(|option| {
-            let values = given.get_raw(option.get_id().as_str());
-            let values = values
+            let values = given
+                .get_raw(option.get_id().as_str())
                 .into_iter()
-                .flatten()
-                .map(|value| value.to_string_lossy());
-            let values = values.collect::<Vec<_>>().join(",");
-            let value = if values.is_empty() {
-                "not given".to_owned()
-            } else {
-                values
+                .flatten();
+            let values: Vec<_> = values.map(|value| value.to_string_lossy()).collect();
+            let value = match values.join(",") {
+                none if none.is_empty() => "not given".to_owned(),
+                values => values,
             };
-            (
-                format!("--{}", option.get_long().unwrap_or_default()),
-                value,
-            )
+            let name = option.get_long().unwrap_or_default();
+            (format!("--{name}"), value)
         });
         recorded
             .chain([("--rows".to_owned(), self.rows.to_string())])
