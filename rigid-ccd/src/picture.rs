@@ -98,18 +98,12 @@ impl<'a> Painter<'a> {
             self.check_distance(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
-        let name = match (self.query_context.time_meaning, row.time) {
+        let measured_at = match (self.query_context.time_meaning, row.time) {
             // A path has one row for each of its poses.
-            (TimeMeaning::MeasurementTime, Some(time)) => {
-                format!(
-                    "{} at {} ({})",
-                    row.id,
-                    verdict::number(time),
-                    row.status.name()
-                )
-            }
-            _ => format!("{} ({})", row.id, row.status.name()),
+            (TimeMeaning::MeasurementTime, Some(time)) => format!(" at {}", verdict::number(time)),
+            _ => String::new(),
         };
+        let name = format!("{}{measured_at} ({})", row.id, row.status.name());
         let mut view = View::new(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {

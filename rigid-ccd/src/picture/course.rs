@@ -21,13 +21,9 @@ pub fn shown_motions(movements: &Movements) -> Result<[ShownMotion; 2], InputErr
             .times()
             .zip(poses.rotation_vectors())
             .map(|(time, turn)| {
-                let pose = poses.pose(time)?;
-                Ok(Keyframe::new(
-                    time,
-                    &pose,
-                    pose.transform_point(centre),
-                    turn?,
-                ))
+                let (pose, turn) = (poses.pose(time)?, turn?);
+                let place = pose.transform_point(centre);
+                Ok(Keyframe::new(time, &pose, place, turn))
             });
         Ok(ShownMotion::Keyframes {
             centre: centre.to_array(),
