@@ -142,16 +142,13 @@ impl PathReader {
         &mut self,
         rows: &mut MotionRows<S>,
     ) -> Result<Option<PathRow>, TableError> {
-        let mut poses: Vec<PosePair> = Vec::new();
-        let mut bad: Option<(RowPosition, RowProblem)> = None;
+        let mut poses: Result<Vec<PosePair>, (RowPosition, RowProblem)> = Ok(Vec::new());
         let read = self.read(rows, |position, columns, record| {
-            if bad.is_none() {
-                let found =
-                    row::poses(columns, record).and_then(|row| check_row_follows(&poses, row));
-                match found {
-                    Ok(row) => poses.push(row),
-                    Err(problem) => bad = Some((position, problem)),
-                }
+            let Ok(before) = &mut poses else { return };
+            let row = row::poses(columns, record).and_then(|row| check_row_follows(before, row));
+            match row {
+                Ok(row) => before.push(row),
+                Err(problem) => poses = Err((position, problem)),
             }
         })?;
         let Some(FirstRow { position, id, seen }) = read else {
@@ -159,20 +156,16 @@ impl PathReader {
         };
         if seen {
             let problem = RowProblem::PathNotConsecutive { id: id.clone() };
-            bad = Some((position, problem));
+            poses = Err((position, problem));
         }
-        let path = match bad {
-            None => Path::new(&id, &poses).map_err(|problem| (position, problem)),
-            Some(bad) => Err(bad),
-        };
-        Ok(Some(match path {
-            Ok(path) => Ok((position, path)),
-            Err((position, problem)) => Err(RowError {
+        let path = poses
+            .and_then(|poses| Path::new(&id, &poses).map_err(|problem| (position, problem)))
+            .map_err(|(position, problem)| RowError {
                 position,
                 id,
                 problem,
-            }),
-        }))
+            });
+        Ok(Some(path.map(|path| (position, path))))
     }
 }
 
