@@ -91,14 +91,9 @@ impl TableKind {
             (_, Quantity::AngularVelocity) => 17..20,
             (_, Quantity::Centre) => 20..23,
         };
-        let first_of_a = match self {
-            TableKind::Motions | TableKind::Scene => 1,
-            TableKind::Paths => 2,
-        };
-        let first = match side {
-            Side::A => first_of_a,
-            Side::B => first_of_a + self.body_columns().len(),
-        };
+        // The columns before those of the bodies: `id`, and in a table of paths `t`.
+        let before = 1 + usize::from(self == TableKind::Paths);
+        let first = before + side as usize * self.body_columns().len();
         first + within.start..first + within.end
     }
 

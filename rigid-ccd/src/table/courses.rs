@@ -36,12 +36,17 @@ impl Movements {
         }
     }
 
+    /// Returns the paths of both bodies; `None` for motions, whose times are those of the table.
+    fn path(&self) -> Option<&Path> {
+        match self {
+            Movements::Motions(_) => None,
+            Movements::Path(path) => Some(path),
+        }
+    }
+
     /// Returns the table's time that corresponds to the query's time 0.
     pub fn start(&self) -> f64 {
-        match self {
-            Movements::Motions(_) => 0.0,
-            Movements::Path(path) => path.start,
-        }
+        self.path().map_or(0.0, |path| path.start)
     }
 
     /// Returns the trajectories of both bodies.
@@ -65,18 +70,14 @@ impl Movements {
 
     /// Converts a time measured from the start to the table's time, rounded down.
     pub fn table_time_rounded_down(&self, time: f64) -> f64 {
-        match self {
-            Movements::Motions(_) => time,
-            Movements::Path(path) => path.table_time_rounded_down(time),
-        }
+        self.path()
+            .map_or(time, |path| path.table_time_rounded_down(time))
     }
 
     /// Converts a time measured from the start to the table's time, rounded up.
     pub fn table_time_rounded_up(&self, time: f64) -> f64 {
-        match self {
-            Movements::Motions(_) => time,
-            Movements::Path(path) => path.table_time_rounded_up(time),
-        }
+        self.path()
+            .map_or(time, |path| path.table_time_rounded_up(time))
     }
 }
 
