@@ -58,58 +58,39 @@ impl Event {
     }
 
     pub(super) fn from_error(bodies: [usize; 2], error: InputError) -> Self {
-        Event {
-            time: 0.0,
-            bodies,
-            what: EventKind::Refused(error),
-        }
+        Event::at_start(bodies, EventKind::Refused(error))
     }
 
     /// Returns the event of a pair whose query is out of range: it is unresolved from time 0 on.
     pub(super) fn unexamined_pair(bodies: [usize; 2]) -> Self {
-        Event {
-            time: 0.0,
-            bodies,
-            what: EventKind::Unresolved(Unresolved::from_safe_until(0.0, Limit::Undecided)),
-        }
+        let known = Unresolved::from_safe_until(0.0, Limit::Undecided);
+        Event::at_start(bodies, EventKind::Unresolved(known))
+    }
+
+    fn at_start(bodies: [usize; 2], what: EventKind) -> Self {
+        let time = 0.0;
+        Event { time, bodies, what }
     }
 
     /// Returns the event with `from`, the start of its query, added to its times. The sums are rounded down.
-    pub(super) fn shifted_in_time(self, from: f64) -> Self {
-        let later = |time: f64| {
-            if from > 0.0 {
-                greater(from, (from + time).next_down())
-            } else {
-                time
+    pub(super) fn shifted_in_time(mut self, from: f64) -> Self {
+        if from > 0.0 {
+            let later = |time: f64| greater(from, (from + time).next_down());
+            self.time = later(self.time);
+            if let EventKind::Hit(hit) = &mut self.what {
+                hit.time = later(hit.time);
             }
-        };
-        let what = match self.what {
-            EventKind::Hit(hit) => EventKind::Hit(Hit {
-                time: later(hit.time),
-                ..hit
-            }),
-            what => what,
-        };
-        Event {
-            time: later(self.time),
-            what,
-            ..self
         }
-    }
-
-    /// Returns the event with its own time set to 0, and the time of its hit unchanged.
-    pub(super) fn with_time_zero(self) -> Self {
-        Event { time: 0.0, ..self }
+        self
     }
 
     /// Returns whether the bodies are in contact, and not proven to be at least `distance` apart.
     pub(super) fn contact_may_be_nearer_than(&self, distance: f64) -> bool {
-        let contact = match &self.what {
-            EventKind::Hit(hit) => hit.contact(),
-            EventKind::Unresolved(_) | EventKind::Refused(_) => None,
+        let EventKind::Hit(hit) = &self.what else {
+            return false;
         };
         // The comparison treats NaN as nearer.
-        contact.is_some_and(|contact| !(contact.separation.lower >= distance))
+        (hit.contact()).is_some_and(|contact| !(contact.separation.lower >= distance))
     }
 
     /// Returns whether the event is an overlap at the start.

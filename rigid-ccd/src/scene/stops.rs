@@ -197,12 +197,11 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     /// Returns the future contacts of moving bodies with a body that has just stopped.
     fn find_future_contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
-        let partners = std::mem::take(&mut self.partners[index]);
-        let moving = partners.iter().filter(|&&other| self.moves(other));
+        let partners = self.partners[index].iter();
+        let moving = partners.filter(|&&other| self.moves(other));
         let pairs: Vec<[usize; 2]> = moving
             .map(|&other| in_ascending_order(index, other))
             .collect();
-        self.partners[index] = partners;
         let found = pairs
             .into_iter()
             .filter_map(|pair| self.find_contact_after(time, pair));
@@ -221,13 +220,10 @@ impl<'s, 'a> StopSearch<'s, 'a> {
 
     /// Returns the queue entry for an event of a query that started at time `from`. Bodies in contact that are nearer
     /// than the margin stop at `from`: otherwise rounding could bring them nearer in each step of a simulation.
-    fn future_contact_from_event(&self, event: Event, from: f64) -> FutureContact {
-        let kept = self.scene.settings.margin;
-        let event = if event.contact_may_be_nearer_than(kept) {
-            event.with_time_zero()
-        } else {
-            event
-        };
+    fn future_contact_from_event(&self, mut event: Event, from: f64) -> FutureContact {
+        if event.contact_may_be_nearer_than(self.scene.settings.margin) {
+            event.time = 0.0;
+        }
         let event = event.shifted_in_time(from);
         let moving = event.bodies.map(|index| self.moves(index));
         FutureContact {
