@@ -130,14 +130,12 @@ impl SolverKind {
     {
         match self.schedule {
             ScheduleKind::BestFirst => Box::new(CachePadded(Solver::with_oracle(oracle))),
-            ScheduleKind::Fast => Box::new(CachePadded(ScheduleWithOracle {
-                schedule: Fast::<O>::new(self.bound.into()),
-                oracle,
-            })),
-            ScheduleKind::Naive => Box::new(CachePadded(ScheduleWithOracle {
-                schedule: Naive::<O>::new(self.bound.into()),
-                oracle,
-            })),
+            ScheduleKind::Fast => {
+                Box::new(CachePadded((Fast::<O>::new(self.bound.into()), oracle)))
+            }
+            ScheduleKind::Naive => {
+                Box::new(CachePadded((Naive::<O>::new(self.bound.into()), oracle)))
+            }
         }
     }
 }
@@ -156,22 +154,18 @@ where
     }
 }
 
-struct ScheduleWithOracle<S, O> {
-    schedule: S,
-    oracle: O,
-}
-
-impl<O, S> Solve for CachePadded<ScheduleWithOracle<S, O>>
+/// A schedule with its oracle answers only when the first contact is.
+impl<S, O> Solve for CachePadded<(S, O)>
 where
-    O: DistanceOracle + Send,
     S: Schedule<O> + Send,
+    O: DistanceOracle + Send,
 {
     fn answer(
         &mut self,
         question: Question,
         query: &Query<'_>,
     ) -> Option<Result<Answer, InputError>> {
-        let ScheduleWithOracle { schedule, oracle } = &mut self.0;
+        let (schedule, oracle) = &mut self.0;
         (question == Question::FirstContact).then(|| schedule.first_contact(query, oracle))
     }
 }
