@@ -77,15 +77,15 @@ enum Command {
     Man(ManArgs),
 }
 
-/// The outcome of a run that wrote all its output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The outcome of a run that wrote all its output; of two, the greater one decides the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RunOutcome {
     /// Every row has an answer.
     AllAnswered,
-    /// Some rows could not be read, answered or drawn; all others are done.
-    SomeRowsBad,
     /// Every row has an answer, and `--check` found rows that are not proven `free` or `kept`.
     SomeRowsUnproven,
+    /// Some rows could not be read, answered or drawn; all others are done.
+    SomeRowsBad,
 }
 
 /// Parses the command line of this process, and runs the subcommand.

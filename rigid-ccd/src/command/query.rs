@@ -87,10 +87,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         print_summary(args, &run.summary);
         pair.print_remarks(args.tolerance, &rows);
     }
-    Ok(match (report_run_outcome(args, end), shown) {
-        (RunOutcome::AllAnswered, shown) | (_, shown @ RunOutcome::SomeRowsBad) => shown,
-        (bad, _) => bad,
-    })
+    Ok(report_run_outcome(args, end).max(shown))
 }
 
 /// Writes the HTML page of the chosen rows, if `--html` is given.
@@ -266,10 +263,8 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
 
 /// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
 fn report_run_outcome(args: &QueryArgs, end: Checkpoint) -> RunOutcome {
-    let failed = end
-        .counts
-        .nonzero_counts()
-        .filter(|(status, _)| !status.proves_distance_kept());
+    let counts = end.counts.nonzero_counts();
+    let failed = counts.filter(|(status, _)| !status.proves_distance_kept());
     let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
         let rows = end.counts.row_count();
