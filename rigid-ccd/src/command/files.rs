@@ -63,12 +63,8 @@ fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
     if is_dash(path) {
         return Ok((Box::new(io::stdin().lock()), None));
     }
-    let open = || -> io::Result<_> {
-        let file = File::open(path)?;
-        let about = file.metadata()?;
-        Ok((file, about))
-    };
-    let (file, about) = open()
+    let (about, file) = File::open(path)
+        .and_then(|file| Ok((file.metadata()?, file)))
         .map_err(|error| anyhow!("{error}; {advice}"))
         .with_context(name)?;
     if about.is_dir() {
