@@ -23,7 +23,7 @@ use ccd_core::{Acceleration, InputError};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    segments: Segments<Vec<DVec3>>,
+    pub(super) segments: Segments<Vec<DVec3>>,
 }
 
 /// A Bézier curve between two times, given by its control points.
@@ -128,11 +128,6 @@ impl Curve {
         self.segments.greatest_bound(from, to, |segment| {
             segment.derivative_bound(order, greater(from, segment.from), lesser(to, segment.to))
         })
-    }
-
-    /// Returns a knot strictly between two times, near their middle; `None` without one.
-    pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        self.segments.corner(from, to)
     }
 
     /// Bounds the rounding error of a computed position on the curve.

@@ -148,16 +148,12 @@ impl Poses {
                 ))
             }
             // The body rests before the first pose and after the last.
-            (None, Some(&(_, pose))) => Ok((self.resting_motion(pose)?, 0.0)),
-            (_, None) => Ok((
-                self.resting_motion(self.poses[self.poses.len() - 1].1)?,
-                0.0,
-            )),
+            (_, first) => {
+                let (_, pose) = first.unwrap_or(&self.poses[self.poses.len() - 1]);
+                let rests = Motion::about(*pose, DVec3::ZERO, DVec3::ZERO, self.centre)?;
+                Ok((rests, 0.0))
+            }
         }
-    }
-
-    fn resting_motion(&self, pose: Pose) -> Result<Motion, InputError> {
-        Motion::about(pose, DVec3::ZERO, DVec3::ZERO, self.centre)
     }
 
     /// Returns the point of the body that moves straight from each pose to the next.

@@ -77,8 +77,7 @@ impl SmoothTrajectory for Spline {
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        self.orientation_curve
-            .corner(from, to)
-            .or_else(|| self.curve.corner(from, to))
+        let corner = self.orientation_curve.segments.corner(from, to);
+        corner.or_else(|| self.curve.segments.corner(from, to))
     }
 }

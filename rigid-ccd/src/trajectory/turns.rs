@@ -21,14 +21,14 @@ use ccd_core::{InputError, Pose};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrientationCurve {
-    segments: Segments<Turn>,
+    pub(super) segments: Segments<Turn>,
     /// The orientations before the first segment and after the last.
     ends: [DQuat; 2],
 }
 
 /// A rotation at a constant angular velocity from a start orientation, as in slerp.
 #[derive(Clone, Debug, PartialEq)]
-struct Turn {
+pub(super) struct Turn {
     start: DQuat,
     spin: DVec3,
 }
@@ -76,11 +76,6 @@ impl OrientationCurve {
             .acceleration_covering_jumps(from, to, |segment, time| {
                 segment.orientation_and_spin_at(time).1
             })
-    }
-
-    /// Returns a knot strictly between two times, preferably near the middle; `None` if no knot is between them.
-    pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        self.segments.corner(from, to)
     }
 
     /// Bounds the rounding error of an orientation, in radians.
