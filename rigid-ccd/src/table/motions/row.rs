@@ -138,30 +138,26 @@ impl<'a, R: Record> Row<'a, R> {
         let position = self.vector(side, Quantity::Position)?;
         let orientation = self.quaternion(side, Quantity::Orientation)?;
         Ok(Pose::new(
-            position.unwrap_or(DVec3::ZERO),
-            orientation.unwrap_or(DQuat::IDENTITY),
+            position.unwrap_or_default(),
+            orientation.unwrap_or_default(),
         )?)
     }
 
     fn body_pose(&self, side: Side) -> Result<BodyPose, RowProblem> {
         Ok(BodyPose {
             pose: self.start(side)?,
-            spin: self
-                .vector(side, Quantity::AngularVelocity)?
-                .unwrap_or_default(),
-            centre: self.vector(side, Quantity::Centre)?.unwrap_or_default(),
+            spin: self.vector_or_zero(side, Quantity::AngularVelocity)?,
+            centre: self.vector_or_zero(side, Quantity::Centre)?,
         })
     }
 
     fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
         let start = self.start(side)?;
-        let centre = self.vector(side, Quantity::Centre)?.unwrap_or(DVec3::ZERO);
+        let centre = self.vector_or_zero(side, Quantity::Centre)?;
         match self.motion_kind(side)? {
             MotionKind::Velocities => {
-                let velocity = self.vector(side, Quantity::Velocity)?.unwrap_or_default();
-                let spin = self
-                    .vector(side, Quantity::AngularVelocity)?
-                    .unwrap_or_default();
+                let velocity = self.vector_or_zero(side, Quantity::Velocity)?;
+                let spin = self.vector_or_zero(side, Quantity::AngularVelocity)?;
                 Ok(Motion::about(start, velocity, spin, centre)?)
             }
             MotionKind::EndPose => {
@@ -189,10 +185,9 @@ impl<'a, R: Record> Row<'a, R> {
                 end: self.columns.name(end).to_owned(),
                 velocity: self.columns.name(velocity).to_owned(),
             }),
-            (Some(_), None) => Ok(MotionKind::EndPose),
             (None, Some(_)) => Ok(MotionKind::Velocities),
             // If the table has the columns, reading reports the empty cell.
-            (None, None) => match self.column_where(side, end, |_| true) {
+            (_, None) => match self.column_where(side, end, |_| true) {
                 Some(_) => Ok(MotionKind::EndPose),
                 None => Ok(MotionKind::Velocities),
             },
@@ -216,6 +211,10 @@ impl<'a, R: Record> Row<'a, R> {
         let parts = self.numbers::<3>(self.columns.column_range(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
+    }
+
+    fn vector_or_zero(&self, side: Side, quantity: Quantity) -> Result<DVec3, RowProblem> {
+        Ok(self.vector(side, quantity)?.unwrap_or_default())
     }
 
     /// Returns a nonzero quaternion of a body as given, not normalised; `None` if the table has no columns for it.
