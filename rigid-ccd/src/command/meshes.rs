@@ -50,18 +50,12 @@ fn parse_scale_factor(text: &str) -> Result<f64, String> {
 impl MeshArgs {
     /// Returns the options for unit, scale, mirror and surface as the library's adjustments of a mesh.
     pub(super) fn adjustments(&self) -> Adjustments {
-        let mut all = Adjustments::NONE;
-        if let Some(unit) = self.unit {
-            all = all.with_target_unit(unit);
-        }
+        let all = Adjustments::NONE;
+        let all = self.unit.map_or(all, |unit| all.with_target_unit(unit));
         // The parser has refused invalid factors.
-        all = self
-            .scale
-            .and_then(|scale| all.scaled(scale).ok())
-            .unwrap_or(all);
-        if let Some(axis) = self.mirror {
-            all = all.mirrored(axis);
-        }
+        let scaled = self.scale.and_then(|scale| all.scaled(scale).ok());
+        let all = scaled.unwrap_or(all);
+        let all = self.mirror.map_or(all, |axis| all.mirrored(axis));
         if self.surface {
             all.treated_as_hollow()
         } else {
