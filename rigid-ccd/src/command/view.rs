@@ -18,6 +18,7 @@ use anyhow::{Context, Result, bail};
 use ccd_core::{Instructions, Settings};
 use ccd_view::{Group, Page};
 use std::collections::{HashMap, VecDeque};
+use std::ffi::OsStr;
 use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -103,16 +104,13 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
 
 /// Returns the title of a page about two bodies: their names without folders, and the unit.
 pub(super) fn title(bodies: &BodiesArgs) -> String {
-    let name = |text: &str| {
+    let [a, b] = [&bodies.a, &bodies.b].map(|text| {
         let name = Path::new(text).file_name();
-        name.map_or_else(
-            || text.to_owned(),
-            |name| name.to_string_lossy().into_owned(),
-        )
-    };
+        name.map_or(text.into(), OsStr::to_string_lossy)
+    });
     let unit = bodies.meshes.unit();
     let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
-    format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
+    format!("{a} and {b}{unit}")
 }
 
 /// Writes the page of the chosen rows under a title. If no row can be shown, writes no page and prints a message.

@@ -33,11 +33,8 @@ impl ChosenRows {
 
     /// Returns whether an id is one of the given ids; `None` if none are given.
     pub(super) fn is_requested(&self, id: &str) -> Option<bool> {
-        if self.ids.is_empty() {
-            None
-        } else {
-            Some(self.ids.iter().any(|named| named == id))
-        }
+        let is_one_of_them = || self.ids.iter().any(|named| named == id);
+        (!self.ids.is_empty()).then(is_one_of_them)
     }
 
     /// Adds a row if its id is one of the given ids or, without ids, if few rows of its status have been added.
