@@ -71,14 +71,12 @@ impl Journal {
             ccd_file::write(&path, |out| out.write_all(text.as_bytes()))?;
             File::options().append(true).open(&path)
         };
-        match open() {
-            Ok(file) => Ok(Journal {
-                path,
-                file,
-                checksum_hasher: sum,
-            }),
-            Err(source) => Err(OutputError::for_path(&path, source)),
-        }
+        let file = open().map_err(|source| OutputError::for_path(&path, source))?;
+        Ok(Journal {
+            path,
+            file,
+            checksum_hasher: sum,
+        })
     }
 
     /// Appends a checkpoint to the journal.

@@ -218,10 +218,8 @@ impl Outputs {
         if let Some(contacts) = &mut self.contacts {
             checkpoint.contacts = contacts.flush_and_measure()?;
         }
-        match &mut self.journal {
-            Some(journal) => journal.append(checkpoint),
-            None => Ok(()),
-        }
+        let journal = self.journal.as_mut();
+        journal.map_or(Ok(()), |journal| journal.append(checkpoint))
     }
 
     /// Renames the complete tables to their final names.
@@ -232,10 +230,7 @@ impl Outputs {
             ..checkpoint
         })?;
         self.results.finish()?;
-        match self.contacts {
-            Some(contacts) => contacts.finish(),
-            None => Ok(()),
-        }
+        self.contacts.map_or(Ok(()), TableWriter::finish)
     }
 }
 

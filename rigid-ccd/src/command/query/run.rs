@@ -85,13 +85,13 @@ impl QueryRun<'_> {
     /// Writes the results and contacts of a batch of answered rows, and reports the bad ones.
     fn write(&mut self, batch: &[CourseRow], answers: &[RowAnswer]) -> Result<(), OutputError> {
         let (columns, mut answered) = (self.args.columns(), Vec::new());
-        let TimedQuestion {
-            question, settings, ..
-        } = &self.timed_question;
+        let timing = &self.timed_question;
         for (asked, answer) in batch.iter().zip(answers) {
             let (position, course, mut row) = match asked {
                 Ok((position, course)) => {
-                    let row = self.bodies.row(*question, settings, course, answer);
+                    let row = self
+                        .bodies
+                        .row(timing.question, &timing.settings, course, answer);
                     (*position, Some(course), row)
                 }
                 Err(error) => {
@@ -127,13 +127,12 @@ impl QueryRun<'_> {
             return Ok(());
         };
         let (bodies, columns) = (self.bodies, contacts::columns());
-        let TimedQuestion {
-            question, settings, ..
-        } = &self.timed_question;
+        let timing = &self.timed_question;
         // A row may have very many contacts.
         for few in answered.chunks(CONTACT_BATCH_ROWS) {
             let all = self.solver.map(few, |_, (_, course, timed)| {
-                contacts::contact_rows(bodies, course, settings, (*question, &timed.answer))
+                let answered = (timing.question, &timed.answer);
+                contacts::contact_rows(bodies, course, &timing.settings, answered)
             });
             for ((position, ..), rows) in few.iter().zip(all) {
                 match rows {
