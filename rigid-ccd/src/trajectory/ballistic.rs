@@ -44,14 +44,11 @@ impl Ballistic {
 
 impl SmoothTrajectory for Ballistic {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
-        let Ballistic {
-            thrown,
-            acceleration,
-        } = self;
+        let (thrown, acceleration) = (&self.thrown, self.acceleration);
         let pose = thrown.pose(time);
-        let fallen = pose.translation() + 0.5 * time * (time * *acceleration);
+        let fallen = pose.translation() + 0.5 * time * (time * acceleration);
         let start = Pose::new(fallen, pose.rotation())?;
-        let velocity = thrown.velocity() + time * *acceleration;
+        let velocity = thrown.velocity() + time * acceleration;
         Motion::about(start, velocity, thrown.spin(), thrown.centre())
     }
 
@@ -77,13 +74,10 @@ impl SmoothTrajectory for Ballistic {
 
     /// Bounds the rounding errors of poses between two times.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
-        let Ballistic {
-            thrown,
-            acceleration,
-        } = self;
+        let (thrown, acceleration) = (&self.thrown, self.acceleration);
         let time = greater(from.abs(), to.abs());
         let turned = length(thrown.spin()) * time;
-        let way = (length(thrown.velocity()) + 0.5 * time * length(*acceleration)) * time;
+        let way = (length(thrown.velocity()) + 0.5 * time * length(acceleration)) * time;
         DeviationBound {
             shift: 16.0 * U * (length(thrown.start().translation()) + way),
             turn: 8.0 * U * turned,

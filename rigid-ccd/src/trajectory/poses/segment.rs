@@ -45,23 +45,20 @@ impl Segment {
 
     /// Returns the motion with the segment's pose and velocities at `time`, which is counted from the first pose.
     pub(super) fn motion_at(&self, time: f64) -> Result<Motion, InputError> {
-        let Segment {
-            motion,
-            leftover_spin,
-        } = self;
-        if time == 0.0 && *leftover_spin == DVec3::ZERO {
+        let (motion, leftover_spin) = (&self.motion, self.leftover_spin);
+        if time == 0.0 && leftover_spin == DVec3::ZERO {
             return Ok(*motion);
         }
         let (near, centre) = (motion.pose(time), motion.centre());
-        let (pose, spin) = if *leftover_spin == DVec3::ZERO {
+        let (pose, spin) = if leftover_spin == DVec3::ZERO {
             (near, motion.spin())
         } else {
-            let turn = DQuat::from_scaled_axis(*leftover_spin * time);
+            let turn = DQuat::from_scaled_axis(leftover_spin * time);
             let rotation = turn * near.rotation();
             let place = near.transform_point(centre) - rotation * centre;
             (
                 Pose::new(place, rotation)?,
-                *leftover_spin + turn * motion.spin(),
+                leftover_spin + turn * motion.spin(),
             )
         };
         Motion::about(pose, motion.velocity(), spin, centre)
