@@ -85,7 +85,7 @@ pub struct ResultRow {
     pub last_time: Option<f64>,
     /// The counters of the work that the query took.
     #[serde(skip)]
-    pub counters: Option<Stats>,
+    pub stats: Option<Stats>,
 }
 
 impl ResultRow {
@@ -142,7 +142,7 @@ impl ResultRow {
                 (None, Status::Unverified) => Some(compared.reason_clearance_undecided()),
                 (None, _) => None,
             },
-            counters: Some(answer.stats),
+            stats: Some(answer.stats),
             id: course.id().to_owned(),
             status,
             ..ResultRow::default()

@@ -113,13 +113,11 @@ pub(in crate::command) struct QueryArgs {
 impl QueryArgs {
     /// Returns the columns of the table of results that these options ask for.
     pub(super) fn columns(&self) -> Vec<Column> {
-        let counters = results::COUNTER_COLUMNS
-            .into_iter()
-            .filter(|_| self.counters);
-        results::columns(self.ask)
-            .into_iter()
-            .chain(counters)
-            .collect()
+        let mut columns = results::columns(self.ask);
+        if self.counters {
+            columns.extend(results::COUNTER_COLUMNS);
+        }
+        columns
     }
 
     /// Returns the options that determine the tables, with their values as given or by default.

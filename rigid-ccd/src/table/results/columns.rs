@@ -49,20 +49,11 @@ const LAST_TIME_COLUMN: Column = Column("last_time", Number(|row| row.last_time)
 
 /// The columns of the counters, in order; they follow all other columns.
 pub const COUNTER_COLUMNS: [Column; 5] = [
-    Column(
-        "advancements",
-        Count(|row| Some(row.counters?.advancements)),
-    ),
-    Column(
-        "oracle_steps",
-        Count(|row| Some(row.counters?.effort.steps)),
-    ),
-    Column("cycles", Count(|row| Some(row.counters?.effort.cycles))),
-    Column(
-        "fallbacks",
-        Count(|row| Some(row.counters?.effort.fallbacks)),
-    ),
-    Column("front", Count(|row| Some(row.counters?.peak_front))),
+    Column("advancements", Count(|row| Some(row.stats?.advancements))),
+    Column("oracle_steps", Count(|row| Some(row.stats?.effort.steps))),
+    Column("cycles", Count(|row| Some(row.stats?.effort.cycles))),
+    Column("fallbacks", Count(|row| Some(row.stats?.effort.fallbacks))),
+    Column("front", Count(|row| Some(row.stats?.peak_front))),
 ];
 
 /// Returns the columns of the answers to a question, without counters.
