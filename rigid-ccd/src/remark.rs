@@ -185,14 +185,10 @@ impl fmt::Display for Remark {
             Remark::CoarseTolerance { tolerance, size } => {
                 write!(f, "{tolerance}, and the body is {size} long")
             }
-            Remark::AngularVelocityInDegrees { spin, turn } => write!(
-                f,
-                "({}, {}, {}) makes {:.1} turns",
-                spin.x,
-                spin.y,
-                spin.z,
-                turn / TAU
-            ),
+            Remark::AngularVelocityInDegrees { spin, turn } => {
+                let [x, y, z] = spin.to_array();
+                write!(f, "({x}, {y}, {z}) makes {:.1} turns", turn / TAU)
+            }
             Remark::JointInDegrees { position } => {
                 write!(f, "{position} is {:.1} turns", position.abs() / TAU)
             }

@@ -210,17 +210,14 @@ fn describe_distance(row: &ResultRow) -> String {
 
 /// Returns the name of a feature in words: `vertex 7` for `v7`.
 fn feature_in_words(name: &str) -> String {
-    let kinds = [
-        ('v', "vertex"),
-        ('e', "edge"),
-        ('f', "face"),
-        ('p', "piece"),
-    ];
-    let kind = kinds.iter().find(|(sign, _)| name.starts_with(*sign));
-    kind.map_or_else(
-        || name.to_owned(),
-        |(_, kind)| format!("{kind} {}", &name[1..]),
-    )
+    let kind = match name.as_bytes().first() {
+        Some(b'v') => "vertex",
+        Some(b'e') => "edge",
+        Some(b'f') => "face",
+        Some(b'p') => "piece",
+        _ => return name.to_owned(),
+    };
+    format!("{kind} {}", &name[1..])
 }
 
 /// Formats a number with at most six decimals, or four digits and an exponent, rounded down: the text is a lower bound.

@@ -14,10 +14,8 @@ pub(super) fn overlapping_pairs(
     asked: impl Fn([usize; 2]) -> bool,
 ) -> Vec<[usize; 2]> {
     let corner = |point: ccd_core::glam::DVec3| Vector::from_array(point.to_array());
-    let leaves = boxes
-        .iter()
-        .map(|swept| Aabb::new(corner(swept.min), corner(swept.max)));
-    let leaves: Vec<Aabb> = leaves.collect();
+    let leaf = |swept: &SweptBox| Aabb::new(corner(swept.min), corner(swept.max));
+    let leaves: Vec<Aabb> = boxes.iter().map(leaf).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);
     let mut pairs = Vec::new();
     tree.traverse_bvtt_single_tree::<false>(&mut BvhWorkspace::default(), &mut |a, b| {

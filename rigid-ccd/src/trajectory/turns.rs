@@ -95,25 +95,21 @@ impl Segment<Turn> {
 
 /// Returns the orientations as unit quaternions, each with the sign that makes it nearer to the quaternion before it.
 fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
+    if keys.is_empty() {
+        return Err(out_of_range_error(
+            "number of orientations",
+            0.0,
+            "at least 1",
+        ));
+    }
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {
         let unit = Pose::new(DVec3::ZERO, DQuat::from_array(key))?.rotation();
         let last = units.last().copied();
-        check_time_is_later(
-            "time of an orientation",
-            time,
-            last.map(|(before, _)| before),
-        )?;
+        let before = last.map(|(before, _)| before);
+        check_time_is_later("time of an orientation", time, before)?;
         let turned = last.is_some_and(|(_, before)| before.dot(unit) < 0.0);
         units.push((time, if turned { -unit } else { unit }));
     }
-    if units.is_empty() {
-        Err(out_of_range_error(
-            "number of orientations",
-            0.0,
-            "at least 1",
-        ))
-    } else {
-        Ok(units)
-    }
+    Ok(units)
 }

@@ -9,7 +9,7 @@ const MAX_ROWS_PER_STATUS: usize = 4;
 const MAX_ROWS: usize = 100;
 
 /// The rows chosen for a page so far, and the rule by which they are chosen.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::command) struct ChosenRows {
     /// The ids of the rows to show; if empty, a few rows of each status are shown.
     ids: Vec<String>,
@@ -25,9 +25,7 @@ impl ChosenRows {
     pub(in crate::command) fn new(ids: Vec<String>) -> Self {
         ChosenRows {
             ids,
-            rows: Vec::new(),
-            omitted_count: 0,
-            first_fault: None,
+            ..ChosenRows::default()
         }
     }
 
