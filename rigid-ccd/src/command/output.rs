@@ -43,14 +43,11 @@ pub(super) struct Output {
 impl Output {
     /// Reserves an output before the work starts, so that an output that cannot be written fails at once.
     pub(super) fn claim(path: &Path) -> Result<Self, OutputError> {
-        let claim = || match Destination::resolve(path)? {
-            Destination::File(target) => Claim::new(target).map(Some),
-            Destination::Stream => Ok(None),
-        };
-        let claim = if is_standard_output(path) {
-            Ok(None)
-        } else {
-            claim()
+        let claim = match Destination::resolve(path) {
+            _ if is_standard_output(path) => Ok(None),
+            Ok(Destination::File(target)) => Claim::new(target).map(Some),
+            Ok(Destination::Stream) => Ok(None),
+            Err(error) => Err(error),
         };
         Ok(Output {
             path: path.to_owned(),
