@@ -120,15 +120,11 @@ impl<'a> Painter<'a> {
             view.gap = Some(found.gap);
         }
         view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
-        let motions = shown_motions(query)?;
-        let names = ["A", "B"];
-        view.bodies = (names
-            .iter()
-            .zip(self.mesh_indices)
-            .zip(BODY_COLORS)
-            .zip(motions))
-        .map(|(((name, mesh), color), motion)| ShownBody::new(name, mesh, color, motion))
-        .collect();
+        let looks = self.mesh_indices.into_iter().zip(BODY_COLORS);
+        let shown = ["A", "B"].iter().zip(looks).zip(shown_motions(query)?);
+        view.bodies = shown
+            .map(|((name, (mesh, color)), motion)| ShownBody::new(name, mesh, color, motion))
+            .collect();
         Ok(View {
             start,
             // For bodies that do not touch, show the time at which they are nearest.

@@ -53,13 +53,10 @@ impl Progress {
     pub fn new(total: TotalWork) -> Self {
         let mut progress = Progress::new_hidden();
         progress.total_work = total;
-        let length = match total {
-            TotalWork::Steps(steps) => Some(steps as u64),
-            TotalWork::Bytes(bytes) => Some(bytes),
-            TotalWork::Unknown | TotalWork::SingleStep => None,
-        };
-        if let Some(length) = length {
-            progress.bar.set_length(length);
+        match total {
+            TotalWork::Steps(steps) => progress.bar.set_length(steps as u64),
+            TotalWork::Bytes(bytes) => progress.bar.set_length(bytes),
+            TotalWork::Unknown | TotalWork::SingleStep => {}
         }
         let (bar, steps) = (progress.bar.clone(), Arc::clone(&progress.steps));
         bar.set_style(progress_style(total, Arc::clone(&steps)));
