@@ -88,11 +88,8 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<RunOutcome> {
     };
     let contacts = table.contacts(settings);
     if !args.quiet {
-        print_error(&scene_verdict(
-            &table.bodies_to_draw(),
-            &contacts,
-            table.duration,
-        ));
+        let bodies = table.bodies_to_draw();
+        print_error(&scene_verdict(&bodies, &contacts, table.duration));
     }
     let ids: Vec<&str> = table.ids().collect();
     let columns = reordered_columns(&[], OMITTED_COLUMNS);

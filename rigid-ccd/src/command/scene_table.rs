@@ -89,10 +89,8 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
             "has no column `{BODY_COLUMN_NAME}`; a table of motions is shown with --a, --b and --motions"
         );
     }
-    if let Some(time) = header
-        .iter()
-        .find(|column| LIKELY_TIME_COLUMNS.contains(&column.as_str()))
-    {
+    let is_time = |column: &&String| LIKELY_TIME_COLUMNS.contains(&column.as_str());
+    if let Some(time) = header.iter().find(is_time) {
         bail!(
             "all motions of a scene end together: give --duration in place of the column `{time}`"
         );
@@ -158,10 +156,8 @@ impl SceneTable {
             print_escaped_to_stderr(report);
         }
         if self.is_default_duration {
-            print_error(&format!(
-                "without --duration, all motions end at {}",
-                self.duration
-            ));
+            let end = self.duration;
+            print_error(&format!("without --duration, all motions end at {end}"));
         }
         let sizes = self.bodies.values().map(Remark::size);
         let least = sizes.filter(|&size| size > 0.0).fold(f64::INFINITY, lesser);

@@ -92,11 +92,8 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         pair.print_remarks(args.tolerance, &rows);
     }
     if let (Some(results), true) = (&args.results, chosen.is_empty()) {
-        bail!(
-            "no row of {} is in {}",
-            input_name(motions),
-            results.display()
-        );
+        let (motions, results) = (input_name(motions), results.display());
+        bail!("no row of {motions} is in {results}");
     }
     let painter = Painter::new(pair.bodies(), asked);
     write_rows_page((&title(bodies), painter), chosen, out, args.quiet)
