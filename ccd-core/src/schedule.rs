@@ -9,7 +9,7 @@ use crate::error::InputError;
 pub use crate::paper::fast::Fast;
 pub use crate::paper::naive::Naive;
 use crate::query::Query;
-use crate::questions::along::first;
+use crate::questions::along::contacts::first_contact;
 pub use crate::questions::depth_first::DepthFirst;
 pub use crate::questions::steps::{FirstContact, Progress};
 pub use crate::shortcuts::{Shortcut, Shortcuts};
@@ -55,7 +55,7 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Schedule<O> for S {
     fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
         match &query.problem {
             Some(problem) => Ok(self.answer_first_contact(problem, oracle)),
-            None => first::first_contact(self, query, oracle),
+            None => first_contact(self, query, oracle),
         }
     }
 }

@@ -4,11 +4,10 @@
 //! deviation. The query about these motions uses the sum of both deviations as a margin: if the motions keep this
 //! margin, the bodies are apart. A contact within the deviations proves nothing, and the stretch is cut.
 
-pub(crate) mod any;
+mod any;
 pub(crate) mod closest;
-mod contacts;
+pub(crate) mod contacts;
 mod drive;
-pub(crate) mod first;
 pub(crate) mod interval;
 mod lengths;
 mod motions;

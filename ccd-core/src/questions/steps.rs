@@ -1,6 +1,6 @@
 //! Searches for the first contact in steps: the search stops at a given time, and continues later.
 
-use super::along::first::first_contact;
+use super::along::contacts::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::contacts::given::outcome_for_given_bodies;
 use crate::distance::oracle::DistanceOracle;

@@ -1,25 +1,162 @@
-//! The results so far of a search for contacts along trajectories.
+//! Searches for the first or any contact along trajectories, one stretch of time after the other.
 
-use super::motions::StretchMotions;
+use super::drive::{Question, search_stretches};
+use super::lengths::{choose_next_length, cut_if_too_long};
+use super::motions::{Span, StretchMotions};
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Contact, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::EngineSchedule;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
+use crate::problem::Problem;
 use crate::query::Query;
+use crate::questions::any::touching_as_contact;
 use std::ops::ControlFlow;
 
-/// The gap and the tolerance that are proven for the stretches searched so far.
-pub(super) struct ProvenGap {
+/// Finds the time at which the bodies first touch along their trajectories.
+pub(crate) fn first_contact<O: DistanceOracle, S: EngineSchedule<O>>(
+    schedule: &mut S,
+    query: &Query<'_>,
+    oracle: &mut O,
+) -> Result<Answer, InputError> {
+    search_contact(schedule, WantedContact::First, query, oracle)
+}
+
+/// Searches for a contact of bodies on trajectories with a schedule that finds the wanted contact of motions.
+pub(super) fn search_contact<O: DistanceOracle, S: EngineSchedule<O>>(
+    schedule: &mut S,
+    wanted: WantedContact,
+    query: &Query<'_>,
+    oracle: &mut O,
+) -> Result<Answer, InputError> {
+    let mut search = ContactSearch {
+        schedule,
+        wanted,
+        gap: f64::INFINITY,
+        margin: query.settings.margin,
+        tolerance: query.settings.tolerance,
+        undecided_time: f64::INFINITY,
+    };
+    search_stretches(&mut search, query, oracle)
+}
+
+/// The contact that a query asks for: the first one, or whichever is found first.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum WantedContact {
+    First,
+    Any,
+}
+
+/// A search for a contact, with the gap and the tolerance that are proven for the stretches searched so far.
+struct ContactSearch<'s, S> {
+    schedule: &'s mut S,
+    wanted: WantedContact,
     gap: f64,
     margin: f64,
     tolerance: f64,
     /// The first time at which it is undecided whether one body is inside the other.
-    pub(super) undecided_time: f64,
+    undecided_time: f64,
+}
+
+impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, S> {
+    fn takes_accelerations(&self) -> bool {
+        self.schedule.handles_accelerations()
+    }
+
+    fn cut_if_too_long(
+        &mut self,
+        stretches: &mut WaitingStretches<'_, '_>,
+        motions: &StretchMotions,
+        oracle: &mut O,
+    ) -> Result<bool, InputError> {
+        cut_if_too_long(stretches, motions, oracle, self.schedule.scratch())
+    }
+
+    fn search_stretch(
+        &mut self,
+        stretches: &mut WaitingStretches<'_, '_>,
+        motions: &StretchMotions,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+    ) -> Result<ControlFlow<Answer>, InputError> {
+        if self.wanted == WantedContact::First {
+            // The stretches before a contact may not be examined again.
+            self.record_gap(motions, problem.proven_gap());
+        }
+        let answer = self.schedule.answer_first_contact(problem, oracle);
+        let seen = match self.record(stretches, motions, &answer)? {
+            StretchResult::Done(flow) => return Ok(flow),
+            StretchResult::InContact(s, contact) => (s, contact),
+        };
+        if stretches.accepts_contact(motions)? {
+            let found = self.contact_answer(stretches, motions, answer.outcome)?;
+            return Ok(match (self.wanted, found.outcome) {
+                (WantedContact::First, _) => ControlFlow::Break(found),
+                // One body is inside the other: they have met before, or overlap at the start.
+                (WantedContact::Any, Outcome::Unresolved(known)) => {
+                    self.undecided_time = lesser(self.undecided_time, known.safe_until);
+                    ControlFlow::Continue(())
+                }
+                (WantedContact::Any, _) => ControlFlow::Break(touching_as_contact(found)),
+            });
+        }
+        let (span, time) = (motions.span, motions.query_time(seen.0));
+        let scratch = self.schedule.scratch();
+        let length = choose_next_length(stretches, motions, seen, oracle, scratch)?;
+        let is_cut = match self.wanted {
+            WantedContact::First => cut_after(stretches, span, time, length),
+            WantedContact::Any => stretches.cut_out_around(span, time, 2.0 * length),
+        };
+        Ok(if is_cut {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(self.unresolved(stretches, span.from, Limit::Stalled))
+        })
+    }
+
+    fn on_limit(
+        &mut self,
+        stretches: &WaitingStretches<'_, '_>,
+        span: Span,
+        limit: Limit,
+    ) -> Answer {
+        self.unresolved(stretches, span.from, limit)
+    }
+
+    /// Returns the answer when all stretches are done: free, or undecided if one body may be inside the other.
+    fn on_end(
+        &mut self,
+        stretches: &mut WaitingStretches<'_, '_>,
+        _: &mut O,
+    ) -> Result<Answer, InputError> {
+        if self.undecided_time.is_finite() {
+            return Ok(self.unresolved(stretches, self.undecided_time, Limit::Undecided));
+        }
+        let proven_gap = greater(self.gap, self.margin);
+        Ok(self.answer(stretches, Outcome::Free { proven_gap }))
+    }
+}
+
+/// Lets the part of a stretch after a time wait, in two if it is long. Returns false if that is the whole stretch and
+/// it cannot be cut.
+fn cut_after(stretches: &mut WaitingStretches<'_, '_>, span: Span, time: f64, length: f64) -> bool {
+    let rest = Span { from: time, ..span };
+    // A much shorter stretch also has much smaller deviations.
+    let is_short = rest.length() <= lesser(length, 0.5 * span.length());
+    if !is_short && stretches.cut(rest, length) {
+        return true;
+    }
+    let is_part = rest.from > span.from;
+    if is_part {
+        stretches.push(rest);
+    }
+    is_part
 }
 
 /// The result of the search for a contact in one stretch.
 #[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
-pub(super) enum StretchResult {
+enum StretchResult {
     /// The search of the stretch is over: either the next stretch follows, or a limit was reached and the query ends
     /// with this answer. The next stretch follows if the bodies are apart in this one, or if this one has to wait until
     /// the pose at the start is examined.
@@ -29,23 +166,14 @@ pub(super) enum StretchResult {
     InContact(f64, Option<Contact>),
 }
 
-impl ProvenGap {
-    pub(super) fn new(query: &Query<'_>) -> Self {
-        ProvenGap {
-            gap: f64::INFINITY,
-            margin: query.settings.margin,
-            tolerance: query.settings.tolerance,
-            undecided_time: f64::INFINITY,
-        }
-    }
-
+impl<S> ContactSearch<'_, S> {
     /// Records the gap that the motions of a stretch are proven to keep, minus the deviations.
-    pub(super) fn record_gap(&mut self, motions: &StretchMotions, proven_gap: f64) {
+    fn record_gap(&mut self, motions: &StretchMotions, proven_gap: f64) {
         self.gap = lesser(self.gap, motions.lower_bound_for_bodies(proven_gap));
     }
 
     /// Records what a search of a stretch's motions proved, and returns whether the motions are in contact.
-    pub(super) fn record(
+    fn record(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
@@ -85,18 +213,9 @@ impl ProvenGap {
         }
     }
 
-    /// Returns the answer when all stretches are done: free, or undecided if one body may be inside the other.
-    pub(super) fn finish(&self, stretches: &WaitingStretches<'_, '_>) -> Answer {
-        if self.undecided_time.is_finite() {
-            return self.unresolved(stretches, self.undecided_time, Limit::Undecided);
-        }
-        let proven_gap = greater(self.gap, self.margin);
-        self.answer(stretches, Outcome::Free { proven_gap })
-    }
-
     /// Returns the unresolved answer for a search that reached a limit. The bodies are apart until `safe_until`, except
     /// in the stretches that wait and those that are undecided.
-    pub(super) fn unresolved(
+    fn unresolved(
         &self,
         stretches: &WaitingStretches<'_, '_>,
         safe_until: f64,
@@ -110,7 +229,7 @@ impl ProvenGap {
     }
 
     /// Converts a contact of a stretch's motions to the answer of the query.
-    pub(super) fn contact_answer(
+    fn contact_answer(
         &mut self,
         stretches: &WaitingStretches<'_, '_>,
         motions: &StretchMotions,

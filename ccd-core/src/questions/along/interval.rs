@@ -1,6 +1,6 @@
 //! Computes the first and the last contact along trajectories.
 
-use super::first::first_contact;
+use super::contacts::first_contact;
 use crate::answer::{Answer, Hit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::best_first::BestFirst;
