@@ -172,19 +172,9 @@ impl Outcome {
             Outcome::Touching { contact } => at(0.0, HitKind::Touching(contact)),
             Outcome::Overlapping { overlap, .. } => at(0.0, HitKind::Overlapping(overlap)),
             Outcome::Interval { first, .. } => Ok(Some(first)),
-            // Bodies that may touch count as in contact.
-            Outcome::LeastDistance {
-                lower,
-                time,
-                contact,
-            } => {
-                // Written so that NaN is a contact.
-                if lower > 0.0 {
-                    Ok(None)
-                } else {
-                    at(time, HitKind::Contact(contact))
-                }
-            }
+            Outcome::LeastDistance { lower, .. } if lower > 0.0 => Ok(None),
+            // Bodies that may touch count as in contact, and a lower bound that is NaN excludes no contact.
+            Outcome::LeastDistance { time, contact, .. } => at(time, HitKind::Contact(contact)),
             Outcome::Unresolved(known) => Err(known),
         }
     }
@@ -297,54 +287,34 @@ impl Outcome {
 
     /// Replaces each contact by `map(contact, time)`, and takes the upper bounds of the least distance from the new
     /// contacts.
-    pub(crate) fn map_contacts(self, mut map: impl FnMut(Contact, f64) -> Contact) -> Self {
-        match self {
-            Outcome::Contact { time, contact } => Outcome::Contact {
-                time,
-                contact: map(contact, time),
-            },
-            Outcome::Touching { contact } => Outcome::Touching {
-                contact: map(contact, 0.0),
-            },
-            Outcome::Overlapping {
+    pub(crate) fn map_contacts(mut self, mut map: impl FnMut(Contact, f64) -> Contact) -> Self {
+        match &mut self {
+            Outcome::Contact { time, contact } | Outcome::LeastDistance { time, contact, .. } => {
+                *contact = map(*contact, *time);
+            }
+            Outcome::Touching { contact }
+            | Outcome::Overlapping {
                 overlap: Overlap::Pieces(contact),
-                upper,
-            } => Outcome::Overlapping {
-                overlap: Overlap::Pieces(map(contact, 0.0)),
-                upper,
-            },
-            Outcome::LeastDistance {
-                lower,
-                time,
-                contact,
-            } => Outcome::LeastDistance {
-                lower,
-                time,
-                contact: map(contact, time),
-            },
-            Outcome::Unresolved(known) => Outcome::Unresolved(
-                Unresolved {
-                    nearest: known
-                        .nearest
-                        .map(|(time, contact)| (time, map(contact, time))),
-                    ..known
-                }
-                .with_measured_upper_bound(),
-            ),
+                ..
+            } => *contact = map(*contact, 0.0),
+            Outcome::Unresolved(known) => {
+                let nearest = known.nearest;
+                known.nearest = nearest.map(|(time, contact)| (time, map(contact, time)));
+                *known = known.with_measured_upper_bound();
+            }
             // The contacts of an interval are those of two first contacts, which have already been mapped.
-            Outcome::Free { .. } | Outcome::Overlapping { .. } | Outcome::Interval { .. } => self,
+            Outcome::Free { .. } | Outcome::Overlapping { .. } | Outcome::Interval { .. } => {}
         }
+        self
     }
 
     /// Converts an outcome about enclosing bodies to an outcome about the enclosed shapes.
     fn for_enclosed_shapes(self, excess: ExcessSum) -> Self {
-        match self.map_contacts(|contact, _| contact.widened_by_excess(excess)) {
-            Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
-                overlap,
-                upper: excess.shape_distance_bound_at_overlap(),
-            },
-            outcome => outcome,
+        let mut outcome = self.map_contacts(|contact, _| contact.widened_by_excess(excess));
+        if let Outcome::Overlapping { upper, .. } = &mut outcome {
+            *upper = excess.shape_distance_bound_at_overlap();
         }
+        outcome
     }
 }
 

@@ -56,15 +56,9 @@ impl Contact {
     }
 
     /// Returns the same contact with other bounds of the distance.
-    pub(crate) fn with_bounds(self, lower: f64, upper: f64) -> Self {
-        Contact {
-            separation: Separation {
-                lower,
-                upper,
-                ..self.separation
-            },
-            ..self
-        }
+    pub(crate) fn with_bounds(mut self, lower: f64, upper: f64) -> Self {
+        (self.separation.lower, self.separation.upper) = (lower, upper);
+        self
     }
 }
 

@@ -88,12 +88,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// Returns the answer with a contact at the start reported as a contact at time 0; other answers are unchanged.
-pub(crate) fn touching_as_contact(answer: Answer) -> Answer {
-    let outcome = match answer.outcome {
-        Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
-        outcome => outcome,
-    };
-    Answer { outcome, ..answer }
+pub(crate) fn touching_as_contact(mut answer: Answer) -> Answer {
+    if let Outcome::Touching { contact } = answer.outcome {
+        answer.outcome = Outcome::Contact { time: 0.0, contact };
+    }
+    answer
 }
 
 /// A search for any contact of two bodies, with what it has proven so far.

@@ -228,21 +228,13 @@ fn outcome_for_all_periods(
     let found = found.map_err(|FartherThanCutoff { lower }| FartherThanCutoff {
         lower: sample.lower(lower),
     })?;
-    let lower = sample.lower(found.lower());
-    Ok(
-        match found.map_contacts(|contact, _| sample.widen_contact(contact)) {
-            Outcome::LeastDistance { time, contact, .. } => Outcome::LeastDistance {
-                lower,
-                time,
-                contact,
-            },
-            Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
-                lower: greater(0.0, lower),
-                ..known
-            }),
-            _ => found,
-        },
-    )
+    let mut outcome = found.map_contacts(|contact, _| sample.widen_contact(contact));
+    match &mut outcome {
+        Outcome::LeastDistance { lower, .. } => *lower = sample.lower(*lower),
+        Outcome::Unresolved(known) => known.lower = greater(0.0, sample.lower(known.lower)),
+        _ => return Ok(found),
+    }
+    Ok(outcome)
 }
 
 /// Returns `found`, or the outcome that the bodies overlap if they overlap at the start.
