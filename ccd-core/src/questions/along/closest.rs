@@ -41,7 +41,6 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let mut closest = ClosestApproachSearch {
             schedule: self,
-            query,
             least_distance_so_far: LeastDistanceSoFar::new(query),
         };
         search_stretches(&mut closest, query, oracle)
@@ -69,13 +68,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-struct ClosestApproachSearch<'s, 'q, 'a, O: DistanceOracle> {
+struct ClosestApproachSearch<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
-    query: &'q Query<'a>,
     least_distance_so_far: LeastDistanceSoFar,
 }
 
-impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
+impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
     /// Tries to prove a lower bound of the least distance over the whole query, if the next such attempt is due.
     fn before_stretch(
         &mut self,
@@ -92,8 +90,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         ) else {
             return Ok(());
         };
-        let mut query = self.query.contact_query(rung);
-        query.settings.budget = rung.budget;
+        let mut query = stretches.query().contact_query(rung);
         query.settings.deadline = left.deadline;
         let answer = self.schedule.any_contact_along(&query, oracle)?;
         stretches.add_uncharged_work(&answer.stats);
@@ -136,7 +133,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
-        let (found, query) = (&mut self.least_distance_so_far, self.query);
+        let found = &mut self.least_distance_so_far;
         // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
         // the upper bound.
         let beyond = found.upper() + motions.total_deviation_bound + 2.0 * problem.tolerance;
@@ -152,30 +149,27 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             Ok(outcome @ Outcome::Overlapping { .. })
                 if stretches.starts_at_initial_poses(motions)? =>
             {
-                return Ok(ControlFlow::Break(found.answer(query, stretches, outcome)));
+                return Ok(ControlFlow::Break(found.answer(stretches, outcome)));
             }
             Ok(outcome) => match found.record(motions, &outcome) {
                 Ok(seen) => seen,
                 Err(limit) => {
-                    let stopped = found.unresolved(query, stretches, motions.span, limit);
+                    let stopped = found.unresolved(stretches, motions.span, limit);
                     return Ok(ControlFlow::Break(stopped));
                 }
             },
         };
         let lower = greater(0.0, motions.lower_bound_for_bodies(seen.lower));
-        let tolerance = query.settings.tolerance;
+        let tolerance = stretches.query().settings.tolerance;
         let is_near_enough =
             lower >= found.upper() - tolerance || seen.is_limited_by_rounding(tolerance);
         if is_near_enough || stretches.accepts_contact(motions)? {
             found.lower = lesser(found.lower, lower);
             stretches.record_proven_stretch(motions);
         } else if !self.cut_where_nearest(stretches, oracle, motions, &seen)? {
-            let stalled = self.least_distance_so_far.unresolved(
-                query,
-                stretches,
-                motions.span,
-                Limit::Stalled,
-            );
+            let stalled =
+                self.least_distance_so_far
+                    .unresolved(stretches, motions.span, Limit::Stalled);
             return Ok(ControlFlow::Break(stalled));
         }
         if self.least_distance_so_far.upper() > tolerance {
@@ -192,7 +186,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         limit: Limit,
     ) -> Answer {
         self.least_distance_so_far
-            .unresolved(self.query, stretches, span, limit)
+            .unresolved(stretches, span, limit)
     }
 
     fn on_end(
@@ -200,9 +194,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let nearest = self
-            .least_distance_so_far
-            .nearest_answer(self.query, stretches);
+        let nearest = self.least_distance_so_far.nearest_answer(stretches);
         if meet_after_start(&nearest.outcome, nearest.tolerance) {
             self.check_start_overlap(stretches, oracle, nearest)
         } else {
@@ -211,7 +203,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     }
 }
 
-impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
+impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
     /// Returns `nearest`, or the answer that the bodies overlap if they overlap at the start.
     fn check_start_overlap(
         &mut self,
@@ -222,7 +214,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         let Ok((pose, terms)) = stretches.motions_and_settings_at(0.0)? else {
             return Ok(nearest);
         };
-        let problem = pose.problem(self.query, &terms)?;
+        let problem = pose.problem(stretches.query(), &terms)?;
         let start = self
             .schedule
             .search_least_distance_of_bodies(&problem, oracle);
@@ -250,7 +242,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
             settings: terms,
             duration,
             ..
-        } = self.query;
+        } = stretches.query();
         // Halves mostly suffice, and cost less than measuring the distance.
         if motions.span.length() > MIN_UNMEASURED_LENGTH_SHARE * duration {
             return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
@@ -284,7 +276,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         let Ok((pose, terms)) = stretches.motions_and_settings_at(time)? else {
             return Ok(None);
         };
-        let problem = pose.problem(self.query, &terms)?;
+        let problem = pose.problem(stretches.query(), &terms)?;
         let answer = self
             .schedule
             .search_least_distance_of_bodies(&problem, oracle);

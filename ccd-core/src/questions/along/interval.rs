@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::Motion;
 use crate::motion::trajectory::{DeviationBound, Stretch, Trajectory};
-use crate::query::{Movement, MovingBody, Query};
+use crate::query::{Movement, Query};
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use std::time::Instant;
 
@@ -51,14 +51,8 @@ impl<O: DistanceOracle> BestFirst<O> {
             duration,
         });
         let mut back = Query {
-            a: MovingBody {
-                body: query.a.body,
-                movement: Movement::Trajectory(&a),
-            },
-            b: MovingBody {
-                body: query.b.body,
-                movement: Movement::Trajectory(&b),
-            },
+            a: (query.a.body, Movement::Trajectory(&a)).into(),
+            b: (query.b.body, Movement::Trajectory(&b)).into(),
             problem: None,
             ..*query
         };

@@ -7,39 +7,27 @@ use crate::query::Query;
 use crate::questions::along::motions::{Span, StretchMotions};
 use crate::questions::along::stretches::WaitingStretches;
 use crate::questions::closest::ladder::{LowerBoundAttempts, MarginQuery};
-use crate::settings::QuerySettings;
 use crate::shortcuts::bounding_volumes::least_distance;
 use crate::tuning::MIN_CUT_SHARE;
 
 impl Query<'_> {
     /// Returns a copy of the query for measuring distances, with a margin of 0 and no required clearance.
     pub(in crate::questions::along) fn for_distances(&self) -> Self {
-        Query {
-            settings: QuerySettings {
-                margin: 0.0,
-                clearance: None,
-                ..self.settings
-            },
+        let mut query = Query {
             problem: None,
             ..*self
-        }
+        };
+        (query.settings.margin, query.settings.clearance) = (0.0, None);
+        query
     }
 
     /// Returns a copy of the query that asks for contacts with the margin, tolerance and budget of `rung`.
     pub(super) fn contact_query(&self, rung: MarginQuery) -> Self {
-        let MarginQuery {
-            margin,
-            tolerance,
-            budget,
-        } = rung;
-        let mut asking = self.for_distances();
-        asking.settings = QuerySettings {
-            margin,
-            tolerance,
-            budget,
-            ..asking.settings
-        };
-        asking
+        let mut query = self.for_distances();
+        query.settings.margin = rung.margin;
+        query.settings.tolerance = rung.tolerance;
+        query.settings.budget = rung.budget;
+        query
     }
 }
 
@@ -168,14 +156,10 @@ impl LeastDistanceSoFar {
         }
     }
 
-    pub(super) fn nearest_answer(
-        &self,
-        query: &Query<'_>,
-        stretches: &WaitingStretches<'_, '_>,
-    ) -> Answer {
+    pub(super) fn nearest_answer(&self, stretches: &WaitingStretches<'_, '_>) -> Answer {
         let Some((time, contact)) = self.nearest_contact else {
             let reason = Limit::OracleGaveUp;
-            return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
+            return self.answer(stretches, self.unresolved_outcome(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
         let nearest = Outcome::LeastDistance {
@@ -183,18 +167,18 @@ impl LeastDistanceSoFar {
             time,
             contact: contact.cap_lower_bound(lower),
         };
-        self.answer(query, stretches, nearest)
+        self.answer(stretches, nearest)
     }
 
     /// Returns the unresolved answer for a search that reached a limit in the stretch `span`. For this stretch and the
     /// waiting ones, bounding balls of the bodies give the lower bound.
     pub(super) fn unresolved(
         &self,
-        query: &Query<'_>,
         stretches: &WaitingStretches<'_, '_>,
         span: Span,
         reason: Limit,
     ) -> Answer {
+        let query = stretches.query();
         let apart = |&span: &Span| {
             let motions = StretchMotions::new(query, span)?;
             let problem = motions.problem(query, &query.settings)?;
@@ -205,7 +189,7 @@ impl LeastDistanceSoFar {
         let known = |apart: Result<f64, InputError>| apart.ok().filter(|&apart| apart > 0.0);
         let apart = spans.map(|span| known(apart(span)).unwrap_or(0.0));
         let lower = apart.fold(self.lower, lesser);
-        self.answer(query, stretches, self.unresolved_outcome(lower, reason))
+        self.answer(stretches, self.unresolved_outcome(lower, reason))
     }
 
     /// Returns the unresolved outcome for a search that reached a limit; `lower` is a lower bound of the distance at
@@ -223,15 +207,10 @@ impl LeastDistanceSoFar {
         ))
     }
 
-    pub(super) fn answer(
-        &self,
-        query: &Query<'_>,
-        stretches: &WaitingStretches<'_, '_>,
-        outcome: Outcome,
-    ) -> Answer {
+    pub(super) fn answer(&self, stretches: &WaitingStretches<'_, '_>, outcome: Outcome) -> Answer {
         Answer {
             tolerance: greater(
-                query.settings.tolerance,
+                stretches.query().settings.tolerance,
                 outcome.least_distance_bracket_width(),
             ),
             outcome,
