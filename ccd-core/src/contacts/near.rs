@@ -66,15 +66,14 @@ fn near_piece_pairs(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option
 
 /// Returns the ids of a node's children; empty for a triangle or a node with a single piece.
 fn child_ids(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
-    let members = match tree.get(at) {
-        NodeOrTriangle::Triangle(_) => return 0..0,
+    match tree.get(at) {
+        NodeOrTriangle::Triangle(_) => 0..0,
         NodeOrTriangle::Node(node) => match node.children {
-            NodeChildren::Boxes(group) => &tree.box_group(group).header,
-            NodeChildren::Triangles(group) => tree.triangle_group_header(group),
-            NodeChildren::Piece(_) => return 0..0,
+            NodeChildren::Boxes(group) => tree.box_group(group).header.children(),
+            NodeChildren::Triangles(group) => tree.triangle_group_header(group).children(),
+            NodeChildren::Piece(_) => 0..0,
         },
-    };
-    members.first_child..members.first_child + members.count
+    }
 }
 
 /// The bounding volume of a node or triangle, in A's frame: a ball, with a box or the triangle itself.

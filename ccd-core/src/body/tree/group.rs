@@ -62,6 +62,13 @@ pub(crate) struct GroupHeader {
     pub(crate) count: u32,
 }
 
+impl GroupHeader {
+    /// Returns the numbers of the children in the tree.
+    pub(crate) fn children(&self) -> std::ops::Range<u32> {
+        self.first_child..self.first_child + self.count
+    }
+}
+
 impl BoxGroup {
     /// Creates the group of consecutive child nodes; `first` is the id of the first node.
     pub(crate) fn new(nodes: &[Node], first: u32, origin: DVec3) -> Self {

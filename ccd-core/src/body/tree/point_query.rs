@@ -1,7 +1,7 @@
 //! Finds the pieces whose boxes contain a point or are near it, and tests whether the surface is far from it.
 
 use super::waiting::NodeStack;
-use super::{NodeChildren, Tree};
+use super::{Node, NodeChildren, Tree};
 use crate::body::pieces::Pieces;
 use crate::rounding::DETERMINANT_ERROR_F64;
 use glam::DVec3;
@@ -26,43 +26,60 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
 
 /// Returns whether a point is certainly farther than `reach` from all triangles of the body's surface.
 pub(crate) fn is_far_from_surface(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
-    leaves_near(tree, point, reach).all(|leaf| match leaf {
-        Leaf::Triangles(mut triangles) => triangles.all(|piece| {
-            is_triangle_certainly_farther(pieces.triangle(piece as usize), point, reach)
-        }),
-        Leaf::Piece(piece) => pieces
-            .get(piece as usize)
-            .mesh_triangles()
-            .all(|(_, triangle)| is_triangle_certainly_farther(triangle, point, reach)),
-    })
+    let is_far = |triangle| is_triangle_certainly_farther(triangle, point, reach);
+    leaves_near(tree, point, reach).all(|leaf| leaf.all_triangles(pieces, is_far))
 }
 
 /// A leaf of the tree that a search finds: one piece, or several triangles with a common box.
-enum Leaf {
+pub(super) enum Leaf {
     Piece(u32),
     /// Several triangles, by the indices of their pieces.
     Triangles(Range<u32>),
 }
 
+impl Leaf {
+    /// Returns whether a test holds for all triangles of the body's surface on the leaf's pieces.
+    pub(super) fn all_triangles(
+        self,
+        pieces: &Pieces,
+        mut test: impl FnMut([DVec3; 3]) -> bool,
+    ) -> bool {
+        match self {
+            Leaf::Triangles(mut triangles) => {
+                triangles.all(|piece| test(pieces.triangle(piece as usize)))
+            }
+            Leaf::Piece(piece) => {
+                let piece = pieces.get(piece as usize);
+                piece.mesh_triangles().all(|(_, triangle)| test(triangle))
+            }
+        }
+    }
+}
+
 /// Returns the leaves whose boxes are within about `reach` of a point.
 fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Leaf> {
+    leaves_in(tree, move |node| node.is_near(point, reach))
+}
+
+/// Returns the leaves that a search meets which looks only below nodes in a region.
+pub(super) fn leaves_in(
+    tree: &Tree,
+    meets_region: impl Fn(&Node) -> bool,
+) -> impl Iterator<Item = Leaf> {
     let mut stack = NodeStack::with_root();
     std::iter::from_fn(move || {
         while let Some(id) = stack.pop() {
             let node = &tree.nodes[id as usize];
-            if !node.is_near(point, reach) {
+            if !meets_region(node) {
                 continue;
             }
             match node.children {
-                NodeChildren::Boxes(group) => {
-                    let members = &tree.box_groups[group as usize].header;
-                    stack.extend(members.first_child..members.first_child + members.count);
-                }
+                NodeChildren::Boxes(group) => stack.extend(tree.box_group(group).header.children()),
                 NodeChildren::Piece(piece) => return Some(Leaf::Piece(piece)),
                 NodeChildren::Triangles(group) => {
-                    let members = tree.triangle_group_header(group);
-                    let first = members.first_child - tree.nodes.len() as u32;
-                    return Some(Leaf::Triangles(first..first + members.count));
+                    let Range { start, end } = tree.triangle_group_header(group).children();
+                    let nodes = tree.nodes.len() as u32;
+                    return Some(Leaf::Triangles(start - nodes..end - nodes));
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Computes the winding number of a body's surface about a point by counting the crossings of a ray.
 
-use super::waiting::NodeStack;
-use super::{Node, NodeChildren, Tree};
+use super::point_query::leaves_in;
+use super::{Node, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
 use crate::rounding::{DETERMINANT_ERROR_F64, UNIT_ROUNDOFF_F64};
@@ -68,32 +68,10 @@ fn sum_signed_crossings_along(
         triangles_at_start: 0,
         direction: along,
     };
-    let mut stack = NodeStack::with_root();
-    while let Some(id) = stack.pop() {
-        let node = &tree.nodes[id as usize];
-        if !may_hit(node, start.from, along) {
-            continue;
-        }
-        match node.children {
-            NodeChildren::Boxes(group) => {
-                let members = &tree.box_groups[group as usize].header;
-                stack.extend(members.first_child..members.first_child + members.count);
-            }
-            NodeChildren::Triangles(group) => {
-                let members = tree.triangle_group_header(group);
-                let first = members.first_child - tree.nodes.len() as u32;
-                for piece in first..first + members.count {
-                    found.add(pieces.triangle(piece as usize), start)?;
-                }
-            }
-            NodeChildren::Piece(piece) => {
-                for (_, triangle) in pieces.get(piece as usize).mesh_triangles() {
-                    found.add(triangle, start)?;
-                }
-            }
-        }
-    }
-    Some(found)
+    let mut add = |triangle| found.add(triangle, start).is_some();
+    leaves_in(tree, |node| may_hit(node, start.from, along))
+        .all(|leaf| leaf.all_triangles(pieces, &mut add))
+        .then_some(found)
 }
 
 /// Returns whether a ray may hit a node's box; false only if it certainly misses the box.
