@@ -12,13 +12,15 @@ use crate::body::threads::parallel_for_each;
 use crate::error::InputError;
 use crate::math::order::greater;
 use glam::DVec3;
+use std::ops::Range;
 
 /// The nodes and groups of a wide tree before boxes are fitted to the pieces below them.
 #[derive(Default)]
 pub(crate) struct TreeLayout {
     nodes: Vec<NodeLayout>,
     node_groups: Vec<ChildNodes>,
-    triangle_groups: Vec<ChildTriangles>,
+    /// The node whose pieces are the triangles of each group.
+    triangle_groups: Vec<u32>,
 }
 
 /// Returns the largest distance of the pieces' points from the body's origin, rounding radii included.
@@ -34,28 +36,28 @@ fn max_distance_from_origin(pieces: &Pieces) -> f64 {
 /// The pieces in depth-first order, and the range of each hierarchy node's pieces in that order.
 struct PieceRanges {
     order: Vec<u32>,
-    /// The start and the end of each hierarchy node's pieces in `order`.
-    node_ranges: Vec<(u32, u32)>,
+    /// The range of each hierarchy node's pieces in `order`.
+    node_ranges: Vec<Range<u32>>,
 }
 
 impl PieceRanges {
     fn new(hierarchy: &Hierarchy, pieces: usize) -> Result<Self, InputError> {
         let nodes = hierarchy.nodes();
         let mut order = Vec::with_capacity(pieces);
-        let mut of = vec![(0, 0); nodes.len()];
+        let mut node_ranges = vec![0..0; nodes.len()];
         // Every node is visited twice: on the way down, and after all pieces below it are listed.
         let mut stack = vec![(0u32, false)];
         while let Some((at, listed)) = stack.pop() {
-            let range = &mut of[at as usize];
+            let range = &mut node_ranges[at as usize];
             if listed {
-                range.1 = order.len() as u32;
+                range.end = order.len() as u32;
                 continue;
             }
-            range.0 = order.len() as u32;
+            range.start = order.len() as u32;
             match nodes[at as usize] {
                 HierarchyNode::Leaf(piece) => {
                     order.push(piece);
-                    range.1 = order.len() as u32;
+                    range.end = order.len() as u32;
                 }
                 HierarchyNode::Inner(left, right) => {
                     stack.extend([(at, true), (right, false), (left, false)]);
@@ -63,40 +65,27 @@ impl PieceRanges {
             }
         }
         if order.len() == pieces {
-            Ok(PieceRanges {
-                order,
-                node_ranges: of,
-            })
+            Ok(PieceRanges { order, node_ranges })
         } else {
             Err(InputError::BadHierarchy { at: order.len() })
         }
     }
 
     fn len(&self, node: u32) -> usize {
-        let (start, end) = self.node_ranges[node as usize];
-        (end - start) as usize
+        self.node_ranges[node as usize].len()
     }
 }
 
 /// A node of the wide tree before its box is fitted: the range of its pieces, and its children.
 struct NodeLayout {
-    start: u32,
-    end: u32,
+    pieces: Range<usize>,
     children: NodeChildren,
 }
 
 /// A group of consecutive nodes that are the children of a node.
 struct ChildNodes {
     parent: u32,
-    first_child: u32,
-    count: u32,
-}
-
-/// A group of consecutive triangles that are the children of a node.
-struct ChildTriangles {
-    parent: u32,
-    start: u32,
-    end: u32,
+    children: Range<u32>,
 }
 
 /// The planned capacity of the lowest groups of nodes, in full triangle groups; fewer than eight, as few are full.
@@ -132,45 +121,35 @@ impl TreeLayout {
             },
         };
         let mut layout = TreeLayout::default();
-        layout.push_node(&opener, 0);
+        layout.push_node(ranges, 0);
         let mut waiting = vec![(0u32, 0u32)];
         while let Some((parent, at)) = waiting.pop() {
-            let (start, end) = ranges.node_ranges[at as usize];
-            let below = if triangles && ranges.len(at) <= LANES {
-                layout
-                    .triangle_groups
-                    .push(ChildTriangles { parent, start, end });
+            layout.nodes[parent as usize].children = if triangles && ranges.len(at) <= LANES {
+                layout.triangle_groups.push(parent);
                 NodeChildren::Triangles(layout.triangle_groups.len() as u32 - 1)
             } else if ranges.len(at) > 1 {
                 let (members, count) = opener.choose_children(at);
                 let first = layout.nodes.len() as u32;
-                for (&member, child) in members[..count].iter().zip(first..) {
-                    layout.push_node(&opener, member);
+                let children = first..first + count as u32;
+                for (&member, child) in members.iter().zip(children.clone()) {
+                    layout.push_node(ranges, member);
                     waiting.push((child, member));
                 }
-                let count = count as u32;
-                layout.node_groups.push(ChildNodes {
-                    parent,
-                    first_child: first,
-                    count,
-                });
+                layout.node_groups.push(ChildNodes { parent, children });
                 NodeChildren::Boxes(layout.node_groups.len() as u32 - 1)
             } else {
-                NodeChildren::Piece(start)
+                NodeChildren::Piece(ranges.node_ranges[at as usize].start)
             };
-            layout.nodes[parent as usize].children = below;
         }
         layout
     }
 
-    fn push_node(&mut self, opener: &ChildChooser<'_>, at: u32) {
-        let (start, end) = opener.ranges.node_ranges[at as usize];
-        // The group is created when the node is visited.
-        let below = NodeChildren::Piece(start);
+    fn push_node(&mut self, ranges: &PieceRanges, at: u32) {
+        let Range { start, end } = ranges.node_ranges[at as usize];
         self.nodes.push(NodeLayout {
-            start,
-            end,
-            children: below,
+            pieces: start as usize..end as usize,
+            // The group is created when the node is visited.
+            children: NodeChildren::Piece(start),
         });
     }
 
@@ -179,26 +158,24 @@ impl TreeLayout {
     pub(crate) fn fit_tree(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         parallel_for_each(&mut nodes, &PointSample::EMPTY, |sample, k, node| {
-            *node = self.nodes[k].fit_node(pieces, sample);
+            let layout = &self.nodes[k];
+            *node = fit(&layout.node_points(pieces), layout.children, sample);
         });
         let mut boxes = vec![BoxGroup::default(); self.node_groups.len()];
         parallel_for_each(&mut boxes, &(), |(), k, group| {
-            let ChildNodes {
-                parent,
-                first_child: first,
-                count,
-            } = self.node_groups[k];
-            let children = &nodes[first as usize..][..count as usize];
-            *group = BoxGroup::new(children, first, nodes[parent as usize].centre);
+            let ChildNodes { parent, children } = &self.node_groups[k];
+            let members = &nodes[children.start as usize..children.end as usize];
+            *group = BoxGroup::new(members, children.start, nodes[*parent as usize].centre);
         });
         // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
         let mut triangles = vec![StoredTriangleGroup::default(); self.triangle_groups.len()];
         parallel_for_each(&mut triangles, &(), |(), k, group| {
-            let ChildTriangles { parent, start, end } = self.triangle_groups[k];
-            let corners = pieces.points_of(start as usize..end as usize).as_chunks().0;
-            *group =
-                StoredTriangleGroup::new(corners, after + start, nodes[parent as usize].centre);
+            let parent = self.triangle_groups[k] as usize;
+            let triangles = &self.nodes[parent].pieces;
+            let corners = pieces.points_of(triangles.clone()).as_chunks().0;
+            let first = after + triangles.start as u32;
+            *group = StoredTriangleGroup::new(corners, first, nodes[parent].centre);
         });
         Tree {
             body_box: BodyBox::fit_to(
@@ -212,40 +189,28 @@ impl TreeLayout {
             reach_from_origin: max_distance_from_origin(pieces),
         }
     }
-}
 
-impl TreeLayout {
     /// Returns the slabs around all flat nodes, with the nodes' ids; none unless all pieces are triangles.
     fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
         if !pieces.are_all_triangles() {
             return Vec::new();
         }
-        let slab = |(id, (slot, node)): (NodeId, (&NodeLayout, &Node))| {
-            if !node.is_thin() {
-                return None;
-            }
-            let corners = pieces.points_of(slot.start as usize..slot.end as usize);
+        let thin = (0..).zip(nodes).filter(|(_, node)| node.is_thin());
+        thin.filter_map(|(id, node)| {
+            let corners = pieces.points_of(self.nodes[id as usize].pieces.clone());
             Some((id, Slab::fit_to(corners, node.centre)?))
-        };
-        (0..)
-            .zip(self.nodes.iter().zip(nodes))
-            .filter_map(slab)
-            .collect()
+        })
+        .collect()
     }
 }
 
 impl NodeLayout {
-    fn fit_node(&self, pieces: &Pieces, sample: &mut PointSample) -> Node {
-        fit(&self.node_points(pieces), self.children, sample)
-    }
-
     /// Returns the points, and their rounding radius, that the node's box has to contain.
     fn node_points<'p>(&self, pieces: &'p Pieces) -> NodePoints<'p> {
-        let range = self.start as usize..self.end as usize;
         let triangles = pieces.are_all_triangles();
-        let radii = range.clone().map(|k| pieces.get(k).radius);
+        let radii = self.pieces.clone().map(|k| pieces.get(k).radius);
         NodePoints {
-            points: pieces.points_of(range),
+            points: pieces.points_of(self.pieces.clone()),
             radius: if triangles {
                 0.0
             } else {
