@@ -35,18 +35,45 @@ const TRIAL_ROTATIONS: [(f64, f64); 6] = [
 ];
 
 /// Creates a node with a box and a ball fitted to all points. Several frames are tried on a sample of the points, and
-/// the frame whose box has the least surface is taken.
+/// the frame whose box has the least surface is taken. The node has the box's axes rounded to f32, with that of the
+/// largest extent first; the sizes are measured along the rounded axes.
 ///
 /// # Guarantee
 /// The box and the ball contain all points: the sample only chooses the frame.
 pub(crate) fn fit(
     node_points: &NodePoints<'_>,
-    below: NodeChildren,
+    children: NodeChildren,
     sample: &mut PointSample,
 ) -> Node {
     sample.fill_from(node_points);
     let frame = best_frame(sample, node_points.are_triangles);
-    FittedBox::fit_along(frame, node_points.points).to_node(node_points, below)
+    let turned = frame.transpose();
+    let (low, high) = bounding_box(node_points.points.iter().map(|&p| turned * p));
+    let size = high - low;
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));
+    let centre = frame * (0.5 * (low + high));
+    let axes: [Vec3; 3] = order.map(|k| frame.col(k).as_vec3());
+    let along = axes.map(Vec3::as_dvec3);
+    let (mut half, mut square) = ([0.0f64; 3], 0.0f64);
+    for &point in node_points.points {
+        let way = point - centre;
+        for (half, axis) in half.iter_mut().zip(along) {
+            *half = greater(*half, way.dot(axis).abs());
+        }
+        square = greater(square, way.length_squared());
+    }
+    // A product that cancels is off by this much, which `round_up_to_f32` does not cover in a flat box.
+    let rounding = 8.0 * UNIT_ROUNDOFF_F64 * square.sqrt();
+    let outward = |x: f64| round_up_to_f32(x + rounding).next_up();
+    Node {
+        centre,
+        axes,
+        half_extents: half.map(outward),
+        radius: outward(square.sqrt() + node_points.radius),
+        rounding_radius: round_up_to_f32(node_points.radius),
+        children,
+    }
 }
 
 /// Returns the frame whose box around the sample has the least surface area. The frames tried are along the
@@ -89,51 +116,6 @@ fn is_orthonormal(frame: &DMat3) -> bool {
     // Written so that NaN is rejected.
     let within = |v: DVec3| v.abs().cmple(DVec3::splat(FRAME_ERROR_F64)).all();
     within(off.x_axis) && within(off.y_axis) && within(off.z_axis)
-}
-
-/// A frame, and the least and largest coordinates of the points along its axes.
-struct FittedBox {
-    frame: DMat3,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl FittedBox {
-    fn fit_along(frame: DMat3, points: &[DVec3]) -> Self {
-        let turned = frame.transpose();
-        let (low, high) = bounding_box(points.iter().map(|&p| turned * p));
-        FittedBox { frame, low, high }
-    }
-
-    /// Creates the node with the box's axes rounded to f32; the axis of the largest extent is first. The sizes are
-    /// measured along the rounded axes.
-    fn to_node(&self, node_points: &NodePoints<'_>, below: NodeChildren) -> Node {
-        let size = self.high - self.low;
-        let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));
-        let centre = self.frame * (0.5 * (self.low + self.high));
-        let axes: [Vec3; 3] = order.map(|k| self.frame.col(k).as_vec3());
-        let along = axes.map(Vec3::as_dvec3);
-        let (mut half, mut square) = ([0.0f64; 3], 0.0f64);
-        for &point in node_points.points {
-            let way = point - centre;
-            for (half, axis) in half.iter_mut().zip(along) {
-                *half = greater(*half, way.dot(axis).abs());
-            }
-            square = greater(square, way.length_squared());
-        }
-        // A product that cancels is off by this much, which `round_up_to_f32` does not cover in a flat box.
-        let rounding = 8.0 * UNIT_ROUNDOFF_F64 * square.sqrt();
-        let outward = |x: f64| round_up_to_f32(x + rounding).next_up();
-        Node {
-            centre,
-            axes,
-            half_extents: half.map(outward),
-            radius: outward(square.sqrt() + node_points.radius),
-            rounding_radius: round_up_to_f32(node_points.radius),
-            children: below,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -30,7 +30,8 @@ fn least_half_surface_area(points: &[DVec3], triangles: bool) -> f64 {
 
 /// Returns half the surface area of the points' bounding box along the axes of a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
-    let FittedBox { low, high, .. } = FittedBox::fit_along(frame, points);
+    let turned = frame.transpose();
+    let (low, high) = bounding_box(points.iter().map(|&p| turned * p));
     let size = high - low;
     size.x * size.y + size.y * size.z + size.z * size.x
 }
