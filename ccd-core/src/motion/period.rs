@@ -47,7 +47,7 @@ impl Period {
         };
         let velocity = length(a.path.velocity - b.path.velocity);
         let speed = velocity + length(a.path.acceleration - b.path.acceleration);
-        Convergents::new(slow.path.rate / fast.path.rate)
+        convergents(slow.path.rate / fast.path.rate)
             .map(move |[of_slow, of_fast]| {
                 let length = TAU * of_fast / fast.path.rate;
                 let off = (slow.path.rate * length - TAU * of_slow).abs();
@@ -67,37 +67,18 @@ impl Period {
     }
 }
 
-/// An iterator over the continued fraction convergents of a number from 0 to 1, as numerators and denominators.
-struct Convergents {
-    remainder: f64,
-    last_convergent: [f64; 2],
-    previous_convergent: [f64; 2],
-}
-
-impl Convergents {
-    fn new(number: f64) -> Self {
-        Convergents {
-            remainder: number,
-            last_convergent: [1.0, 0.0],
-            previous_convergent: [0.0, 1.0],
-        }
-    }
-}
-
-impl Iterator for Convergents {
-    type Item = [f64; 2];
-
-    fn next(&mut self) -> Option<[f64; 2]> {
-        if !self.remainder.is_finite() {
+/// Returns the continued fraction convergents of a number from 0 to 1, as numerators and denominators.
+fn convergents(number: f64) -> impl Iterator<Item = [f64; 2]> {
+    let (mut remainder, mut last, mut before) = (number, [1.0, 0.0], [0.0, 1.0]);
+    std::iter::from_fn(move || {
+        if !remainder.is_finite() {
             return None;
         }
-        let whole = self.remainder.floor();
-        let [last, before] = [self.last_convergent, self.previous_convergent];
-        let next = [0, 1].map(|k| whole * last[k] + before[k]);
-        (self.last_convergent, self.previous_convergent) = (next, last);
-        self.remainder = (self.remainder - whole).recip();
-        Some(next)
-    }
+        let whole = remainder.floor();
+        (last, before) = ([0, 1].map(|k| whole * last[k] + before[k]), last);
+        remainder = (remainder - whole).recip();
+        Some(last)
+    })
 }
 
 #[cfg(test)]

@@ -71,7 +71,7 @@ fn distances_change_by_no_more_than_said() {
 #[test]
 fn common_periods_are_the_best_fractions() {
     let fractions = |number: f64, most: f64| -> Vec<[f64; 2]> {
-        let all = Convergents::new(number);
+        let all = convergents(number);
         all.take_while(|&[_, below]| below < most).collect()
     };
     assert_eq!(fractions(0.0, 9.0), [[0.0, 1.0]]);
