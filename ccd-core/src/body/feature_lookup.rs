@@ -2,6 +2,7 @@
 
 use super::adjacency::AdjacencyLists;
 use super::facets::edges_of;
+use super::feature::Feature;
 use super::piece::ConvexCombination;
 use super::piece::Piece;
 use super::polytope::FacetOrigin;
@@ -10,26 +11,23 @@ use crate::math::vector::{normal, unit};
 use crate::tuning::{FACET_TOLERANCE, MAX_SCANNED_POINTS};
 use glam::DVec3;
 
-/// The vertex, edge or face of the mesh that contains a point of a polytope, if any.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum MeshFeature {
-    Vertex(u32),
-    Edge(u32, u32),
-    Face(u32),
-    NoFeature,
-}
-
 /// Finds the mesh's vertex, edge or face that contains a point, given as a combination of a piece's corners.
 ///
 /// Even if no facet of the mesh contains all of the corners, the point may be on the mesh: a
 /// virtual facet may be within the surface, and so may a chord of two coplanar faces.
-pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &ConvexCombination) -> MeshFeature {
+///
+/// `vertex_id` returns the number of a corner in the mesh.
+pub(crate) fn find_mesh_feature(
+    piece: &Piece<'_>,
+    point: &ConvexCombination,
+    vertex_id: impl Fn(u32) -> u32,
+) -> Option<Feature> {
     let (facets, support) = (piece.facets, point.point_indices());
     if !facets.is_empty() && !has_mesh_faces(piece) {
-        return MeshFeature::NoFeature;
+        return None;
     }
     if let [v] = *support {
-        return MeshFeature::Vertex(v);
+        return Some(Feature::Vertex(vertex_id(v)));
     }
     let near = match (
         FacetsByCorner::cached_if_many_facets(piece),
@@ -50,17 +48,17 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &ConvexCombination) ->
         let joins =
             |corners: &[u32]| edges_of(corners).any(|ends| ends == (v, w) || ends == (w, v));
         if facets.is_empty() || whole.clone().any(|(_, corners)| joins(corners)) {
-            return MeshFeature::Edge(v, w);
+            return Some(Feature::edge(vertex_id(v), vertex_id(w)));
         }
     }
     let mut holding = whole.filter(|(_, corners)| support.iter().all(|v| corners.contains(v)));
-    match holding.next() {
-        Some((face, _)) => MeshFeature::Face(face),
+    let face = match holding.next() {
+        Some((face, _)) => Some(face),
         None => point
             .position(piece.points)
-            .and_then(|at| face_at(piece, at))
-            .map_or(MeshFeature::NoFeature, MeshFeature::Face),
-    }
+            .and_then(|at| face_at(piece, at)),
+    };
+    face.map(Feature::Face)
 }
 
 /// Returns whether any face of the mesh is on the piece.

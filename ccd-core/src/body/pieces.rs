@@ -7,7 +7,7 @@ mod unpack;
 
 use super::facets::{Facets, range_from_ends};
 use super::feature::Feature;
-use super::feature_lookup::{self, MeshFeature};
+use super::feature_lookup::find_mesh_feature;
 use super::piece::ConvexCombination;
 use super::piece::{Piece, SideTableRow};
 use super::polytope::{Face, FacetOrigin};
@@ -269,14 +269,8 @@ impl Pieces {
             (PieceShapes::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
             (PieceShapes::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),
             (PieceShapes::Triangles { face_ids }, _) => Feature::Face(face_ids[piece]),
-            (PieceShapes::Polytopes(_), _) => {
-                match feature_lookup::find_mesh_feature(&self.get(piece), point) {
-                    MeshFeature::Vertex(v) => Feature::Vertex(id(v)),
-                    MeshFeature::Edge(v, w) => Feature::edge(id(v), id(w)),
-                    MeshFeature::Face(face) => Feature::Face(face),
-                    MeshFeature::NoFeature => Feature::Piece(piece as u32),
-                }
-            }
+            (PieceShapes::Polytopes(_), _) => find_mesh_feature(&self.get(piece), point, id)
+                .unwrap_or(Feature::Piece(piece as u32)),
         }
     }
 
