@@ -42,7 +42,7 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
         hierarchy,
         postorder: &order,
         subtree_sizes: &subtree_sizes,
-        compute_value: make,
+        compute_value: &make,
     };
     let mut done: Vec<T> = order.iter().map(|_| T::default()).collect();
     row.compute_subtree(0..order.len(), &mut done, parts)?;
@@ -54,67 +54,46 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
 }
 
 /// The nodes of a tree in postorder, with the function that computes a node's value from its children's values.
-struct BottomUpComputation<'a, F> {
+struct BottomUpComputation<'a, T> {
     hierarchy: &'a Hierarchy,
     postorder: &'a [usize],
     /// The number of nodes in each node's subtree.
     subtree_sizes: &'a [usize],
-    compute_value: F,
+    compute_value: &'a (dyn Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync),
 }
 
-impl<F> BottomUpComputation<'_, F> {
-    /// Computes the values of one subtree, split into at most `parts` parts that may run in parallel. The parts are
-    /// shared between both children by size. Each child gets fewer of them, so that the depth of recursion is at most
-    /// `parts`.
-    fn compute_subtree<T: Default + Send>(
+impl<T: Send> BottomUpComputation<'_, T> {
+    /// Computes the values of one subtree, split into at most `parts` parts that run in parallel if they are large
+    /// enough and a thread is free. The parts are shared between both children by size. Each child gets fewer of them,
+    /// so that the depth of recursion is at most `parts`.
+    fn compute_subtree(
         &self,
         range: Range<usize>,
         done: &mut [T],
         parts: usize,
-    ) -> Result<(), HullTreeError>
-    where
-        F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
-    {
+    ) -> Result<(), HullTreeError> {
         let root = self.postorder[range.end - 1];
         match self.hierarchy.nodes()[root] {
             HierarchyNode::Inner(left, _) if parts > 1 && range.len() >= MIN_PARALLEL_WORK => {
-                let middle = range.start + self.subtree_sizes[left as usize];
-                let (first, others) = done.split_at_mut(middle - range.start);
-                let (second, _) = others.split_at_mut(range.end - 1 - middle);
-                let ranges = [range.start..middle, middle..range.end - 1];
-                let of_first = parts * ranges[0].len() / range.len();
-                let of_first = of_first.clamp(1, parts - 1);
-                self.compute_two_subtrees(ranges, [first, second], [of_first, parts - of_first])?;
+                let (of_left, both) = (self.subtree_sizes[left as usize], range.len() - 1);
+                let middle = range.start + of_left;
+                let (first, second) = done[..both].split_at_mut(of_left);
+                let of_first = (parts * of_left / range.len()).clamp(1, parts - 1);
+                let (first, second) = join(
+                    of_left.min(both - of_left),
+                    || self.compute_subtree(range.start..middle, first, of_first),
+                    || self.compute_subtree(middle..range.end - 1, second, parts - of_first),
+                );
+                first.and(second)?;
                 self.compute_node(range.end - 1, range.start, done)
             }
             _ => (range.clone()).try_for_each(|at| self.compute_node(at, range.start, done)),
         }
     }
 
-    /// Computes the values of two subtrees, in parallel if both subtrees are large enough and a thread is free.
-    fn compute_two_subtrees<T: Default + Send>(
-        &self,
-        [one, other]: [Range<usize>; 2],
-        [first, second]: [&mut [T]; 2],
-        [of_first, of_second]: [usize; 2],
-    ) -> Result<(), HullTreeError>
-    where
-        F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
-    {
-        let (first, second) = join(
-            one.len().min(other.len()),
-            || self.compute_subtree(one, first, of_first),
-            || self.compute_subtree(other, second, of_second),
-        );
-        first.and(second)
-    }
-
     /// Computes the value of one node from the values of its children, which are computed already. `done` has the
     /// values from position `start` of the postorder on.
-    fn compute_node<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
-    where
-        F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
-    {
+    fn compute_node(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError> {
         let node = self.postorder[at];
         let here = at - start;
         let children = match self.hierarchy.nodes()[node] {
