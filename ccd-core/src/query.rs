@@ -38,42 +38,24 @@ pub enum Movement<'a> {
     Trajectory(&'a dyn Trajectory),
 }
 
-impl<'a> From<(&'a Body, Motion)> for MovingBody<'a> {
-    fn from((body, motion): (&'a Body, Motion)) -> Self {
+impl<'a, M: Into<Movement<'a>>> From<(&'a Body, M)> for MovingBody<'a> {
+    fn from((body, movement): (&'a Body, M)) -> Self {
         MovingBody {
             body,
-            movement: Movement::Motion(motion),
+            movement: movement.into(),
         }
-    }
-}
-
-impl<'a> From<(&'a Body, Pose)> for MovingBody<'a> {
-    fn from((body, pose): (&'a Body, Pose)) -> Self {
-        (body, Motion::still(pose)).into()
-    }
-}
-
-impl<'a, T: Trajectory> From<(&'a Body, &'a T)> for MovingBody<'a> {
-    fn from((body, trajectory): (&'a Body, &'a T)) -> Self {
-        (body, Movement::from(trajectory)).into()
-    }
-}
-
-impl<'a> From<(&'a Body, &'a dyn Trajectory)> for MovingBody<'a> {
-    fn from((body, trajectory): (&'a Body, &'a dyn Trajectory)) -> Self {
-        (body, Movement::from(trajectory)).into()
-    }
-}
-
-impl<'a> From<(&'a Body, Movement<'a>)> for MovingBody<'a> {
-    fn from((body, movement): (&'a Body, Movement<'a>)) -> Self {
-        MovingBody { body, movement }
     }
 }
 
 impl From<Motion> for Movement<'_> {
     fn from(motion: Motion) -> Self {
         Movement::Motion(motion)
+    }
+}
+
+impl From<Pose> for Movement<'_> {
+    fn from(pose: Pose) -> Self {
+        Motion::still(pose).into()
     }
 }
 
