@@ -230,18 +230,14 @@ impl<'a> Problem<'a> {
     /// contact are ignored instead, and all pairs that touch in the plane of the contact.
     pub(crate) fn ignoring_start_contact(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
         let least = rounding::least_tolerance(self.rounding);
-        let (tolerance, start) = if 0.5 * gap > least {
-            (0.5 * gap, StartPolicy::Report)
+        let (tolerance, start, touching_plane) = if 0.5 * gap > least {
+            (0.5 * gap, StartPolicy::Report, None)
         } else {
-            (least, StartPolicy::Leave)
-        };
-        let touching = match start {
-            StartPolicy::Report => None,
-            StartPolicy::Leave => touching,
+            (least, StartPolicy::Leave, touching)
         };
         Problem {
             start,
-            touching_plane: touching,
+            touching_plane,
             tolerance: lesser(tolerance, self.tolerance),
             ..self.clone()
         }
