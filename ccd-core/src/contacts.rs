@@ -3,7 +3,6 @@
 mod boxes;
 mod candidate;
 mod closest;
-mod feature_pair;
 pub(crate) mod given;
 mod manifold;
 mod measure;
@@ -12,10 +11,10 @@ mod near;
 mod skin;
 mod surface;
 
+use crate::answer::Contact;
 use crate::error::InputError;
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-pub use feature_pair::FeaturePair;
 use manifold::ContactManifold;
 use near::near_face_pairs;
 use skin::NearSurface;
@@ -45,7 +44,7 @@ pub enum ContactsError {
 impl Problem<'_> {
     /// Returns all pairs of features in contact at `clock`, which is 0 at the start of the query and 1 at its end; see
     /// [`Query::contacts_at`](crate::Query::contacts_at).
-    pub(crate) fn contacts_at(&self, clock: f64) -> Result<Vec<FeaturePair>, ContactsError> {
+    pub(crate) fn contacts_at(&self, clock: f64) -> Result<Vec<Contact>, ContactsError> {
         let frames = [self.a.path.frame(clock), self.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
         let mut skins = [

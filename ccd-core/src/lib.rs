@@ -120,7 +120,7 @@ pub use body::polytope::{Face, Facet, FacetOrigin, Polytope};
 pub use body::round::{Enclosure, SolidOfRevolution};
 pub use body::support::{Support, SupportScan, SupportTable, SupportTree, TABLE_DIRECTION_COUNT};
 pub use body::{Body, Volume};
-pub use contacts::{ContactsError, FeaturePair};
+pub use contacts::ContactsError;
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUpReason, OrElse, PiecePair};
 pub use error::InputError;
 #[doc(hidden)]

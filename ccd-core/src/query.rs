@@ -1,8 +1,9 @@
 //! Queries: two moving bodies, a duration and settings.
 
+use crate::answer::Contact;
 use crate::body::Body;
 use crate::body::excess::ExcessSum;
-use crate::contacts::{ContactsError, FeaturePair};
+use crate::contacts::ContactsError;
 use crate::error::{InputError, check};
 use crate::limits::MAX_DURATION;
 use crate::motion::Motion;
@@ -253,7 +254,7 @@ impl<'a> Query<'a> {
     /// assert_eq!(names, ["v0 f5", "v1 f5", "v2 f5", "v3 f5"]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn contacts_at(&self, time: f64) -> Result<Vec<FeaturePair>, ContactsError> {
+    pub fn contacts_at(&self, time: f64) -> Result<Vec<Contact>, ContactsError> {
         // Written so that NaN is refused.
         if !(0.0..=self.duration).contains(&time) {
             let duration = self.duration;

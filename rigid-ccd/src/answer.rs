@@ -3,6 +3,5 @@
 
 pub use crate::parallel::QueryError;
 pub use ccd_core::{
-    Clearance, Contact, ContactsError, Feature, FeaturePair, HitKind, Limit, Overlap, Stats,
-    Unresolved,
+    Clearance, Contact, ContactsError, Feature, HitKind, Limit, Overlap, Stats, Unresolved,
 };

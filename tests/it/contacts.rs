@@ -2,7 +2,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{Feature, FeaturePair, Outcome, Settings};
+use ccd_core::{Contact, Feature, Outcome, Settings};
 use ccd_tests::analytic::scenes_with_name_prefix;
 use ccd_tests::backends::Backend;
 use ccd_tests::case::Case;
@@ -24,7 +24,7 @@ fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
 }
 
 /// Returns the contacts of the scene with a given name, for every kind of pieces.
-fn scene_contacts(name: &str) -> Vec<([PieceKind; 2], Vec<FeaturePair>)> {
+fn scene_contacts(name: &str) -> Vec<([PieceKind; 2], Vec<Contact>)> {
     let scenes = scenes_with_name_prefix(name);
     let query = &scenes[0].query;
     let bodies = query.bodies_of_all_kinds();
@@ -103,7 +103,7 @@ fn t1_a_cube_rests_on_its_corners() {
 fn plates_meet_vertex_by_vertex() {
     for (kinds, pairs) in scene_contacts("plates") {
         assert_eq!(pairs.len(), 17 * 17, "{kinds:?}");
-        for FeaturePair {
+        for Contact {
             feature_a,
             feature_b,
             ..
@@ -195,7 +195,7 @@ fn are_equivalent_feature_names(
 /// Checks every listed pair against the mesh, and the nearest pair against the reported contact.
 fn check_pairs(
     query: &Query,
-    pairs: &[FeaturePair],
+    pairs: &[Contact],
     [time, upper, apart]: [f64; 3],
     kinds: [PieceKind; 2],
 ) -> CheckResult {

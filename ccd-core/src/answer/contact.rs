@@ -7,6 +7,9 @@ use glam::DVec3;
 
 /// The two nearest pieces of the bodies, with bounds of their distance, their nearest points and the features there.
 ///
+/// [`Query::contacts_at`](crate::Query::contacts_at) lists one for every two features in contact, with the bounds of
+/// the features' distance and a piece with each feature.
+///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
 /// # struct Balls;

@@ -2,10 +2,10 @@
 
 use super::candidate::ContactCandidate;
 use super::closest::{TrianglePart, nearest_point_on_triangle, nearest_points_on_crossing_edges};
-use super::feature_pair::FeaturePair;
 use super::measure::measure_feature_pair;
 use super::skin::{NearSurface, SurfacePart, triangle_edge};
 use super::surface::Surface;
+use crate::answer::Contact;
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use glam::DVec3;
@@ -87,7 +87,7 @@ impl<'a> ContactManifold<'a> {
     }
 
     /// Returns the pairs to report, nearest first; `a_to_world` is A's frame, relative to the problem's origin.
-    pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
+    pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<Contact> {
         let covered = self.implied_pairs();
         let mut told = HashMap::new();
         for (mut spots, mut candidate) in sorted_pairs(&self.found_pairs) {
@@ -112,10 +112,10 @@ impl<'a> ContactManifold<'a> {
                 common_normals,
             )
         });
-        let mut pairs: Vec<FeaturePair> = measured.collect();
+        let mut pairs: Vec<Contact> = measured.collect();
         pairs.sort_by(|one, other| {
-            let names = |pair: &FeaturePair| (pair.feature_a, pair.feature_b);
-            let upper = |pair: &FeaturePair| pair.separation.upper;
+            let names = |pair: &Contact| (pair.feature_a, pair.feature_b);
+            let upper = |pair: &Contact| pair.separation.upper;
             let nearer = upper(one).total_cmp(&upper(other));
             nearer.then_with(|| names(one).cmp(&names(other)))
         });

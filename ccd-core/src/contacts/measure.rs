@@ -1,9 +1,8 @@
 //! Bounds the distance of two features from below by a gap along an axis, and from above by two points.
 
 use super::candidate::ContactCandidate;
-use super::feature_pair::FeaturePair;
 use super::skin::{NearSurface, SurfacePart};
-use crate::answer::Separation;
+use crate::answer::{Contact, Separation};
 use crate::distance::common_normals::CommonNormals;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{self, normal, unit};
@@ -28,7 +27,7 @@ pub(super) fn measure_feature_pair(
     a_to_world: &Frame,
     (spots, candidate): &(SurfaceParts, ContactCandidate),
     common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
-) -> FeaturePair {
+) -> Contact {
     let face = |k: usize| skins[k].face(candidate.faces[k]);
     let points = [0, 1].map(|k| skins[k].points(spots[k], candidate.faces[k]));
     let [a, b] = candidate.points;
@@ -58,7 +57,7 @@ pub(super) fn measure_feature_pair(
     let way = unit(b - a).unwrap_or(normal);
     let world = |x: DVec3| problem.to_world_point(a_to_world.point(x));
     let name = |k: usize| skins[k].feature_of(spots[k], candidate.faces[k]);
-    FeaturePair {
+    Contact {
         feature_a: name(0),
         feature_b: name(1),
         piece_a: problem.a.index_in_given_body(face(0).piece),

@@ -20,7 +20,7 @@ mod cuts;
 mod twin;
 
 /// Returns the contacts of two bodies at rest, A at its pose, B at the origin.
-fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> {
+fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<Contact> {
     let config = Settings {
         tolerance,
         ..Settings::DEFAULT
@@ -48,15 +48,15 @@ fn with_rotation(pose: Pose, axis: DVec3, angle: f64) -> Pose {
     Pose::new(pose.translation(), DQuat::from_axis_angle(axis, angle)).unwrap()
 }
 
-fn feature_names(pairs: &[FeaturePair]) -> Vec<String> {
-    let name = |pair: &FeaturePair| format!("{} {}", pair.feature_a, pair.feature_b);
+fn feature_names(pairs: &[Contact]) -> Vec<String> {
+    let name = |pair: &Contact| format!("{} {}", pair.feature_a, pair.feature_b);
     let mut names: Vec<String> = pairs.iter().map(name).collect();
     names.sort();
     names
 }
 
 /// Counts the pairs of a vertex and a face, of two edges, and of other features.
-fn count_pair_kinds(pairs: &[FeaturePair]) -> [usize; 3] {
+fn count_pair_kinds(pairs: &[Contact]) -> [usize; 3] {
     let mut counts = [0; 3];
     for pair in pairs {
         counts[match (pair.feature_a, pair.feature_b) {
@@ -74,7 +74,7 @@ fn cuboid_as_triangles_and_as_piece(half: DVec3) -> [Body; 2] {
     [Mesh::cuboid(half).body(Volume::Solid), solid]
 }
 
-fn check_separations(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
+fn check_separations(pairs: &[Contact], distance: f64, normal: DVec3) {
     for pair in pairs {
         let Separation { lower, upper, .. } = pair.separation;
         assert!(

@@ -6,7 +6,7 @@ mod tests;
 use crate::batch::{Bodies, Question};
 use crate::table::courses::Movements;
 use crate::table::results::{Column, ResultRow, reordered_columns};
-use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Settings};
+use ccd_core::{Answer, Contact, ContactsError, InputError, Outcome, Settings};
 
 /// Returns the columns of the table of contacts, in order.
 pub(crate) fn columns() -> Vec<Column> {
@@ -42,7 +42,7 @@ pub(crate) fn contact_rows(
     };
     let query = bodies.query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
-    let row = |pair: &FeaturePair| {
+    let row = |pair: &Contact| {
         ResultRow::from_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
     };
     Ok(pairs.iter().map(row).collect())

@@ -110,18 +110,12 @@ impl ResultRow {
 
     /// Creates the row of two features in contact; its status and its counts have their defaults.
     #[cfg(feature = "command")]
-    pub(crate) fn from_feature_pair(id: &str, time: f64, pair: &ccd_core::FeaturePair) -> Self {
+    pub(crate) fn from_feature_pair(id: &str, time: f64, pair: &Contact) -> Self {
         let row = ResultRow {
             id: id.to_owned(),
             ..ResultRow::default()
         };
-        row.with_time(time).with_contact(&Contact {
-            separation: pair.separation,
-            feature_a: pair.feature_a,
-            feature_b: pair.feature_b,
-            piece_a: pair.piece_a,
-            piece_b: pair.piece_b,
-        })
+        row.with_time(time).with_contact(pair)
     }
 
     /// Creates the row of an answer to a question.

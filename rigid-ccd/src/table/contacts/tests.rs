@@ -6,8 +6,8 @@ use ccd_core::Unresolved;
 use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Limit, Stats};
 
-fn pair() -> FeaturePair {
-    FeaturePair {
+fn pair() -> Contact {
+    Contact {
         feature_a: Feature::Vertex(3),
         feature_b: Feature::Edge(4, 7),
         piece_a: 0,
