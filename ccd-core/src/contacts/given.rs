@@ -1,7 +1,7 @@
 //! Translates answers about the triangulated surfaces of convex bodies to the bodies that the caller gave.
 
 use super::meeting::common_normal;
-use crate::answer::{Contact, Outcome, Separation};
+use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
 use crate::engine::meter::Meter;
@@ -57,14 +57,9 @@ fn replace_uncertain_normal(
     contact: Contact,
     s: f64,
 ) -> Contact {
-    let Separation {
-        lower,
-        normal,
-        witness_a,
-        witness_b,
-        ..
-    } = contact.separation;
-    if !is_direction_uncertain(distance(witness_a, witness_b), problem.rounding) {
+    let mut seen = contact.separation;
+    let witnesses = [seen.witness_a, seen.witness_b];
+    if !is_direction_uncertain(distance(witnesses[0], witnesses[1]), problem.rounding) {
         return contact;
     }
     let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, s);
@@ -74,23 +69,22 @@ fn replace_uncertain_normal(
         return contact;
     }
     let [frame, _] = &snapshot.frames;
-    let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.to_local_point(at)));
-    let Some(axis) = common_normal(&snapshot, points, frame.inverse_vector(normal), meter) else {
+    let points = witnesses.map(|at| frame.inverse_point(problem.to_local_point(at)));
+    let towards = frame.inverse_vector(seen.normal);
+    let Some(axis) = common_normal(&snapshot, points, towards, meter) else {
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;
     // Overlapping pieces have no direction between them. Either direction may prove that they touch: an oracle that
     // computes their nearest points up to rounding need not return a direction. Written so that NaN counts as an
     // overlap.
-    if !(greater(lower, gap) >= -APPROACH_DECREASE * problem.rounding) {
+    if !(greater(seen.lower, gap) >= -APPROACH_DECREASE * problem.rounding) {
         return contact;
     }
+    seen.lower = lesser(seen.lower, gap);
+    seen.normal = unit(frame.rotation * axis).unwrap_or(seen.normal);
     Contact {
-        separation: Separation {
-            lower: lesser(lower, gap),
-            normal: unit(frame.rotation * axis).unwrap_or(normal),
-            ..contact.separation
-        },
+        separation: seen,
         ..contact
     }
 }

@@ -70,18 +70,12 @@ impl<'a> ContactManifold<'a> {
     /// nearer points are kept.
     fn add_pair_if_near(&mut self, spots: [SurfacePart; 2], points: [DVec3; 2], faces: [u32; 2]) {
         let radius = |k: usize| self.near_surfaces[k].face(faces[k]).radius;
-        let Problem {
-            margin,
-            tolerance,
-            rounding,
-            ..
-        } = self.problem;
         let candidate = ContactCandidate {
             points,
             faces,
             radius_sum: radius(0) + radius(1),
         };
-        if candidate.gap() - rounding <= margin + tolerance {
+        if candidate.gap() - self.problem.rounding <= self.problem.contact_distance() {
             insert_if_nearer(&mut self.found_pairs, spots, candidate);
         }
     }

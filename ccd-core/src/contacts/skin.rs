@@ -302,12 +302,8 @@ impl<'a> NearSurface<'a> {
             }
         }
         for corner in self.faces.iter_mut().flat_map(|face| &mut face.corners) {
-            let Corner {
-                position_bits: place,
-                id,
-                ..
-            } = &self.corners[*corner as usize];
-            if let (None, Some(&(_, other))) = (id, numbered.get(place)) {
+            let known = &self.corners[*corner as usize];
+            if let (None, Some(&(_, other))) = (known.id, numbered.get(&known.position_bits)) {
                 *corner = other;
             }
         }

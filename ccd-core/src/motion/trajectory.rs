@@ -119,12 +119,8 @@ impl Stretch {
         let pose = self.pose(at);
         // The pose is checked, and its quaternion normalised once more.
         let start = Pose::new(pose.translation(), pose.rotation())?;
-        let Stretch {
-            motion,
-            acceleration,
-            ..
-        } = *self;
-        let velocity = motion.velocity() + at * acceleration;
+        let motion = &self.motion;
+        let velocity = motion.velocity() + at * self.acceleration;
         Ok(Stretch {
             motion: Motion::about(start, velocity, motion.spin(), motion.centre())?,
             ..*self

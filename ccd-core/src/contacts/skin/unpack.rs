@@ -94,18 +94,13 @@ impl NearSurface<'_> {
     /// Returns the mesh's number of the vertex at a corner; `None` if no piece there has one. If the corner's own piece
     /// does not have the number, this is the least number among pieces with a point at the same position.
     pub(super) fn mesh_number(&self, corner: u32) -> Option<u32> {
-        let Corner {
-            position_bits: here,
-            id,
-            ..
-        } = &self.corners[corner as usize];
-        let there = || polytopes_with_box_at(self.body.tree(), here.map(f64::from_bits).into());
-        id.or_else(|| {
-            let numbers = there().filter_map(|piece| {
-                let points = self.body.pieces().get(piece as usize).points;
-                let point = points
-                    .iter()
-                    .position(|&point| point_bits(point) == *here)?;
+        let corner = &self.corners[corner as usize];
+        corner.id.or_else(|| {
+            let place = corner.position_bits;
+            let there = polytopes_with_box_at(self.body.tree(), place.map(f64::from_bits).into());
+            let numbers = there.filter_map(|piece| {
+                let mut points = self.body.pieces().get(piece as usize).points.iter();
+                let point = points.position(|&point| point_bits(point) == place)?;
                 self.mesh_number_of_point(piece, point as u32)
             });
             numbers.min()

@@ -238,13 +238,9 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         seen: &StretchDistance,
     ) -> Result<bool, InputError> {
         let time = motions.query_time(seen.time);
-        let Query {
-            settings: terms,
-            duration,
-            ..
-        } = stretches.query();
+        let query = stretches.query();
         // Halves mostly suffice, and cost less than measuring the distance.
-        if motions.span.length() > MIN_UNMEASURED_LENGTH_SHARE * duration {
+        if motions.span.length() > MIN_UNMEASURED_LENGTH_SHARE * query.duration {
             return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
@@ -260,7 +256,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
                 distance_at_time.stretch_length(motions),
                 motions.length_for_rate(distance_at_time.rate.abs()),
             ),
-            None => motions.length_for_deviation(DEVIATION_SHARE * terms.tolerance),
+            None => motions.length_for_deviation(DEVIATION_SHARE * query.settings.tolerance),
         };
         Ok(stretches.cut_out_around(motions.span, time, length))
     }

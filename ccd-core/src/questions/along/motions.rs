@@ -57,12 +57,9 @@ impl StretchMotions {
         let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.end));
         let stretches = [a?, b?];
         let stray = |k: usize| {
-            let Stretch {
-                motion,
-                deviation_bound: deviation,
-                ..
-            } = &stretches[k];
-            deviation.at(bodies[k].body.tree().max_distance_from(motion.centre()))
+            let centre = stretches[k].motion.centre();
+            let reach = bodies[k].body.tree().max_distance_from(centre);
+            stretches[k].deviation_bound.at(reach)
         };
         Ok(StretchMotions {
             total_deviation_bound: rounded_up_sum(stray(0), stray(1)),
@@ -131,14 +128,9 @@ impl StretchMotions {
 
     /// Returns the rate at which the bodies approach each other at a contact of the motions.
     pub(super) fn approach_rate(&self, time: f64, contact: &Contact) -> f64 {
-        let Separation {
-            witness_a,
-            witness_b,
-            normal,
-            ..
-        } = contact.separation;
-        let [a, b] = &self.stretches;
-        normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
+        let (seen, [a, b]) = (contact.separation, &self.stretches);
+        seen.normal
+            .dot(a.velocity_at(seen.witness_a, time) - b.velocity_at(seen.witness_b, time))
     }
 
     /// Creates the problem that a search of the stretch solves: the approximate motions, with a larger margin and a

@@ -298,39 +298,21 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     }
 
     pub(super) fn split_span(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
-        let Span {
-            from,
-            end: to,
-            part_index: part,
-        } = span;
-        let Query { a, b, .. } = self.query;
+        let is_within = |&at: &f64| at > span.from && at < span.end;
         let corner = |body: &MovingBody<'_>| {
-            let corner = body.movement.corner(from, to)?;
-            (corner > from && corner < to).then_some(corner)
+            let corner = body.movement.corner(span.from, span.end);
+            corner.filter(is_within)
         };
         let whole = span.length();
         let length = greater(MIN_CUT_SHARE * whole, lesser(length, 0.5 * whole));
-        let corner = corner(a).or_else(|| corner(b));
-        let at = corner.unwrap_or(from + length);
-        if !(at > from && at < to) {
-            return None;
+        let corner = corner(&self.query.a).or_else(|| corner(&self.query.b));
+        let at = Some(corner.unwrap_or(span.from + length)).filter(is_within)?;
+        let (mut before, mut after) = (Span { end: at, ..span }, Span { from: at, ..span });
+        if corner.is_some() {
+            before.part_index = self.spent_work.add_part(span.part_index);
+            after.part_index = self.spent_work.add_part(span.part_index);
         }
-        let [before, after] = match corner {
-            Some(_) => [(); 2].map(|()| self.spent_work.add_part(part)),
-            None => [part; 2],
-        };
-        Some([
-            Span {
-                end: at,
-                part_index: before,
-                ..span
-            },
-            Span {
-                from: at,
-                part_index: after,
-                ..span
-            },
-        ])
+        Some([before, after])
     }
 }
 

@@ -3,13 +3,14 @@
 use super::follow::follow_to_minimum;
 use super::ladder::{LowerBoundAttempts, MAX_FINAL_ATTEMPTS, MarginQuery};
 use super::{FartherThanCutoff, NearestPair};
-use crate::answer::{Limit, Outcome, Overlap, Unresolved};
+use crate::answer::{Limit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
 use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::{AdvanceResult, Question, Search};
+use crate::engine::start::overlap_outcome;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::questions::depth_first::Stack;
@@ -152,27 +153,19 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
         meter: &mut Meter,
         advance: AdvanceResult,
     ) -> ControlFlow<Self::Conclusion, f64> {
-        let AdvanceResult {
-            pieces,
-            clock,
-            step,
-        } = advance;
-        match step {
+        match advance.step {
             PairStep::FreeUntil(clock) => ControlFlow::Continue(clock),
             PairStep::Contact(contact) => {
                 let seen = NearestPair {
-                    clock,
-                    pieces,
+                    clock: advance.clock,
+                    pieces: advance.pieces,
                     contact,
                 };
                 self.nearest_pair = Some(follow_to_minimum(problem, oracle, meter, seen));
                 // The pair is examined again, since it keeps a smaller distance.
-                ControlFlow::Continue(clock)
+                ControlFlow::Continue(advance.clock)
             }
-            PairStep::Overlap(contact) => {
-                let overlap = Overlap::Pieces(contact);
-                ControlFlow::Break(Ok(Outcome::from_overlap(overlap)))
-            }
+            PairStep::Overlap(contact) => ControlFlow::Break(Ok(overlap_outcome(contact))),
             PairStep::Stalled => {
                 self.first_failure = Some(Limit::Stalled);
                 ControlFlow::Continue(f64::INFINITY)
