@@ -3,8 +3,7 @@
 use super::adjacency::AdjacencyLists;
 use super::facets::edges_of;
 use super::feature::Feature;
-use super::piece::ConvexCombination;
-use super::piece::Piece;
+use super::piece::{ConvexCombination, Piece};
 use super::polytope::FacetOrigin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};

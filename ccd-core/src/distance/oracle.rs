@@ -1,8 +1,7 @@
 //! The interface of backends that compute the distance of two pieces.
 
 use crate::body::Body;
-use crate::body::piece::ConvexCombination;
-use crate::body::piece::Piece;
+use crate::body::piece::{ConvexCombination, Piece};
 use crate::motion::pose::Frame;
 use glam::DVec3;
 

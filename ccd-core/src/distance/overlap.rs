@@ -4,8 +4,7 @@
 use super::oracle::PiecePair;
 use super::separation::CheckedClaim;
 use crate::math::order::{greater, lesser};
-use crate::math::vector::unit_or_any;
-use crate::math::vector::vector_perpendicular_to_both;
+use crate::math::vector::{unit_or_any, vector_perpendicular_to_both};
 use crate::tuning::MAX_EXPANDING_POLYTOPE_CORNERS;
 use glam::DVec3;
 

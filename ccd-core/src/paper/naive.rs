@@ -2,8 +2,7 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::EngineSchedule;
-use crate::engine::answer::answer;
+use crate::engine::answer::{EngineSchedule, answer};
 use crate::engine::capacity::clear_and_shrink;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Pair;

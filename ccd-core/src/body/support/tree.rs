@@ -2,8 +2,7 @@
 
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
-use crate::math::vector::bounding_box;
-use crate::math::vector::distance;
+use crate::math::vector::{bounding_box, distance};
 use crate::rounding::{DISC_HEIGHT_ERROR_F32, DISC_TILT_ERROR_F32, FRAME_ERROR_F64};
 use glam::{DMat3, DVec3, Vec3};
 

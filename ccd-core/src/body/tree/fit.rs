@@ -2,8 +2,7 @@
 
 mod sample;
 
-use super::group::round_up_to_f32;
-use super::group::{Node, NodeChildren};
+use super::group::{Node, NodeChildren, round_up_to_f32};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{bounding_box, length, unit};

@@ -3,8 +3,7 @@
 use super::{Corner, Face, NearSurface, PointBits};
 use crate::body::facets::fan_triangles;
 use crate::body::feature::Feature;
-use crate::body::piece::ConvexCombination;
-use crate::body::piece::Piece;
+use crate::body::piece::{ConvexCombination, Piece};
 use crate::body::tree::point_query::polytopes_with_box_at;
 use glam::DVec3;
 use std::collections::HashMap;

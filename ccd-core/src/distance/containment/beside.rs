@@ -2,8 +2,7 @@
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
-use crate::math::vector::unit_or_any;
-use crate::math::vector::vector_perpendicular_to_both;
+use crate::math::vector::{unit_or_any, vector_perpendicular_to_both};
 use crate::rounding::EDGE_PROBE_DISTANCE_SHARE;
 use glam::DVec3;
 

@@ -1,8 +1,7 @@
 //! Raises the lower bound of a checked claim: tries axes from the faces and edges at the nearest points.
 
 use super::{CheckedClaim, support_gap};
-use crate::body::piece::ConvexCombination;
-use crate::body::piece::Piece;
+use crate::body::piece::{ConvexCombination, Piece};
 use crate::distance::oracle::PiecePair;
 use crate::math::vector::{unit, vector_perpendicular_to_both};
 use glam::{DMat3, DVec3};

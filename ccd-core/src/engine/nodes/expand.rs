@@ -2,8 +2,7 @@
 
 use super::bounds::{EightPairBounds, bound_eight_pairs};
 use super::common::NodeContext;
-use super::eight_pairs::BodyRotation;
-use super::eight_pairs::{LargerBody, RelativeMotionF32};
+use super::eight_pairs::{BodyRotation, LargerBody, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use crate::body::tree::{
     GroupHeader, LANES, Node, NodeChildren, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,

@@ -3,11 +3,9 @@
 use crate::body::Body;
 use crate::body::hierarchy::HierarchyNode;
 use crate::body::hull_tree::{FacetClass, HullTree};
-use crate::body::piece::ConvexCombination;
-use crate::body::piece::Piece;
+use crate::body::piece::{ConvexCombination, Piece};
 use crate::distance::oracle::Claim;
-use crate::problem::Problem;
-use crate::problem::WhichBody;
+use crate::problem::{Problem, WhichBody};
 
 /// The hull trees of both bodies.
 #[derive(Clone, Copy, Debug)]
