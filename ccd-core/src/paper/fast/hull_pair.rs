@@ -91,46 +91,37 @@ impl<'a> HullTreePair<'a> {
 
 /// The hull tree of a body, or the single piece of a body without a tree.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Hulls<'a> {
-    Tree(&'a HullTree),
-    /// A body with one piece, which is the only node of its tree.
-    SinglePiece(&'a Body),
+pub(super) struct Hulls<'a> {
+    body: &'a Body,
+    /// The body's hull tree; without one, the body's only piece is the only node.
+    tree: Option<&'a HullTree>,
 }
 
 impl<'a> Hulls<'a> {
     fn for_body(body: &'a Body) -> Option<Self> {
-        match body.hull_tree() {
-            Some(tree) => Some(Hulls::Tree(tree)),
-            None if body.pieces().len() == 1 => Some(Hulls::SinglePiece(body)),
-            None => None,
-        }
+        let tree = body.hull_tree();
+        (tree.is_some() || body.pieces().len() == 1).then_some(Hulls { body, tree })
     }
 
     fn hull(self, node: u32) -> Piece<'a> {
-        match self {
-            Hulls::Tree(tree) => tree.hull(node),
-            Hulls::SinglePiece(body) => body.piece(node),
+        match self.tree {
+            Some(tree) => tree.hull(node),
+            None => self.body.piece(node),
         }
     }
 
     fn hierarchy_node(self, node: u32) -> HierarchyNode {
-        match self {
-            Hulls::Tree(tree) => tree.hierarchy().nodes()[node as usize],
-            Hulls::SinglePiece(_) => HierarchyNode::Leaf(0),
-        }
+        self.tree.map_or(HierarchyNode::Leaf(0), |tree| {
+            tree.hierarchy().nodes()[node as usize]
+        })
     }
 
     fn is_on_bridge(self, node: u32, point: &ConvexCombination) -> bool {
-        match self {
-            Hulls::Tree(tree) => tree.facet_class_at(node, point) == FacetClass::Free,
-            Hulls::SinglePiece(_) => false,
-        }
+        self.tree
+            .is_some_and(|tree| tree.facet_class_at(node, point) == FacetClass::Free)
     }
 
     fn half_diagonal(self, node: u32) -> f64 {
-        match self {
-            Hulls::Tree(tree) => tree.half_diagonal(node),
-            Hulls::SinglePiece(_) => 0.0,
-        }
+        self.tree.map_or(0.0, |tree| tree.half_diagonal(node))
     }
 }
