@@ -25,21 +25,17 @@ impl SideTable {
     pub(crate) fn entry<T: Any + Send + Sync>(&self, len: usize, index: usize) -> &OnceLock<T> {
         let mut side_table = self;
         loop {
-            let column = side_table.0.get_or_init(|| Box::new(Column::new::<T>(len)));
+            let column = side_table.0.get_or_init(|| {
+                let entries: Vec<OnceLock<T>> = (0..len).map(|_| OnceLock::new()).collect();
+                Box::new(Column {
+                    entries: Box::new(entries),
+                    other_columns: SideTable::default(),
+                })
+            });
             if let Some(entries) = column.entries.downcast_ref::<Vec<OnceLock<T>>>() {
                 return &entries[index];
             }
             side_table = &column.other_columns;
-        }
-    }
-}
-
-impl Column {
-    fn new<T: Any + Send + Sync>(len: usize) -> Self {
-        let entries: Vec<OnceLock<T>> = (0..len).map(|_| OnceLock::new()).collect();
-        Column {
-            entries: Box::new(entries),
-            other_columns: SideTable::default(),
         }
     }
 }

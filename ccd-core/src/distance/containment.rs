@@ -9,7 +9,7 @@ use crate::body::tree::point_query::is_far_from_surface;
 use crate::body::tree::ray::sum_signed_crossings;
 use crate::math::vector::{unit_or_any, vector_perpendicular_to_both};
 use crate::motion::pose::Frame;
-use crate::problem::{BodyWithPath, Problem};
+use crate::problem::Problem;
 use crate::rounding::CERTAIN_SIDE_DISTANCE;
 use beside::points_beside_edges;
 use glam::DVec3;
@@ -41,10 +41,10 @@ pub(crate) fn containment_at_start(
     if !(problem.a.body.may_be_hollow() || problem.b.body.may_be_hollow()) {
         return None;
     }
-    let (a, b) = (
-        PlacedBody::at_start(&problem.a),
-        PlacedBody::at_start(&problem.b),
-    );
+    let [a, b] = [&problem.a, &problem.b].map(|side| PlacedBody {
+        body: side.body,
+        frame: side.path.frame(0.0),
+    });
     let reach = CERTAIN_SIDE_DISTANCE * problem.rounding;
     let mut look = |outer: &PlacedBody<'_>, inner: &PlacedBody<'_>, side: usize| {
         let search = Search {
@@ -73,15 +73,6 @@ pub(crate) fn containment_at_start(
 struct PlacedBody<'a> {
     body: &'a Body,
     frame: Frame,
-}
-
-impl PlacedBody<'_> {
-    fn at_start<'a>(side: &BodyWithPath<'a>) -> PlacedBody<'a> {
-        PlacedBody {
-            body: side.body,
-            frame: side.path.frame(0.0),
-        }
-    }
 }
 
 /// A search for a point of one body, the inner one, inside the solid of the other, the outer one.
