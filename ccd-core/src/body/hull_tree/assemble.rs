@@ -128,19 +128,21 @@ fn check_and_make_inner_node<'a>(
     hull: &'a Hull,
     children: [(u32, &Node<'_>); 2],
 ) -> Result<Node<'a>, HullTreeError> {
-    check_facets(hull).map_err(|fault| fault.at_node(at))?;
-    let identity = PointNumbering::new(hull, children.map(|(_, child)| child))
-        .map_err(|fault| fault.at_node(at))?;
-    check_children_inside(hull, &identity, &children).map_err(|fault| fault.at_node(at))?;
-
     let [left, right] = children.map(|(_, child)| child);
+    let at_node = |fault: HullFault| fault.at_node(at);
+    check_facets(hull).map_err(at_node)?;
+    let identity = PointNumbering::new(hull, [left, right]).map_err(at_node)?;
+    check_children_inside(hull, &identity, &children).map_err(at_node)?;
+
     let even = |child: &Node<'_>| child.has_uniform_radius && child.radius == left.radius;
     let has_uniform_radius = even(left) && even(right);
-    let of_left = NumberedChild::new(left, &identity.left_point_numbers);
-    let of_right = NumberedChild::new(right, &identity.right_point_numbers);
+    let numbered = [0, 1].map(|k| NumberedChild {
+        node: children[k].1,
+        common_numbers: &identity.child_point_numbers[k],
+    });
     let radius = greater(left.radius, right.radius);
     Ok(Node {
-        facet_data: inherit_facet_data(hull, &identity.positions, [of_left, of_right]),
+        facet_data: inherit_facet_data(hull, &identity.positions, numbered),
         has_uniform_radius,
         half_diagonal: half_diagonal(&hull.points, radius),
         facets: Cow::Borrowed(&hull.facets),
@@ -158,10 +160,7 @@ fn check_children_inside(
     children: &[(u32, &Node<'_>); 2],
 ) -> Result<(), HullFault> {
     let container = PreparedHull::new(&hull.points, &hull.facets);
-    for (&(child, node), ids) in children
-        .iter()
-        .zip([&identity.left_point_numbers, &identity.right_point_numbers])
-    {
+    for (&(child, node), ids) in children.iter().zip(&identity.child_point_numbers) {
         let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
         let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();
         let positions: Vec<DVec3> = hidden.iter().map(|&k| node.points[k as usize]).collect();

@@ -9,8 +9,8 @@ use glam::DVec3;
 ///
 /// Numbers below the hull's count of points name the hull's points. The others name hidden points.
 pub(super) struct PointNumbering {
-    pub(super) left_point_numbers: Vec<u32>,
-    pub(super) right_point_numbers: Vec<u32>,
+    /// The common numbers of the points of each child.
+    pub(super) child_point_numbers: [Vec<u32>; 2],
     /// The position of the point with each common number.
     pub(super) positions: Vec<DVec3>,
     /// The mesh's vertex number of each point of the hull.
@@ -50,8 +50,7 @@ impl PointNumbering {
         let vertex_ids = (0..own).map(vertex_id).collect::<Result<_, _>>()?;
         let middle = own + left.points.len();
         Ok(PointNumbering {
-            left_point_numbers: numbers[own..middle].to_vec(),
-            right_point_numbers: numbers[middle..].to_vec(),
+            child_point_numbers: [&numbers[own..middle], &numbers[middle..]].map(<[u32]>::to_vec),
             positions,
             vertex_ids,
         })

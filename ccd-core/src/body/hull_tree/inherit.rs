@@ -27,7 +27,8 @@ impl FacetData {
         let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
         let tree = PointTree::new(&starts);
         for facet in &piece.facets {
-            let corners: Vec<DVec3> = points_of(piece, &facet.corners);
+            let corners = facet.corners.iter().map(|&v| piece.points[v as usize]);
+            let corners: Vec<DVec3> = corners.collect();
             let mut near = Vec::new();
             if let Some(plane) = non_collinear_corners(&corners) {
                 tree.for_each_not_behind(plane, |k| near.push(k));
@@ -64,18 +65,9 @@ impl FacetData {
 /// A child of a node, with its points numbered as in [`PointNumbering`](super::identity::PointNumbering).
 #[derive(Clone, Copy)]
 pub(super) struct NumberedChild<'a> {
-    node: &'a Node<'a>,
+    pub(super) node: &'a Node<'a>,
     /// The common number of each of the child's points.
-    common_numbers: &'a [u32],
-}
-
-impl<'a> NumberedChild<'a> {
-    pub(super) fn new(node: &'a Node<'a>, ids: &'a [u32]) -> Self {
-        NumberedChild {
-            node,
-            common_numbers: ids,
-        }
-    }
+    pub(super) common_numbers: &'a [u32],
 }
 
 /// Returns the origin, class and mesh faces of each facet of a hull, taken from the children's facets.
@@ -213,11 +205,6 @@ fn single_triangle_facet_data(child: &NumberedChild<'_>) -> Option<FacetData> {
 fn vertex_id_of(node: &Node<'_>, point: u32) -> u32 {
     let known = node.vertex_ids.get(point as usize);
     known.copied().unwrap_or(point)
-}
-
-fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
-    let point = |&v: &u32| polytope.points[v as usize];
-    corners.iter().map(point).collect()
 }
 
 /// Returns whether a child's facet has the same corners, in the same cyclic order, as a facet of the hull.

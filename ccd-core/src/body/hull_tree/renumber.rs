@@ -7,52 +7,42 @@ use crate::body::pieces::Pieces;
 use std::cmp::Ordering;
 
 impl HullTree {
-    /// Renumbers the leaves so that they refer to the same pieces in another order.
+    /// Renumbers the leaves so that they refer to the same pieces, bitwise equal, in another order. Among equal pieces,
+    /// the first leaf gets the first piece.
     ///
     /// # Errors
     /// [`HullFault::NotAPiece`] at a leaf that is not in the list.
     pub(crate) fn renumber_leaves(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
-        let hierarchy = renumbered_hierarchy(&self, pieces)?;
+        let hulls = self.hulls();
+        let mut renamed = self.hierarchy.nodes().to_vec();
+        let nodes = (0..renamed.len()).filter(|&at| matches!(renamed[at], HierarchyNode::Leaf(_)));
+        let leaves = sorted_by_piece(nodes.collect(), hulls);
+        let known = sorted_by_piece((0..pieces.len()).collect(), pieces);
+        let mut known = known.into_iter().peekable();
+        let mut found = Vec::with_capacity(leaves.len());
+        for at in leaves {
+            let to_leaf = |&k: &usize| compare_pieces([pieces, hulls], [k, at]);
+            // A piece that is less than this leaf is not a leaf.
+            while known.next_if(|k| to_leaf(k) == Ordering::Less).is_some() {}
+            let same = known.next_if(|k| to_leaf(k) == Ordering::Equal);
+            found.push((at, same));
+        }
+        found.sort_unstable();
+        for (at, same) in found {
+            let piece = same.ok_or(HullFault::NotAPiece.at_node(at))?;
+            renamed[at] = HierarchyNode::Leaf(piece as u32);
+        }
+        // This also fails if a piece of the list is not a leaf.
+        let hierarchy = Hierarchy::new(renamed, pieces.len())?;
         Ok(HullTree { hierarchy, ..self })
     }
 }
 
-/// Returns the tree's hierarchy with its leaves renumbered for `pieces`. These must be the tree's pieces, bitwise
-/// equal, in any order. Among equal pieces, the first leaf gets the first piece.
-fn renumbered_hierarchy(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
-    let hulls = tree.hulls();
-    let mut renamed = tree.hierarchy.nodes().to_vec();
-    let nodes = (0..renamed.len()).filter(|&at| matches!(renamed[at], HierarchyNode::Leaf(_)));
-    let leaves = sort_numbers_by(nodes.collect(), |one, other| {
-        compare_pieces([hulls, hulls], [one, other])
+/// Returns the numbers of pieces sorted by the pieces, and by number where two of these are equal.
+fn sorted_by_piece(mut numbers: Vec<usize>, pieces: &Pieces) -> Vec<usize> {
+    numbers.sort_unstable_by(|&one, &other| {
+        compare_pieces([pieces; 2], [one, other]).then(one.cmp(&other))
     });
-    let known = sort_numbers_by((0..pieces.len()).collect(), |one, other| {
-        compare_pieces([pieces, pieces], [one, other])
-    });
-    let mut known = known.into_iter().peekable();
-    let mut found = Vec::with_capacity(leaves.len());
-    for at in leaves {
-        let to_leaf = |&k: &usize| compare_pieces([pieces, hulls], [k, at]);
-        // A piece that is less than this leaf is not a leaf.
-        while known.next_if(|k| to_leaf(k) == Ordering::Less).is_some() {}
-        let same = known.next_if(|k| to_leaf(k) == Ordering::Equal);
-        found.push((at, same));
-    }
-    found.sort_unstable();
-    for (at, same) in found {
-        let piece = same.ok_or(HullFault::NotAPiece.at_node(at))?;
-        renamed[at] = HierarchyNode::Leaf(piece as u32);
-    }
-    // This also fails if a piece of the list is not a leaf.
-    Ok(Hierarchy::new(renamed, pieces.len())?)
-}
-
-/// Returns the numbers sorted by `order`, and by number where `order` finds two of them equal.
-fn sort_numbers_by(
-    mut numbers: Vec<usize>,
-    order: impl Fn(usize, usize) -> Ordering,
-) -> Vec<usize> {
-    numbers.sort_unstable_by(|&one, &other| order(one, other).then(one.cmp(&other)));
     numbers
 }
 

@@ -41,10 +41,7 @@ fn points_get_the_numbers_that_a_table_gives() {
         };
         let found = PointNumbering::new(&hull, [&left, &right]).unwrap();
         let (numbers, positions) = reference_numbering(&hull.points, [&left.points, &right.points]);
-        assert_eq!(
-            [found.left_point_numbers, found.right_point_numbers].concat(),
-            numbers
-        );
+        assert_eq!(found.child_point_numbers.concat(), numbers);
         assert_eq!(found.positions, positions);
     }
 }
