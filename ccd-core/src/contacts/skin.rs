@@ -88,17 +88,13 @@ impl<'a> NearSurface<'a> {
     pub(super) fn find_hidden_edges_and_corners(&mut self, rounding: f64) {
         self.propagate_mesh_numbers();
         self.compute_corner_normals();
-        let mut sides: HashMap<[u32; 2], EdgeFaces> = HashMap::new();
+        let mut faces_at_edge: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
             if let Feature::Face(_) = name {
                 self.first_triangle_of.entry(*name).or_insert(face);
             }
             for ends in triangle_edges(*corners) {
-                let sides = sides.entry(ends).or_default();
-                if let Some(side) = sides.faces.get_mut(sides.count) {
-                    *side = face;
-                }
-                sides.count += 1;
+                faces_at_edge.entry(ends).or_default().push(face);
             }
         }
         self.is_corner_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
@@ -107,25 +103,26 @@ impl<'a> NearSurface<'a> {
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
             self.is_corner_hidden[corner as usize] = false;
         }
-        for (ends, EdgeFaces { mut faces, count }) in sides {
-            if count == 2 && self.are_coplanar(ends, faces, rounding) {
-                faces.sort_by_key(|&face| (self.face(face).name, face));
-                self.coplanar_edges.insert(ends, faces);
-            } else {
-                for end in ends {
-                    self.is_corner_hidden[end as usize] = false;
+        for (ends, faces) in faces_at_edge {
+            match <[u32; 2]>::try_from(faces) {
+                Ok(mut faces) if self.are_coplanar(ends, faces, rounding) => {
+                    faces.sort_by_key(|&face| (self.face(face).name, face));
+                    self.coplanar_edges.insert(ends, faces);
+                }
+                _ => {
+                    for end in ends {
+                        self.is_corner_hidden[end as usize] = false;
+                    }
                 }
             }
         }
         for (face, Face { corners, .. }) in (0u32..).zip(&self.faces) {
-            for &corner in corners
+            let hidden = corners
                 .iter()
-                .filter(|&&k| self.is_corner_hidden[k as usize])
-            {
-                self.faces_around_hidden_corner
-                    .entry(corner)
-                    .or_default()
-                    .push(face);
+                .filter(|&&k| self.is_corner_hidden[k as usize]);
+            for &corner in hidden {
+                let around = self.faces_around_hidden_corner.entry(corner);
+                around.or_default().push(face);
             }
         }
     }
@@ -237,14 +234,13 @@ impl<'a> NearSurface<'a> {
     /// Returns the corner, edge or face that a contact reports for `spot`, and a face that contains `spot`. Edges and
     /// corners inside a flat part are replaced by a face. Triangles with the same face number are one face.
     pub(super) fn reported_part(&self, spot: SurfacePart, face: u32) -> (SurfacePart, u32) {
-        let face = match spot {
-            SurfacePart::Corner(corner) if self.is_corner_hidden[corner as usize] => face,
-            SurfacePart::Edge(ends) => match self.face_of_coplanar_edge(ends) {
-                Some(face) => face,
-                None => return (spot, face),
-            },
-            SurfacePart::Face(face) => face,
-            SurfacePart::Corner(_) => return (spot, face),
+        let hiding_face = match spot {
+            SurfacePart::Corner(corner) => self.is_corner_hidden[corner as usize].then_some(face),
+            SurfacePart::Edge(ends) => self.face_of_coplanar_edge(ends),
+            SurfacePart::Face(face) => Some(face),
+        };
+        let Some(face) = hiding_face else {
+            return (spot, face);
         };
         let first = self.first_triangle_of.get(&self.face(face).name);
         (SurfacePart::Face(first.copied().unwrap_or(face)), face)
@@ -335,13 +331,6 @@ impl<'a> NearSurface<'a> {
         };
         greater(n.dot(q).abs(), m.dot(p).abs()) <= rounding && n.dot(m) < 0.0
     }
-}
-
-/// The first two faces at an edge, and the number of faces there.
-#[derive(Default)]
-struct EdgeFaces {
-    faces: [u32; 2],
-    count: usize,
 }
 
 /// Returns the distinct edges of a triangle, each with its smaller corner index first. A segment has one edge, a point
