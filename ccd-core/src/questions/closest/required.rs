@@ -38,23 +38,22 @@ impl RequiredClearance {
             query_tolerance: 0.5 * self.tolerance,
         };
         // A part of the budget is left for the proof of a smaller distance.
-        let most = self.budget - self.budget / 4;
-        let near = decision.run_query(self.distance, decision.query_tolerance, most)?;
+        let near = decision.run_query(MarginQuery {
+            margin: self.distance,
+            tolerance: decision.query_tolerance,
+            budget: self.budget - self.budget / 4,
+        })?;
         // A finer tolerance may not be certified in f64.
         decision.query_tolerance = greater(decision.query_tolerance, near.tolerance);
-        let outcome = match self.clearance_outcome(near.outcome) {
+        let mut outcome = match self.clearance_outcome(near.outcome) {
             Outcome::LeastDistance { time, contact, .. } if self.violation_distance() > 0.0 => {
                 decision.decide_violation(time, contact)?
             }
             found => found,
         };
-        let outcome = match outcome {
-            Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
-                lower: decision.prove_lower_bound(known.limit)?,
-                ..known
-            }),
-            found => found,
-        };
+        if let Outcome::Unresolved(known) = &mut outcome {
+            known.lower = decision.prove_lower_bound(known.limit)?;
+        }
         Ok(Answer {
             tolerance: greater(self.tolerance, outcome.least_distance_bracket_width()),
             outcome,
@@ -74,13 +73,13 @@ impl RequiredClearance {
             Outcome::Free { proven_gap } => Outcome::Free {
                 proven_gap: greater(proven_gap, self.distance),
             },
-            Outcome::Contact { time, contact }
-                if !(self
-                    .excess
-                    .shape_distance_upper_bound(contact.separation.upper)
-                    < self.distance) =>
-            {
-                least_distance_outcome(0.0, time, contact)
+            Outcome::Contact { time, contact } => {
+                let upper = contact.separation.upper;
+                if self.excess.shape_distance_upper_bound(upper) < self.distance {
+                    found
+                } else {
+                    least_distance_outcome(0.0, time, contact)
+                }
             }
             Outcome::Unresolved(known) => {
                 Outcome::Unresolved(Unresolved::for_least_distance(0.0, None, known.limit))
@@ -102,12 +101,8 @@ struct ClearanceDecision<F> {
 }
 
 impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceDecision<F> {
-    fn run_query(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer, E> {
-        let rung = MarginQuery {
-            margin,
-            tolerance: greater(LEAST_TOLERANCE, tolerance),
-            budget,
-        };
+    fn run_query(&mut self, mut rung: MarginQuery) -> Result<Answer, E> {
+        rung.tolerance = greater(LEAST_TOLERANCE, rung.tolerance);
         let left =
             |(begun, deadline): (Instant, Duration)| deadline.saturating_sub(begun.elapsed());
         let answer = (self.any_contact)(rung, self.start_and_time_limit.map(left))?;
@@ -128,14 +123,16 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
         // and the excess.
         let margin = greater(0.0, distance - 1.5 * query_tolerance);
-        let finer = if margin > 0.0 {
-            query_tolerance
-        } else {
-            lesser(query_tolerance, 0.5 * distance)
+        let rung = MarginQuery {
+            margin,
+            tolerance: if margin > 0.0 {
+                query_tolerance
+            } else {
+                lesser(query_tolerance, 0.5 * distance)
+            },
+            budget: self.remaining_work(),
         };
-        let found = self
-            .run_query(margin, finer, self.remaining_work())?
-            .outcome;
+        let found = self.run_query(rung)?.outcome;
         Ok(match (found, self.clearance.clearance_outcome(found)) {
             (Outcome::Free { proven_gap }, _) => least_distance_outcome(proven_gap, time, contact),
             (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
@@ -159,10 +156,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
             else {
                 break;
             };
-            let found = self
-                .run_query(rung.margin, rung.tolerance, rung.budget)?
-                .outcome;
-            ladder.record_attempt(match found {
+            ladder.record_attempt(match self.run_query(rung)?.outcome {
                 Outcome::Free { proven_gap } => Some(proven_gap),
                 _ => None,
             });
