@@ -126,14 +126,13 @@ impl fmt::Display for InputError {
             Self::NotFinite { quantity } => write!(f, "{quantity} is NaN or infinite"),
             Self::ZeroQuaternion => write!(f, "a quaternion of length zero names no orientation"),
             Self::OutOfRange {
-                quantity: what,
+                quantity,
                 value,
                 allowed,
-            } => write!(
-                f,
-                "{what} is {}, but must be {allowed}",
-                ShortNumber(*value)
-            ),
+            } => {
+                let value = ShortNumber(*value);
+                write!(f, "{quantity} is {value}, but must be {allowed}")
+            }
             Self::JointOutOfLimits {
                 joint,
                 position,
@@ -143,11 +142,7 @@ impl fmt::Display for InputError {
                     Some(joint) => write!(f, "joint {joint}")?,
                     None => write!(f, "the joint")?,
                 }
-                let (position, least, greatest) = (
-                    ShortNumber(*position),
-                    ShortNumber(*least),
-                    ShortNumber(*greatest),
-                );
+                let [position, least, greatest] = [*position, *least, *greatest].map(ShortNumber);
                 write!(
                     f,
                     " is at {position}, but its limits are {least} and {greatest}"
