@@ -130,19 +130,15 @@ impl HullTree {
 
     /// Returns the input nodes from which the tree can be [built](HullTree::new) again.
     pub fn to_nodes(&self) -> Vec<HullNode> {
-        let inner = |at: usize, children: [u32; 2]| {
-            let hull = self.hulls.pieces.get(at);
-            let facets = hull.facets.iter().collect();
-            let points = hull.points.to_vec();
-            HullNode::Inner(children, Hull { points, facets })
-        };
-        let nodes = self.hierarchy.nodes().iter().enumerate();
-        nodes
-            .map(|(at, node)| match *node {
-                HierarchyNode::Leaf(piece) => HullNode::Leaf(piece),
-                HierarchyNode::Inner(left, right) => inner(at, [left, right]),
-            })
-            .collect()
+        let nodes = self.hierarchy.nodes().iter().zip(self.hulls.pieces.iter());
+        let nodes = nodes.map(|(node, hull)| match *node {
+            HierarchyNode::Leaf(piece) => HullNode::Leaf(piece),
+            HierarchyNode::Inner(left, right) => {
+                let (points, facets) = (hull.points.to_vec(), hull.facets.iter().collect());
+                HullNode::Inner([left, right], Hull { points, facets })
+            }
+        });
+        nodes.collect()
     }
 
     /// Returns half the diagonal of a node's bounding box, rounding included.
@@ -153,7 +149,10 @@ impl HullTree {
 
     /// Returns the approximate memory use in bytes.
     pub(crate) fn memory_usage(&self) -> usize {
-        self.hulls.memory_usage()
+        self.hulls.pieces.memory_usage()
+            + self.hulls.facet_classes.len()
+            + 25 * self.hulls.half_diagonals.len()
+            + self.hulls.facets_by_point.memory_usage()
     }
 }
 
@@ -166,13 +165,6 @@ impl Hulls {
             return &[];
         }
         self.facets_by_point.list(at)
-    }
-
-    fn memory_usage(&self) -> usize {
-        self.pieces.memory_usage()
-            + self.facet_classes.len()
-            + 25 * self.half_diagonals.len()
-            + self.facets_by_point.memory_usage()
     }
 }
 
