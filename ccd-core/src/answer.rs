@@ -6,7 +6,7 @@ mod unresolved;
 
 use crate::body::excess::ExcessSum;
 use crate::distance::oracle::Effort;
-use crate::math::order::greater;
+use crate::math::order::{greater, lesser};
 use crate::tuning::EVALUATIONS_WORTH_A_VISIT;
 
 pub use contact::{Contact, Overlap, Separation};
@@ -269,6 +269,17 @@ impl Outcome {
         Outcome::Overlapping {
             overlap,
             upper: 0.0,
+        }
+    }
+
+    /// Creates the outcome for bodies whose distance is least at a contact, with a lower bound that is at most the upper
+    /// bound.
+    pub(crate) fn least_distance(lower: f64, time: f64, contact: Contact) -> Self {
+        let lower = lesser(lower, contact.separation.upper);
+        Outcome::LeastDistance {
+            lower,
+            time,
+            contact: contact.cap_lower_bound(lower),
         }
     }
 

@@ -120,13 +120,18 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut scratch = self.scratch.take();
         let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
             let problem = problem.for_distances();
-            let found = match RepresentativePeriod::for_problem(&problem) {
-                Some(sample) => {
-                    let found =
-                        self.search_least_distance(&sample.period_problem, beyond, oracle, meter);
-                    outcome_for_all_periods(&sample, found)
-                }
-                None => self.search_least_distance(&problem, beyond, oracle, meter),
+            let sample = RepresentativePeriod::for_problem(&problem);
+            let searched = sample
+                .as_ref()
+                .map_or(&problem, |sample| &sample.period_problem);
+            self.stack.clear();
+            let found = self.search(searched, beyond, oracle, meter);
+            let stats = &mut meter.stats;
+            stats.peak_front = stats.peak_front.max(self.stack.peak_length());
+            self.stack.clear();
+            let found = match &sample {
+                Some(sample) => outcome_for_all_periods(sample, found),
+                None => found,
             };
             let told = found.map(|found| {
                 let found = last_look(&problem, oracle, meter, found);
@@ -142,21 +147,6 @@ impl<O: DistanceOracle> DepthFirst<O> {
         });
         self.scratch = scratch;
         answer
-    }
-
-    fn search_least_distance(
-        &mut self,
-        problem: &Problem<'_>,
-        beyond: f64,
-        oracle: &mut O,
-        meter: &mut Meter,
-    ) -> Result<Outcome, FartherThanCutoff> {
-        self.stack.clear();
-        let found = self.search(problem, beyond, oracle, meter);
-        let stats = &mut meter.stats;
-        stats.peak_front = stats.peak_front.max(self.stack.peak_length());
-        self.stack.clear();
-        found
     }
 
     fn search(
@@ -308,6 +298,14 @@ pub(crate) struct NearestPair {
     /// The indices of the nearest pieces: of the problem's body A, and of its body B.
     pieces: [u32; 2],
     pub(crate) contact: Contact,
+}
+
+impl NearestPair {
+    /// Returns the time of the measurement, and the contact with a lower bound of at most `lower`.
+    fn time_and_contact(self, problem: &Problem<'_>, lower: f64) -> (f64, Contact) {
+        let time = problem.time_of_clock(self.clock);
+        (time, self.contact.cap_lower_bound(lower))
+    }
 }
 
 #[cfg(test)]

@@ -2,10 +2,11 @@
 
 use super::follow::follow_to_minimum;
 use super::{NearestPair, unresolved_outcome};
-use crate::answer::{Limit, Outcome, Overlap, Unresolved};
+use crate::answer::{Limit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::nearest::{EarlyEndReason, NearestSearch};
+use crate::engine::start::overlap_outcome;
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::shortcuts::bounding_volumes::{clock_of_nearest_balls, least_distance};
@@ -84,16 +85,11 @@ fn outcome_of_stop(
     stop: EarlyEndReason,
 ) -> Outcome {
     match stop {
-        EarlyEndReason::Overlap(_, contact) => Outcome::from_overlap(Overlap::Pieces(contact)),
+        EarlyEndReason::Overlap(_, contact) => overlap_outcome(contact),
         EarlyEndReason::Limit(limit) => {
-            let seen = |best: NearestPair| {
-                (
-                    problem.time_of_clock(best.clock),
-                    best.contact.cap_lower_bound(0.0),
-                )
-            };
+            let seen = best.map(|best| best.time_and_contact(problem, 0.0));
             let lower = greater(0.0, least_distance(problem));
-            Outcome::Unresolved(Unresolved::for_least_distance(lower, best.map(seen), limit))
+            Outcome::Unresolved(Unresolved::for_least_distance(lower, seen, limit))
         }
     }
 }

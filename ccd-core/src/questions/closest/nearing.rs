@@ -42,25 +42,19 @@ impl LeastDistanceSearch {
         lower: f64,
     ) -> Result<Outcome, FartherThanCutoff> {
         let best = self.nearest_pair.ok_or(FartherThanCutoff { lower })?;
-        let contact = best.contact.cap_lower_bound(lower);
+        let (time, contact) = best.time_and_contact(problem, lower);
         Ok(Outcome::LeastDistance {
             lower,
-            time: problem.time_of_clock(best.clock),
+            time,
             contact,
         })
     }
 
     pub(crate) fn unresolved_outcome(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.lower_bound_attempts.lower, self.upper());
-        let seen = |best: NearestPair| {
-            let contact = best.contact.cap_lower_bound(lower);
-            (problem.time_of_clock(best.clock), contact)
-        };
-        Outcome::Unresolved(Unresolved::for_least_distance(
-            lower,
-            self.nearest_pair.map(seen),
-            limit,
-        ))
+        let seen = self.nearest_pair;
+        let seen = seen.map(|best| best.time_and_contact(problem, lower));
+        Outcome::Unresolved(Unresolved::for_least_distance(lower, seen, limit))
     }
 
     /// Tries to prove a lower bound in a separate search, and records the bound or the nearer pieces that the search

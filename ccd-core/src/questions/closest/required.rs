@@ -78,7 +78,7 @@ impl RequiredClearance {
                 if self.excess.shape_distance_upper_bound(upper) < self.distance {
                     found
                 } else {
-                    least_distance_outcome(0.0, time, contact)
+                    Outcome::least_distance(0.0, time, contact)
                 }
             }
             Outcome::Unresolved(known) => {
@@ -134,7 +134,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         };
         let found = self.run_query(rung)?.outcome;
         Ok(match (found, self.clearance.clearance_outcome(found)) {
-            (Outcome::Free { proven_gap }, _) => least_distance_outcome(proven_gap, time, contact),
+            (Outcome::Free { proven_gap }, _) => Outcome::least_distance(proven_gap, time, contact),
             (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
                 known.lower,
                 Some((time, contact)),
@@ -162,14 +162,5 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
             });
         }
         Ok(ladder.lower)
-    }
-}
-
-fn least_distance_outcome(lower: f64, time: f64, contact: Contact) -> Outcome {
-    let lower = lesser(lower, contact.separation.upper);
-    Outcome::LeastDistance {
-        lower,
-        time,
-        contact: contact.cap_lower_bound(lower),
     }
 }

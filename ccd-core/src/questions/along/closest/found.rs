@@ -161,13 +161,10 @@ impl LeastDistanceSoFar {
             let reason = Limit::OracleGaveUp;
             return self.answer(stretches, self.unresolved_outcome(0.0, reason));
         };
-        let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = Outcome::LeastDistance {
-            lower,
-            time,
-            contact: contact.cap_lower_bound(lower),
-        };
-        self.answer(stretches, nearest)
+        self.answer(
+            stretches,
+            Outcome::least_distance(self.lower, time, contact),
+        )
     }
 
     /// Returns the unresolved answer for a search that reached a limit in the stretch `span`. For this stretch and the
