@@ -64,40 +64,24 @@ impl<C: Clone + Default> Front<C> {
 
     /// Returns the leaves, in the order of the tree.
     pub(super) fn leaf_indices(&self) -> Vec<u32> {
-        let mut leaves = Vec::with_capacity(self.leaf_count);
-        self.walk(|at, node| {
-            if node.children.is_none() {
-                leaves.push(at);
-            }
-        });
-        leaves
+        self.leaves().map(|(at, _)| at).collect()
     }
 
     /// Returns the least clock among the leaves.
     pub(super) fn clock(&self) -> f64 {
-        let mut least = f64::INFINITY;
-        self.walk(|_, node| {
-            if node.children.is_none() {
-                least = lesser(least, node.clock);
-            }
-        });
-        least
+        let clocks = self.leaves().map(|(_, node)| node.clock);
+        clocks.fold(f64::INFINITY, lesser)
     }
 
     /// Returns the pairs whose children are both leaves and do not stay apart to the end, each with its first child.
     pub(super) fn joinable_pairs(&self) -> Vec<(u32, u32)> {
-        let mut above = Vec::new();
-        self.walk(|at, node| {
-            if let Some(first) = node.children
-                && [first, first + 1]
-                    .iter()
-                    .map(|&child| &self.nodes[child as usize])
-                    .all(|child| child.children.is_none() && !child.stays_apart())
-            {
-                above.push((at, first));
-            }
+        let is_open_leaf = |child: &Node<C>| child.children.is_none() && !child.stays_apart();
+        let above = self.preorder().filter_map(|(at, node)| {
+            let first = node.children?;
+            let children = &self.nodes[first as usize..][..2];
+            children.iter().all(is_open_leaf).then_some((at, first))
         });
-        above
+        above.collect()
     }
 
     /// Splits a leaf into two pairs that cover it, and returns the index of the first; `None` for a pair of pieces.
@@ -140,15 +124,21 @@ impl<C: Clone + Default> Front<C> {
         }
     }
 
-    fn walk(&self, mut visit: impl FnMut(u32, &Node<C>)) {
+    fn leaves(&self) -> impl Iterator<Item = (u32, &Node<C>)> {
+        self.preorder().filter(|(_, node)| node.children.is_none())
+    }
+
+    /// Returns all nodes with their indices, each node before its children, and the first child before the second.
+    fn preorder(&self) -> impl Iterator<Item = (u32, &Node<C>)> {
         let mut stack = vec![0];
-        while let Some(at) = stack.pop() {
+        std::iter::from_fn(move || {
+            let at = stack.pop()?;
             let node = &self.nodes[at as usize];
-            visit(at, node);
             if let Some(first) = node.children {
                 stack.extend([first + 1, first]);
             }
-        }
+            Some((at, node))
+        })
     }
 }
 
