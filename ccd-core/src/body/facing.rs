@@ -60,24 +60,19 @@ impl Body {
     }
 
     /// Returns the cached orientation of a flat piece, computed at the first call; `None` unless it is a flat piece of
-    /// a solid.
+    /// a solid, with a triangle that has a normal.
     fn cached_facing(&self, piece: u32) -> Option<&CachedFacing> {
         let of = self.pieces().get(piece as usize);
         if self.volume() == Volume::Surface || !of.is_flat() {
             return None;
         }
-        of.cached_value(|_| self.compute_facing(piece))
+        of.cached_value(|_| self.compute_facing(piece))?.as_ref()
     }
 
-    fn compute_facing(&self, piece: u32) -> CachedFacing {
-        let triangle = self.pieces().first_mesh_triangle(piece as usize);
-        let normal = triangle.and_then(crate::math::vector::normal);
-        let (Some(triangle), Some(normal)) = (triangle, normal) else {
-            return CachedFacing {
-                facing: Facing::NoOutwardSide,
-                inside_point: None,
-            };
-        };
+    /// Returns the orientation of a flat piece; `None` if no triangle of the mesh with a normal is on it.
+    fn compute_facing(&self, piece: u32) -> Option<CachedFacing> {
+        let triangle = self.pieces().first_mesh_triangle(piece as usize)?;
+        let normal = crate::math::vector::normal(triangle)?;
         let middle = triangle.iter().sum::<DVec3>() / 3.0;
         let samples = [middle, triangle[0], triangle[1], triangle[2]].map(|p| 0.5 * (p + middle));
         let [first, others @ ..] = samples.map(|at| self.facing_at(at, normal));
@@ -96,10 +91,10 @@ impl Body {
                 .find(|&p| self.has_nonzero_winding(p)),
             Facing::NoOutwardSide | Facing::Unclear => None,
         };
-        CachedFacing {
+        Some(CachedFacing {
             facing,
             inside_point: inside,
-        }
+        })
     }
 
     /// Returns on which side of a face the solid is near the point `at`, by the winding numbers of both sides.

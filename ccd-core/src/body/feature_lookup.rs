@@ -28,13 +28,8 @@ pub(crate) fn find_mesh_feature(
     if let [v] = *support {
         return Some(Feature::Vertex(vertex_id(v)));
     }
-    let near = match (
-        FacetsByCorner::cached_if_many_facets(piece),
-        support.first(),
-    ) {
-        (Some(by_corner), Some(&corner)) => Some(by_corner.facets.list(corner as usize)),
-        _ => None,
-    };
+    let by_corner = FacetsByCorner::cached_if_many_facets(piece).zip(support.first());
+    let near = by_corner.map(|(by_corner, &corner)| by_corner.facets.list(corner as usize));
     let count = near.map_or(facets.len(), <[u32]>::len);
     let facet = |k: usize| near.map_or(k, |near| near[k] as usize);
     let whole = (0..count)
