@@ -97,15 +97,10 @@ impl<'a> ContactManifold<'a> {
         let common_normals =
             |points| Surface::common_normals(&surfaces, points, self.problem.rounding);
         let told = sorted_pairs(&told);
-        let measured = told.iter().map(|found| {
-            measure_feature_pair(
-                self.problem,
-                self.near_surfaces,
-                a_to_world,
-                found,
-                common_normals,
-            )
-        });
+        let (problem, skins) = (self.problem, self.near_surfaces);
+        let measured = told
+            .iter()
+            .map(|found| measure_feature_pair(problem, skins, a_to_world, found, common_normals));
         let mut pairs: Vec<Contact> = measured.collect();
         pairs.sort_by(|one, other| {
             let names = |pair: &Contact| (pair.feature_a, pair.feature_b);

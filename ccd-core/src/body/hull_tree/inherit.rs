@@ -6,7 +6,7 @@
 
 use super::edges::EdgeMap;
 use super::hull::{FacetClass, Hull};
-use super::inside::{is_coplanar_and_cooriented, non_collinear_corners};
+use super::inside::{is_coplanar_and_cooriented, projectable_corners};
 use super::node::{FacetData, Node};
 use crate::body::facets::{edges_of, fan_triangles};
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
@@ -30,7 +30,7 @@ impl FacetData {
             let corners = facet.corners.iter().map(|&v| piece.points[v as usize]);
             let corners: Vec<DVec3> = corners.collect();
             let mut near = Vec::new();
-            if let Some(plane) = non_collinear_corners(&corners) {
+            if let Some((plane, _)) = projectable_corners(&corners) {
                 tree.for_each_not_behind(plane, |k| near.push(k));
             }
             near.sort_unstable();

@@ -95,13 +95,8 @@ pub(super) fn is_coplanar_and_cooriented(polygon: &[DVec3], triangle: [DVec3; 3]
     })
 }
 
-/// Returns three corners of a polygon that are not on one line.
-pub(super) fn non_collinear_corners(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
-    projectable_corners(polygon).map(|(corners, _)| corners)
-}
-
 /// Returns three corners of a polygon whose projection along a coordinate axis is not degenerate, and that axis.
-fn projectable_corners(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
+pub(super) fn projectable_corners(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     (1..polygon.len().saturating_sub(1)).find_map(|k| {
         let fan = [0, k, k + 1].map(|k| polygon[k]);
         let [a, b, c] = fan;

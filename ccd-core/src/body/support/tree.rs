@@ -68,7 +68,7 @@ impl SupportTree {
                 .collect(),
             groups: Vec::new(),
             level_starts: Vec::new(),
-            ball: bounding_ball(points),
+            ball: (middle, reach),
         };
         let mut width = LANES;
         while width < sorted.len() {
