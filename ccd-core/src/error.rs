@@ -206,31 +206,24 @@ impl fmt::Display for InputError {
 
 impl std::error::Error for InputError {}
 
-/// Returns an error for a quantity unless `allowed` is true. The condition has to be false for NaN.
+/// Returns an error for a quantity unless `is_allowed` is true. The condition has to be false for NaN.
 pub(crate) fn check(
-    what: &'static str,
+    quantity: &'static str,
     value: f64,
-    allowed: bool,
-    words: &'static str,
+    is_allowed: bool,
+    allowed: &'static str,
 ) -> Result<(), InputError> {
-    if allowed {
-        Ok(())
-    } else {
-        Err(InputError::OutOfRange {
-            quantity: what,
-            value,
-            allowed: words,
-        })
-    }
+    is_allowed.then_some(()).ok_or(InputError::OutOfRange {
+        quantity,
+        value,
+        allowed,
+    })
 }
 
 /// Returns an error for a quantity unless it is finite.
 pub(crate) fn check_finite(quantity: &'static str, is_finite: bool) -> Result<(), InputError> {
-    if is_finite {
-        Ok(())
-    } else {
-        Err(InputError::NotFinite { quantity })
-    }
+    let finite = is_finite.then_some(());
+    finite.ok_or(InputError::NotFinite { quantity })
 }
 
 /// Returns an error unless a value is a valid length of a shape.

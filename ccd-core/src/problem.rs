@@ -358,18 +358,9 @@ impl BodyWithPath<'_> {
 
 /// Returns an error if a coordinate of a point is too large.
 pub(crate) fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError> {
-    let largest = point
-        .to_array()
-        .map(f64::abs)
-        .into_iter()
-        .fold(0.0, greater);
-    let allowed = largest <= MAX_COORDINATE;
-    check(
-        what,
-        largest,
-        allowed,
-        "within 1e12 of 0 in every coordinate",
-    )
+    let largest = point.abs().max_element();
+    let allowed = "within 1e12 of 0 in every coordinate";
+    check(what, largest, largest <= MAX_COORDINATE, allowed)
 }
 
 #[cfg(test)]
