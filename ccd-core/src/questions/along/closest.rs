@@ -106,24 +106,16 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         Ok(())
     }
 
-    fn cut_if_too_long(
+    fn measure_suitable_length(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
+        time: f64,
         oracle: &mut O,
-    ) -> Result<bool, InputError> {
-        let Some(time) = stretches.end_at_proven_stretch_if_too_long(motions) else {
-            return Ok(false);
-        };
-        let distance_at_time = self.measure_at_time(stretches, oracle, time)?;
-        let Some(distance_at_time) = distance_at_time
-            .filter(|distance_at_time| distance_at_time.distance_increases_from_end(motions, time))
-        else {
-            return Ok(false);
-        };
-        let length = distance_at_time.stretch_length(motions);
-        Ok(motions.is_worth_a_cut(length)
-            && stretches.cut_out_around(motions.span, time, 2.0 * length))
+    ) -> Result<Option<f64>, InputError> {
+        let measured = self.measure_at_time(stretches, oracle, time)?;
+        let increasing = measured.filter(|seen| seen.distance_increases_from_end(motions, time));
+        Ok(increasing.map(|seen| seen.stretch_length(motions)))
     }
 
     fn search_stretch(

@@ -1,7 +1,7 @@
 //! Searches for the first or any contact along trajectories, one stretch of time after the other.
 
 use super::drive::{Question, search_stretches};
-use super::lengths::{choose_next_length, cut_if_too_long};
+use super::lengths::{choose_next_length, measure_suitable_length};
 use super::motions::{Span, StretchMotions};
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Contact, Limit, Outcome};
@@ -64,13 +64,14 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
         self.schedule.handles_accelerations()
     }
 
-    fn cut_if_too_long(
+    fn measure_suitable_length(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
+        time: f64,
         oracle: &mut O,
-    ) -> Result<bool, InputError> {
-        cut_if_too_long(stretches, motions, oracle, self.schedule.scratch())
+    ) -> Result<Option<f64>, InputError> {
+        measure_suitable_length(stretches, motions, time, oracle, self.schedule.scratch())
     }
 
     fn search_stretch(

@@ -25,13 +25,15 @@ pub(super) trait Question<O: DistanceOracle> {
         Ok(())
     }
 
-    /// Cuts a stretch without a search, if it is probably too long. Returns whether it was cut.
-    fn cut_if_too_long(
+    /// Measures the bodies at the time where a stretch adjoins a proven stretch, and returns the length that suits the
+    /// stretch; `None` if the measurement does not tell.
+    fn measure_suitable_length(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
+        time: f64,
         oracle: &mut O,
-    ) -> Result<bool, InputError>;
+    ) -> Result<Option<f64>, InputError>;
 
     /// Searches a stretch, and then records what is proven, or cuts the stretch, or returns the answer to the question.
     fn search_stretch(
@@ -76,7 +78,13 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
                 Ok(motions) => motions,
                 Err(limit) => return Ok(question.on_limit(stretches, span, limit)),
             };
-        if question.cut_if_too_long(stretches, &motions, oracle)? {
+        // A stretch that is probably too long is cut without a search.
+        if let Some(time) = stretches.end_at_proven_stretch_if_too_long(&motions)
+            && let Some(length) =
+                question.measure_suitable_length(stretches, &motions, time, oracle)?
+            && motions.is_worth_a_cut(length)
+            && stretches.cut_out_around(motions.span, time, 2.0 * length)
+        {
             continue;
         }
         let problem = motions.problem(query, &terms)?;

@@ -12,31 +12,25 @@ use crate::query::Query;
 use crate::settings::QuerySettings;
 use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
 
-/// Cuts a stretch before its search, if it is probably too long. The bodies are measured at the time where it adjoins a
-/// proven stretch. Returns whether it was cut.
-pub(super) fn cut_if_too_long<O: DistanceOracle>(
+/// Measures the bodies at one end of a stretch, and returns the length that suits the stretch; `None` if the bodies
+/// overlap, or if a limit is reached.
+pub(super) fn measure_suitable_length<O: DistanceOracle>(
     stretches: &mut WaitingStretches<'_, '_>,
     motions: &StretchMotions,
+    time: f64,
     oracle: &mut O,
     scratch: &mut Scratch,
-) -> Result<bool, InputError> {
-    let Some(time) = stretches.end_at_proven_stretch_if_too_long(motions) else {
-        return Ok(false);
-    };
-    let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
-        return Ok(false);
-    };
-    // Rates have the opposite sign backwards in time.
-    let approach = if time > motions.span.from {
-        -approach
-    } else {
-        approach
-    };
-    let length = length_from_distance(stretches.query(), motions, (contact, approach));
-    Ok(
-        motions.is_worth_a_cut(length)
-            && stretches.cut_out_around(motions.span, time, 2.0 * length),
-    )
+) -> Result<Option<f64>, InputError> {
+    let seen = stretches.measure(time, oracle, scratch)?;
+    Ok(seen.map(|(contact, approach)| {
+        // Rates have the opposite sign backwards in time.
+        let approach = if time > motions.span.from {
+            -approach
+        } else {
+            approach
+        };
+        length_from_distance(stretches.query(), motions, (contact, approach))
+    }))
 }
 
 /// Chooses the length of the next stretch to search, after the motions of a stretch were found in contact.
