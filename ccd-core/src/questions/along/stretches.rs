@@ -13,7 +13,7 @@ use crate::query::{MovingBody, Query};
 use crate::settings::QuerySettings;
 use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_CUT_SHARE};
 use std::sync::atomic::Ordering;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// A stack of the stretches of time that wait to be searched, with the work done so far.
 pub(super) struct WaitingStretches<'j, 'a> {
@@ -39,7 +39,11 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
                 part_index: 0,
             }],
             stats: Stats::default(),
-            spent_work: WorkByPart::default(),
+            spent_work: WorkByPart {
+                work_by_part: vec![0],
+                current_part_index: 0,
+                work_at_part_start: 0,
+            },
             was_start_examined: false,
             last_proven_stretch: None,
             started_at: query.settings.deadline.map(|_| Instant::now()),
@@ -76,13 +80,11 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
             .spent_work
             .work_spent_on_current_part(self.stats.work());
         let budget = terms.budget.checked_sub(spent);
-        let deadline = match (terms.deadline, self.started_at) {
-            (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
-                Some(left) => Some(left),
-                None => return Err(Limit::Deadline),
-            },
-            _ => None,
+        let left = |(deadline, begun): (Duration, Instant)| {
+            let left = deadline.checked_sub(begun.elapsed());
+            left.ok_or(Limit::Deadline)
         };
+        let deadline = terms.deadline.zip(self.started_at).map(left).transpose()?;
         Ok(QuerySettings {
             budget: budget.filter(|&left| left > 0).ok_or(Limit::Budget)?,
             deadline,
@@ -111,7 +113,9 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         accelerations: bool,
     ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
         loop {
-            self.switch_to_part_of(span);
+            // All later work counts towards the budget of the part that contains the stretch.
+            self.spent_work
+                .switch_to_part(span.part_index, self.stats.work());
             let terms = match self.remaining_settings() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
@@ -190,12 +194,6 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         let beside = [(from, proven.end), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
         (motions.total_deviation_bound > CUT_DEVIATION_RATIO * stray).then_some(time)
-    }
-
-    /// Makes all later work count towards the budget of the part that contains a stretch.
-    pub(super) fn switch_to_part_of(&mut self, span: Span) {
-        self.spent_work
-            .switch_to_part(span.part_index, self.stats.work());
     }
 
     /// Returns the poses of both bodies at a time and the remaining settings, or the limit that is reached.
@@ -323,16 +321,6 @@ struct WorkByPart {
     current_part_index: usize,
     /// The total work of all parts at the time when work began to count towards the present part.
     work_at_part_start: u64,
-}
-
-impl Default for WorkByPart {
-    fn default() -> Self {
-        WorkByPart {
-            work_by_part: vec![0],
-            current_part_index: 0,
-            work_at_part_start: 0,
-        }
-    }
 }
 
 impl WorkByPart {
