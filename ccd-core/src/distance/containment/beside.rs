@@ -1,5 +1,6 @@
 //! Computes test points on a thin piece, next to the edges of another piece that lie on it.
 
+use crate::body::facets::edges_of;
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{unit_or_any, vector_perpendicular_to_both};
@@ -123,10 +124,6 @@ impl<'a> FlatOutline<'a> {
 
 /// Returns the edges of a piece as pairs of point indices; each edge occurs at least once.
 fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
-    let around = |corners: &'a [u32]| {
-        let ends = move |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
-        (0..corners.len()).map(ends)
-    };
     // Without facets, the points are in their order.
     let points = if piece.facets.is_empty() {
         piece.points.len() as u32
@@ -134,8 +131,9 @@ fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
         0
     };
     let outline = (0..points).map(move |k| [k, (k + 1) % points]);
-    let shared = piece.facets.iter().flat_map(around);
-    outline.chain(shared.filter(|[from, to]| from < to))
+    let shared = piece.facets.iter().flat_map(edges_of);
+    let shared = shared.filter(|(from, to)| from < to);
+    outline.chain(shared.map(|(from, to)| [from, to]))
 }
 
 #[cfg(test)]
