@@ -1,9 +1,9 @@
 //! Finds the connected parts of a body, and their extreme points.
 
 use super::pieces::Pieces;
+use crate::math::vector::position_bits;
 use glam::DVec3;
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 /// The six extreme points of a connected part, along x, y, z, −x, −y and −z.
 pub(crate) type ExtremePoints = [DVec3; 6];
@@ -51,7 +51,6 @@ pub(crate) fn part_extreme_points(pieces: &Pieces) -> Vec<ExtremePoints> {
 /// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
 /// numbers: points count as equal by their coordinates.
 fn join_equal_points_of_equal_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
-    const NONE: u32 = u32::MAX;
     let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
     let range = numbers
         .iter()
@@ -59,18 +58,14 @@ fn join_equal_points_of_equal_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>
         .map_or(0, |&last| (last as usize).saturating_add(1));
     // Numbers may be arbitrary: a table of them must not be larger than the points.
     let range = if range <= 2 * points.len() { range } else { 0 };
-    let mut first = vec![NONE; range];
+    let mut first = vec![u32::MAX; range];
     let (mut parts, mut distinct) = (Vec::with_capacity(points.len()), Vec::new());
     for ((k, point), &number) in (0u32..).zip(points).zip(numbers) {
-        let known = match first.get_mut(number as usize) {
-            Some(known) if *known == NONE => {
-                *known = k;
-                NONE
-            }
-            Some(&mut known) => known,
-            None => NONE,
-        };
-        if known != NONE && points[known as usize] == *point {
+        let known = first.get_mut(number as usize).map_or(k, |known| {
+            *known = (*known).min(k);
+            *known
+        });
+        if known != k && points[known as usize] == *point {
             parts.push(known);
         } else {
             parts.push(k);
@@ -84,18 +79,8 @@ fn join_equal_points_of_equal_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>
 fn join_coincident_points(points: &[DVec3], distinct: &[u32], parts: &mut DisjointSets) {
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
-        // The numbers 0 and −0 are equal.
-        let bits = (points[k as usize] + DVec3::ZERO)
-            .to_array()
-            .map(f64::to_bits);
-        match known.entry(bits) {
-            Entry::Vacant(entry) => {
-                entry.insert(k);
-            }
-            Entry::Occupied(entry) => {
-                parts.join(*entry.get() as usize, k as usize);
-            }
-        }
+        let first = *known.entry(position_bits(points[k as usize])).or_insert(k);
+        parts.join(first as usize, k as usize);
     }
 }
 

@@ -3,6 +3,7 @@
 use super::error::HullFault;
 use super::hull::Hull;
 use super::node::Node;
+use crate::math::vector::position_bits;
 use glam::DVec3;
 
 /// Common numbers for the points of two children and of their parent's hull; equal points have the same number.
@@ -60,10 +61,8 @@ impl PointNumbering {
 /// Returns, for each point of three concatenated lists, the index of the equal point that represents it. This is the
 /// last equal one among the first `own` points, or otherwise the first equal one.
 fn representative_indices(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
-    // Adding zero turns −0 into 0.
-    let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
-    let points = lists.into_iter().flatten();
-    let mut sorted: Vec<([u64; 3], u32)> = points.map(place).zip(0..).collect();
+    let places = lists.into_iter().flatten().copied().map(position_bits);
+    let mut sorted: Vec<([u64; 3], u32)> = places.zip(0..).collect();
     sorted.sort_unstable();
     let mut same = vec![0; sorted.len()];
     for group in sorted.chunk_by(|one, other| one.0 == other.0) {

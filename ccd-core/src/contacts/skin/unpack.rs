@@ -5,6 +5,7 @@ use crate::body::facets::fan_triangles;
 use crate::body::feature::Feature;
 use crate::body::piece::{ConvexCombination, Piece};
 use crate::body::tree::point_query::polytopes_with_box_at;
+use crate::math::vector::position_bits;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -80,9 +81,9 @@ impl NearSurface<'_> {
         // If several points are at one place, the first counts.
         let numbers: HashMap<PointBits, Option<u32>> = numbered
             .chain(own)
-            .map(|(point, number)| (point_bits(point), number))
+            .map(|(point, number)| (position_bits(point), number))
             .collect();
-        let number = |point: DVec3| numbers.get(&point_bits(point)).copied().flatten();
+        let number = |point: DVec3| numbers.get(&position_bits(point)).copied().flatten();
         let named = triangles.map(|(id, corners)| {
             let corners = corners.map(|point| (point, number(point)));
             (Feature::Face(id), corners)
@@ -99,7 +100,7 @@ impl NearSurface<'_> {
             let there = polytopes_with_box_at(self.body.tree(), place.map(f64::from_bits).into());
             let numbers = there.filter_map(|piece| {
                 let mut points = self.body.pieces().get(piece as usize).points.iter();
-                let point = points.position(|&point| point_bits(point) == place)?;
+                let point = points.position(|&point| position_bits(point) == place)?;
                 self.mesh_number_of_point(piece, point as u32)
             });
             numbers.min()
@@ -116,7 +117,7 @@ impl NearSurface<'_> {
     }
 
     fn find_or_add_corner(&mut self, point: DVec3, id: Option<u32>) -> u32 {
-        let place = point_bits(point);
+        let place = position_bits(point);
         *self.corner_indices.entry((place, id)).or_insert_with(|| {
             self.corners.push(Corner {
                 position: self.body_to_a.point(point),
@@ -126,9 +127,4 @@ impl NearSurface<'_> {
             self.corners.len() as u32 - 1
         })
     }
-}
-
-/// Returns the bit patterns of a point's coordinates, which are the same for both zeros.
-fn point_bits(point: DVec3) -> PointBits {
-    point.to_array().map(|x| (x + 0.0).to_bits())
 }
