@@ -53,13 +53,16 @@ fn compute_bottom_up_in_parts<T: Default + Send>(
     Ok(sorted)
 }
 
+/// A function that computes a node's value from its children's values.
+type ComputeValue<'a, T> = &'a (dyn Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync);
+
 /// The nodes of a tree in postorder, with the function that computes a node's value from its children's values.
 struct BottomUpComputation<'a, T> {
     hierarchy: &'a Hierarchy,
     postorder: &'a [usize],
     /// The number of nodes in each node's subtree.
     subtree_sizes: &'a [usize],
-    compute_value: &'a (dyn Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync),
+    compute_value: ComputeValue<'a, T>,
 }
 
 impl<T: Send> BottomUpComputation<'_, T> {
