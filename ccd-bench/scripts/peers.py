@@ -139,7 +139,7 @@ class Coal:
         request, result = self.coal.DistanceRequest(), self.coal.DistanceResult()
         begin = time.perf_counter()
         self.coal.distance(self.a, a, self.b, b, request, result)
-        return (time.perf_counter() - begin) * 1e6, 1, "no-claim"
+        return (time.perf_counter() - begin) * 1e6, 1, "other-measurement"
 
     def steps(self, row, tolerance):
         query = Query(row, self.reach)
@@ -154,7 +154,7 @@ class Coal:
             spent += time.perf_counter() - begin
             if hit:
                 return spent * 1e6, k + 1, {"contact": {"time": when}}
-        return spent * 1e6, count + 1, "free"
+        return spent * 1e6, count + 1, "no-contact"
 
 
 class Fcl:
@@ -216,7 +216,7 @@ class Fcl:
                 when = ends[0] + result.time_of_contact * (ends[1] - ends[0])
                 steps = k + 1 if advances else round((k + result.time_of_contact) * tests) + 1
                 return spent * 1e6, steps, {"contact": {"time": when}}
-        return spent * 1e6, stretches if advances else stretches * tests + 1, "free"
+        return spent * 1e6, stretches if advances else stretches * tests + 1, "no-contact"
 
 
 def read_obj(path):
