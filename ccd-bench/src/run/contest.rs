@@ -9,7 +9,7 @@ pub(crate) mod verdict;
 use ccd_core::order::greater;
 pub use journal::{Journal, program_stamp};
 pub use session::Session;
-pub use verdict::{Judgement, Verdict, is_within_tolerance, judge, judge_contact, judge_outcome};
+pub use verdict::{Judgement, Verdict, judge, judge_outcome};
 
 use crate::method::MotionKind;
 use crate::method::guarded::QueryOutcome;

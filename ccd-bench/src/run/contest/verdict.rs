@@ -87,76 +87,48 @@ pub fn judge(
     claim: ContactClaim,
     tolerance: f64,
 ) -> Judgement {
-    let near = |time: f64| is_within_tolerance(referee, query, time, tolerance);
-    let plain = Judgement::without_time_error;
-    if claim == ContactClaim::OtherMeasurement {
-        return plain(Verdict::NotJudged);
-    }
-    match truth {
-        Truth::Hit { lo, hi } if hi - lo > MAX_BRACKET_WIDTH * query.duration => {
-            plain(Verdict::Undecided)
+    let near = |time: f64| {
+        let distance = referee.distance_bounds(query, time).lower;
+        distance <= tolerance * (1.0 + DISTANCE_ROUNDING_IN_TOLERANCES)
+    };
+    let lateness = MAX_LATENESS * query.duration;
+    let verdict = match (truth, claim) {
+        (_, ContactClaim::OtherMeasurement) => Verdict::NotJudged,
+        (_, ContactClaim::Refused) => Verdict::Refused,
+        (Truth::ContactAtStart | Truth::Graze { .. } | Truth::Undecided { .. }, _) => {
+            Verdict::Undecided
         }
-        Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
-        Truth::Free => plain(match claim {
-            ContactClaim::Contact { time } if near(time) => Verdict::Right,
-            ContactClaim::Contact { .. } => Verdict::FalseContact,
-            ContactClaim::NoContact => Verdict::Right,
-            ContactClaim::Unresolved { .. }
-            | ContactClaim::Refused
-            | ContactClaim::OtherMeasurement => Verdict::Unresolved,
-        }),
-        Truth::ContactAtStart | Truth::Graze { .. } | Truth::Undecided { .. } => {
-            plain(Verdict::Undecided)
+        (Truth::Hit { lo, hi }, _) if hi - lo > MAX_BRACKET_WIDTH * query.duration => {
+            Verdict::Undecided
         }
-    }
-}
-
-/// Returns whether the bodies are within a tolerance at a time.
-pub fn is_within_tolerance(
-    referee: &Referee<'_>,
-    query: &Motions,
-    time: f64,
-    tolerance: f64,
-) -> bool {
-    referee.distance_bounds(query, time).lower
-        <= tolerance * (1.0 + DISTANCE_ROUNDING_IN_TOLERANCES)
-}
-
-/// Judges a claim about bodies whose exact first contact is between `lo` and `hi`; `near` tells whether the bodies are
-/// within the tolerance at a time.
-pub fn judge_contact(
-    duration: f64,
-    [lo, hi]: [f64; 2],
-    claim: ContactClaim,
-    near: impl Fn(f64) -> bool,
-) -> Judgement {
-    let plain = Judgement::without_time_error;
-    let time = match claim {
-        ContactClaim::Contact { time } => time,
-        ContactClaim::NoContact => return plain(Verdict::Missed),
+        (Truth::Hit { lo, hi }, ContactClaim::Contact { time }) => {
+            let off = greater(0.0, greater(lo - time, time - hi)) / query.duration;
+            // The comparison treats NaN as late.
+            let verdict = if !(time <= hi + lateness) {
+                Verdict::Late
+            } else if time < lo && !near(time) {
+                Verdict::Early
+            } else {
+                Verdict::Right
+            };
+            return Judgement {
+                verdict,
+                // An invalid time has no error: `greater` has dropped the NaN.
+                time_error: Some(off).filter(|_| !time.is_nan()),
+            };
+        }
+        (Truth::Hit { .. }, ContactClaim::NoContact) => Verdict::Missed,
         // This claim is a proof too, and may be wrong.
-        ContactClaim::Unresolved { safe_until } if safe_until > hi + MAX_LATENESS * duration => {
-            return plain(Verdict::Late);
+        (Truth::Hit { hi, .. }, ContactClaim::Unresolved { safe_until })
+            if !(safe_until <= hi + lateness) =>
+        {
+            Verdict::Late
         }
-        ContactClaim::Unresolved { .. } | ContactClaim::Refused => {
-            return plain(Verdict::Unresolved);
-        }
-        ContactClaim::OtherMeasurement => return plain(Verdict::NotJudged),
+        (_, ContactClaim::Unresolved { .. }) => Verdict::Unresolved,
+        (Truth::Free, ContactClaim::Contact { time }) if !near(time) => Verdict::FalseContact,
+        (Truth::Free, _) => Verdict::Right,
     };
-    let off = greater(0.0, greater(lo - time, time - hi)) / duration;
-    // The comparison treats NaN as late.
-    let verdict = if !(time <= hi + MAX_LATENESS * duration) {
-        Verdict::Late
-    } else if time < lo && !near(time) {
-        Verdict::Early
-    } else {
-        Verdict::Right
-    };
-    Judgement {
-        verdict,
-        // An invalid time has no error: `max` has dropped the NaN.
-        time_error: Some(off).filter(|_| !time.is_nan()),
-    }
+    Judgement::without_time_error(verdict)
 }
 
 impl fmt::Display for Verdict {

@@ -1,5 +1,6 @@
 use super::*;
-use crate::method::solver::TimedReply;
+use crate::method::solver::{ContactClaim, Reply, TimedReply};
+use crate::run::contest::Verdict;
 use crate::stability::families;
 use crate::truth::Surface;
 use rstest::rstest;
@@ -34,6 +35,9 @@ fn unresolved_claim(safe_until: f64) -> ContactClaim {
 #[case("one inside the other", NO_CONTACT_CLAIM, Verdict::Missed)]
 #[case("one inside the other", unresolved_claim(0.0), Verdict::Unresolved)]
 #[case("one inside the other", unresolved_claim(0.1), Verdict::Late)]
+#[case("one inside the other", contact_claim(f64::NAN), Verdict::Late)]
+#[case("one inside the other", unresolved_claim(f64::NAN), Verdict::Late)]
+#[case("one inside the other", ContactClaim::Refused, Verdict::Refused)]
 fn claims_are_judged(#[case] family: &str, #[case] claim: ContactClaim, #[case] verdict: Verdict) {
     let family = families().into_iter().find(|f| f.name == family).unwrap();
     let step = (family.make_step)(family.parameter_values[1]).unwrap();
