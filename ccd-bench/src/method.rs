@@ -8,7 +8,7 @@ pub mod solver;
 pub mod wire;
 
 use crate::method::peer::PeerKind;
-use crate::method::rival::{C2a, Contact, DynamicChecker, FixedTimeSteps, to_screw_motions};
+use crate::method::rival::{C2a, Contact, DynamicChecker, FixedTimeSteps};
 use crate::method::script::ScriptKind;
 use crate::method::solver::{ContactClaim, Reply, Solver};
 use crate::names::name_of;
@@ -49,15 +49,6 @@ pub enum RivalKind {
     /// Static intersection tests at equal steps in time.
     #[value(name = "discrete stepping")]
     FixedTimeSteps,
-}
-
-/// The kind of motion along which a method moves the bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MotionKind {
-    /// The motion of the query: the centre moves straight, and the body rotates about it.
-    ConstantVelocity,
-    /// The screw motion between the same start and end poses.
-    Screw,
 }
 
 /// The tolerance of the paper's benchmarks `[FAST06 §6.2]`, at which methods without a tolerance setting are measured.
@@ -141,25 +132,10 @@ impl Method {
             if pieces != PieceKind::FewestPieces && !kind.schedule.uses_hull_trees())
     }
 
-    /// Returns the motion along which the method moves the bodies.
-    pub fn motion_kind(self) -> MotionKind {
-        match self {
-            Method::Rival(RivalKind::Contact) => MotionKind::Screw,
-            _ => MotionKind::ConstantVelocity,
-        }
-    }
-}
-
-impl MotionKind {
-    /// Returns the query with its motions replaced by those along which the method moves the bodies.
-    ///
-    /// # Errors
-    /// If a screw's parameters overflow.
-    pub fn convert_motions(self, query: Motions) -> Result<Motions, InputError> {
-        match self {
-            MotionKind::ConstantVelocity => Ok(query),
-            MotionKind::Screw => to_screw_motions(&query),
-        }
+    /// Returns whether the method moves the bodies along screws between the start and end poses of a query, instead of
+    /// along the query's motions.
+    pub fn moves_along_screws(self) -> bool {
+        self == Method::Rival(RivalKind::Contact)
     }
 }
 

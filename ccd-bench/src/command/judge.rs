@@ -2,6 +2,7 @@
 
 use crate::method::Method;
 use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms};
+use crate::method::rival::to_screw_motions;
 use crate::method::solver::ContactClaim;
 use crate::run::contest::{judge, judge_outcome};
 use crate::truth::{Referee, Surface, TruthRow};
@@ -75,7 +76,11 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
                 continue;
             }
         };
-        let query = method.motion_kind().convert_motions(query)?;
+        let query = if method.moves_along_screws() {
+            to_screw_motions(&query)?
+        } else {
+            query
+        };
         let truth = referee.first_contact(&query);
         let asked = guarded.run_query(&query, Duration::from_secs(args.patience.get().into()))?;
         let verdict = judge_outcome(&asked, |reply| {
@@ -83,7 +88,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
             judge(&referee, &query, truth, reply.claim, tolerance)
         });
         let verdict = verdict.verdict.to_string();
-        let claim = asked.claim();
+        let claim = asked.reply().map(|reply| reply.claim);
         let (answer, time) = (
             claim.map_or("none", ContactClaim::status),
             claim.and_then(ContactClaim::contact_or_safe_time),

@@ -1,9 +1,9 @@
 //! Runs a method in a separate process, which is stopped if a query exceeds its time limit.
 
 use super::Method;
-use super::solver::{ContactClaim, TimedReply};
+use super::solver::{Reply, TimedReply};
 use super::wire::{READY_LINE, REFUSAL_PREFIX, format_query};
-use ccd_core::glam::DVec3;
+use crate::scene::model::cuboid;
 use ccd_decomp::{TriangleMesh, write_obj};
 use clap::Args;
 use rigid_ccd::table::motions::Motions;
@@ -81,9 +81,7 @@ impl MethodPrograms {
         if !matches!(method, Method::Script(_)) {
             return Ok(());
         }
-        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
-        let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-        let mesh = TriangleMesh::new(corners.to_vec(), &faces).map_err(io::Error::other)?;
+        let mesh = cuboid(0.5, 0.5, 0.5).map_err(io::Error::other)?;
         let setting = GuardedMethodSettings::new(method, 1e-3);
         match GuardedMethod::start(self, setting, [&mesh, &mesh]) {
             Ok(_) => Ok(()),
@@ -106,29 +104,11 @@ impl MethodPrograms {
 }
 
 impl QueryOutcome {
-    /// Returns the method's claim about the query; `None` without an answer.
-    pub fn claim(&self) -> Option<ContactClaim> {
+    /// Returns the method's reply to the query; `None` without an answer.
+    pub fn reply(&self) -> Option<&Reply> {
         match self {
-            QueryOutcome::Answered(timed) => Some(timed.reply.claim),
+            QueryOutcome::Answered(timed) => Some(&timed.reply),
             QueryOutcome::CutOff | QueryOutcome::Crashed => None,
-        }
-    }
-
-    /// Returns the time of the query in microseconds: the time limit if the query was stopped, NaN if the process
-    /// ended.
-    pub fn micros_or_limit(&self, patience: Duration) -> f64 {
-        match self {
-            QueryOutcome::Answered(timed) => timed.micros,
-            QueryOutcome::CutOff => patience.as_secs_f64() * 1e6,
-            QueryOutcome::Crashed => f64::NAN,
-        }
-    }
-
-    /// Returns the number of steps in time that the method took; 0 without an answer.
-    pub fn step_count(&self) -> u64 {
-        match self {
-            QueryOutcome::Answered(timed) => timed.reply.steps,
-            QueryOutcome::CutOff | QueryOutcome::Crashed => 0,
         }
     }
 }

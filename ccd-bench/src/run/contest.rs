@@ -11,7 +11,6 @@ pub use journal::{Journal, program_stamp};
 pub use session::Session;
 pub use verdict::{Judgement, Verdict, judge, judge_outcome};
 
-use crate::method::MotionKind;
 use crate::method::guarded::QueryOutcome;
 use crate::method::rival::to_screw_motions;
 use crate::method::solver::ContactClaim;
@@ -23,23 +22,22 @@ use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Motions;
-use std::borrow::Cow;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// A scene with the surfaces of its bodies, prepared for running methods and judging their answers.
 pub struct PreparedScene<'s> {
     scene: &'s Scene,
-    surfaces: [Arc<Surface>; 2],
-    constant_velocity_rows: QueriesWithTruths<'s>,
+    surfaces: [Surface; 2],
+    constant_velocity_rows: Vec<Row>,
     /// The queries of the scene, with each motion replaced by the screw motion between its start and end poses.
-    screw_rows: QueriesWithTruths<'s>,
+    screw_rows: Vec<Row>,
 }
 
-/// The queries of a scene, each with its exact answer once that is known.
-struct QueriesWithTruths<'s> {
-    queries: Cow<'s, [Motions]>,
-    truths: Vec<OnceLock<Truth>>,
+/// A query of a scene, with its exact answer once that is known.
+struct Row {
+    query: Motions,
+    truth: OnceLock<Truth>,
 }
 
 /// The limits on time and rows of a measurement.
@@ -67,42 +65,24 @@ impl<'s> PreparedScene<'s> {
     /// # Errors
     /// If a motion has no screw between its ends.
     pub fn new(scene: &'s Scene) -> Result<Self> {
-        let a = Arc::new(Surface::new(scene.a.mesh()));
-        let b = if Arc::ptr_eq(&scene.a.body, &scene.b.body) {
-            Arc::clone(&a)
-        } else {
-            Arc::new(Surface::new(scene.b.mesh()))
-        };
-        let screws: Result<Vec<Motions>, InputError> =
-            scene.queries.iter().map(to_screw_motions).collect();
+        let queries = scene.queries.iter();
+        let screws = queries
+            .clone()
+            .map(|query| to_screw_motions(query).map(Row::new));
         Ok(PreparedScene {
             scene,
-            surfaces: [a, b],
-            constant_velocity_rows: QueriesWithTruths::new(Cow::Borrowed(&scene.queries)),
-            screw_rows: QueriesWithTruths::new(Cow::Owned(screws?)),
+            surfaces: [&scene.a, &scene.b].map(|body| Surface::new(body.mesh())),
+            screw_rows: screws.collect::<Result<_, InputError>>()?,
+            constant_velocity_rows: queries.cloned().map(Row::new).collect(),
         })
     }
 
-    fn rows(&self, motion: MotionKind) -> &QueriesWithTruths<'s> {
-        match motion {
-            MotionKind::ConstantVelocity => &self.constant_velocity_rows,
-            MotionKind::Screw => &self.screw_rows,
-        }
-    }
-
     /// Judges the outcome of a query by the exact answer, which is computed when it is first needed.
-    fn judge(
-        &self,
-        rows: &QueriesWithTruths<'_>,
-        row: usize,
-        outcome: &QueryOutcome,
-        tolerance: f64,
-    ) -> Judgement {
+    fn judge(&self, row: &Row, outcome: &QueryOutcome, tolerance: f64) -> Judgement {
         let referee = Referee::new(&self.surfaces[0], &self.surfaces[1]);
-        let query = &rows.queries[row];
         judge_outcome(outcome, |reply| {
-            let truth = rows.truths[row].get_or_init(|| referee.first_contact(query));
-            judge(&referee, query, *truth, reply.claim, tolerance)
+            let truth = row.truth.get_or_init(|| referee.first_contact(&row.query));
+            judge(&referee, &row.query, *truth, reply.claim, tolerance)
         })
     }
 
@@ -131,10 +111,13 @@ impl<'s> PreparedScene<'s> {
         allowance: &MeasurementLimits,
     ) -> Result<Option<(MeasurementCell, Vec<Trial>)>> {
         let method = session.method();
-        let rows = self.rows(method.motion_kind());
-        let queries = &rows.queries;
+        let rows = if method.moves_along_screws() {
+            &self.screw_rows
+        } else {
+            &self.constant_velocity_rows
+        };
         let order = self.row_order(allowance.max_rows);
-        let asked_for = order.iter().map(|&row| &queries[row]);
+        let asked_for = order.iter().map(|&row| &rows[row].query);
         let prepared =
             session.run_warm_up_queries(asked_for, tolerance, allowance.preparation_limit);
         let mut asked: Vec<(usize, QueryOutcome)> = Vec::new();
@@ -144,9 +127,9 @@ impl<'s> PreparedScene<'s> {
             if start.elapsed() > allowance.cell_time && enough {
                 break;
             }
-            let answered = session.ask(&queries[row], tolerance, allowance.patience);
+            let answered = session.ask(&rows[row].query, tolerance, allowance.patience);
             let answered = answered.with_context(|| format!("{method} cannot be started"))?;
-            if answered.claim() != Some(ContactClaim::Refused) {
+            if answered.reply().map(|reply| reply.claim) != Some(ContactClaim::Refused) {
                 asked.push((row, answered));
             }
         }
@@ -160,9 +143,9 @@ impl<'s> PreparedScene<'s> {
             .map(|(row, answered)| {
                 Trial::new(
                     (&self.scene.name, &method, tolerance),
-                    (*row, &queries[*row].id),
+                    (*row, &rows[*row].query.id),
                     (answered, allowance.patience),
-                    (self.judge(rows, *row, answered, tolerance), String::new()),
+                    (self.judge(&rows[*row], answered, tolerance), String::new()),
                 )
             })
             .collect();
@@ -175,11 +158,11 @@ impl<'s> PreparedScene<'s> {
     }
 }
 
-impl<'s> QueriesWithTruths<'s> {
-    fn new(queries: Cow<'s, [Motions]>) -> Self {
-        QueriesWithTruths {
-            truths: vec![OnceLock::new(); queries.len()],
-            queries,
+impl Row {
+    fn new(query: Motions) -> Self {
+        Row {
+            query,
+            truth: OnceLock::new(),
         }
     }
 }

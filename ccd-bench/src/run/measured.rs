@@ -2,7 +2,6 @@
 //! summarise.
 
 use crate::method::guarded::QueryOutcome;
-use crate::method::solver::ContactClaim;
 use crate::run::contest::verdict::Judgement;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
@@ -63,9 +62,10 @@ pub struct Trial {
     pub row: usize,
     /// The name of the query in the table of motions.
     pub id: String,
-    /// The time that the method took for this query, in microseconds.
+    /// The time that the method took for this query, in microseconds: the time limit if the query was stopped, NaN if
+    /// the process ended.
     pub micros: f64,
-    /// The number of steps in time that the method took.
+    /// The number of steps in time that the method took; 0 without an answer.
     pub steps: u64,
     /// The verdict on the method's claim.
     pub verdict: String,
@@ -86,19 +86,23 @@ impl Trial {
         (outcome, patience): (&QueryOutcome, Duration),
         (judged, note): (Judgement, String),
     ) -> Self {
+        let reply = outcome.reply();
         Trial {
             scene: scene.to_owned(),
             method: method.to_owned(),
             tolerance,
             row,
             id: id.to_owned(),
-            micros: outcome.micros_or_limit(patience),
-            steps: outcome.step_count(),
+            micros: match outcome {
+                QueryOutcome::Answered(timed) => timed.micros,
+                QueryOutcome::CutOff => patience.as_secs_f64() * 1e6,
+                QueryOutcome::Crashed => f64::NAN,
+            },
+            steps: reply.map_or(0, |reply| reply.steps),
             verdict: judged.verdict.to_string(),
             error: judged.time_error,
-            time: outcome
-                .claim()
-                .and_then(ContactClaim::contact_or_safe_time)
+            time: reply
+                .and_then(|reply| reply.claim.contact_or_safe_time())
                 .filter(|time| !time.is_nan()),
             note,
         }

@@ -3,10 +3,9 @@
 
 use super::family::{Family, FamilyStep};
 use super::judge::judge;
+use crate::method::Method;
 use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms, QueryOutcome};
 use crate::method::rival::are_screw_motions;
-use crate::method::solver::TimedReply;
-use crate::method::{Method, MotionKind};
 use crate::run::contest::{Journal, Judgement, Verdict, program_stamp, summarise_trials};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
@@ -151,7 +150,7 @@ impl PreparedStep<'_> {
         let [a, b] = &self.surfaces;
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
-            if method.motion_kind() == MotionKind::Screw && !are_screw_motions(&case.query) {
+            if method.moves_along_screws() && !are_screw_motions(&case.query) {
                 let refused = Judgement::without_time_error(Verdict::Refused);
                 let note = "bodies move along screws only".to_owned();
                 trials.push(trial(row, &QueryOutcome::Crashed, (refused, note)));
@@ -169,7 +168,7 @@ impl PreparedStep<'_> {
 
     /// Returns the method's remark about its answer, such as a raised tolerance; empty if there is none.
     fn note(&self, outcome: &QueryOutcome) -> String {
-        let QueryOutcome::Answered(TimedReply { reply, .. }) = outcome else {
+        let Some(reply) = outcome.reply() else {
             return String::new();
         };
         let raised = reply
