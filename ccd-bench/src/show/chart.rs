@@ -55,8 +55,6 @@ pub enum MethodFamily {
     Rival,
     /// The method is a call of a peer library.
     Peer,
-    /// The method is this project's default on other kinds of pieces; only tables show it.
-    OtherPieces,
 }
 
 impl ChartData<'_> {
@@ -100,7 +98,7 @@ impl ChartData<'_> {
     }
 
     /// Returns the measured methods of some families, each with its style.
-    fn methods_with_styles(&self, families: &[MethodFamily]) -> Vec<StyledMethod<'_>> {
+    fn methods_with_styles(&self) -> Vec<StyledMethod<'_>> {
         let measured = |name: &str| {
             let of = |scene: &&str| !self.cells_of(scene, name).is_empty();
             self.scenes.iter().any(of)
@@ -110,41 +108,32 @@ impl ChartData<'_> {
             .zip(style::method_styles(self.methods, |name| {
                 self.is_unsafe(name)
             }))
-            .filter(|(method, _)| families.contains(&method.family) && measured(method.name))
+            .filter(|(method, _)| measured(method.name))
             .collect()
     }
 }
 
 impl<'a> ChartedMethod<'a> {
-    /// Returns the facts about the method with this name; an unknown name counts as a peer library.
-    pub fn from_name(name: &'a str) -> Self {
+    /// Returns the facts about the method with this name; `None` for this project's default on other kinds of pieces,
+    /// which only tables show. An unknown name counts as a peer library.
+    pub fn from_name(name: &'a str) -> Option<Self> {
         let family = match Method::from_name(name) {
-            Some(method @ Method::ThisProject(..)) if method.is_default_with_other_pieces() => {
-                MethodFamily::OtherPieces
-            }
+            Some(method) if method.is_default_with_other_pieces() => return None,
             Some(Method::ThisProject(..)) => MethodFamily::ThisProject,
             Some(Method::Rival(_)) => MethodFamily::Rival,
             Some(Method::Peer(_) | Method::Script(_)) | None => MethodFamily::Peer,
         };
-        ChartedMethod { name, family }
+        Some(ChartedMethod { name, family })
     }
 }
 
 impl MethodFamily {
-    /// The families of methods that the charts compare.
-    const COMPARED_FAMILIES: [MethodFamily; 3] = [
-        MethodFamily::ThisProject,
-        MethodFamily::Rival,
-        MethodFamily::Peer,
-    ];
-
     /// Returns the heading of the family in the legend.
     pub(in crate::show) fn legend_heading(self) -> &'static str {
         match self {
             MethodFamily::ThisProject => "this project",
             MethodFamily::Rival => "published rivals",
             MethodFamily::Peer => "peer libraries",
-            MethodFamily::OtherPieces => "models",
         }
     }
 }

@@ -28,7 +28,7 @@ const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 pub fn write_report(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable, PathBuf)> {
     let (cells, trials) = (evaluated.journal.cells(), evaluated.journal.trials());
     let methods = tables::methods(cells).into_iter();
-    let methods: Vec<ChartedMethod<'_>> = methods.map(ChartedMethod::from_name).collect();
+    let methods: Vec<ChartedMethod<'_>> = methods.filter_map(ChartedMethod::from_name).collect();
     let scenes = evaluated.scenes.iter().map(|scene| scene.name.as_str());
     let scenes: Vec<&str> = scenes.collect();
     let is_other = |method: &&ChartedMethod<'_>| {

@@ -2,13 +2,13 @@
 //! cost grows.
 
 use super::sheet::{
-    CHART_MARGIN, CHART_WIDTH, PixelPosition, Sheet, TEXT_COLOUR, TextFormat, draw_svg, draw_text,
-    fill_rect, text_width,
+    CHART_MARGIN, CHART_WIDTH, PixelPosition, Sheet, TEXT_COLOUR, draw_svg, draw_text, fill_rect,
+    text_style, text_width,
 };
 use super::style::COLOURS;
 use crate::run::contest::Verdict;
 use anyhow::Result;
-use plotters::style::text_anchor::HPos;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontTransform, RGBColor, WHITE};
 
 /// A heat map with a row for each family of scenes, and a column for each method.
@@ -160,13 +160,10 @@ impl HeatMap {
         let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + CHART_MARGIN;
         draw_svg(self.texts.title, (CHART_WIDTH, height), |sheet| {
             draw_header(sheet, self.texts)?;
-            let format = TextFormat {
-                rotation: FontTransform::Rotate270,
-                ..small_text_format()
-            };
+            let upwards = text_style(SMALL_FONT_SIZE).transform(FontTransform::Rotate270);
             for (column, method) in self.methods.iter().enumerate() {
                 let middle = self.column_left(column) + 0.5 * self.column_width();
-                draw_text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &format)?;
+                draw_text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &upwards)?;
             }
             for (number, row) in self.rows.iter().enumerate() {
                 self.draw_row(sheet, FIRST_ROW_TOP + ROW_HEIGHT * number as f64, row)?;
@@ -185,22 +182,13 @@ impl HeatMap {
     }
 
     fn draw_row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
-        let smallest = TextFormat {
-            size: SMALLEST_FONT_SIZE,
-            ..small_text_format()
-        };
-        draw_text(
-            sheet,
-            &row.name,
-            (CHART_MARGIN, top + 0.34 * ROW_HEIGHT),
-            &small_text_format(),
-        )?;
-        draw_text(
-            sheet,
-            &row.parameter,
-            (CHART_MARGIN, top + 0.76 * ROW_HEIGHT),
-            &smallest,
-        )?;
+        for (text, down, size) in [
+            (&row.name, 0.34, SMALL_FONT_SIZE),
+            (&row.parameter, 0.76, SMALLEST_FONT_SIZE),
+        ] {
+            let at = (CHART_MARGIN, top + down * ROW_HEIGHT);
+            draw_text(sheet, text, at, &text_style(size))?;
+        }
         for (column, cell) in row.cells.iter().enumerate() {
             if let Some(cell) = cell {
                 let corner = (self.column_left(column) + 0.5, top + 0.5);
@@ -211,32 +199,17 @@ impl HeatMap {
     }
 }
 
-fn small_text_format() -> TextFormat {
-    TextFormat {
-        size: SMALL_FONT_SIZE,
-        ..TextFormat::default()
-    }
-}
-
 /// Draws the title, the remark and the legend of a kind of map.
 fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapTexts) -> Result<()> {
-    let title = TextFormat {
-        size: 15.0,
-        ..small_text_format()
-    };
-    draw_text(sheet, kind.title, (CHART_MARGIN, 18.0), &title)?;
-    for (line, words) in kind.remark_lines.iter().enumerate() {
-        draw_text(
-            sheet,
-            words,
-            (CHART_MARGIN, 38.0 + 14.0 * line as f64),
-            &small_text_format(),
-        )?;
+    let small = text_style(SMALL_FONT_SIZE);
+    draw_text(sheet, kind.title, (CHART_MARGIN, 18.0), &text_style(15.0))?;
+    for (words, top) in kind.remark_lines.iter().zip([38.0, 52.0]) {
+        draw_text(sheet, words, (CHART_MARGIN, top), &small)?;
     }
     let (mut left, top) = (CHART_MARGIN, 72.0);
     for &(name, colour) in kind.legend_entries {
         fill_rect(sheet, (left, top), (12.0, 12.0), colour)?;
-        draw_text(sheet, name, (left + 17.0, top + 6.0), &small_text_format())?;
+        draw_text(sheet, name, (left + 17.0, top + 6.0), &small)?;
         left += 34.0 + text_width(name, SMALL_FONT_SIZE);
     }
     Ok(())
@@ -248,14 +221,11 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCe
     fill_rect(sheet, (x, y), (width, height), cell.fill_colour)?;
     let bar = (width * cell.bar_fraction, BAR_HEIGHT);
     fill_rect(sheet, (x, y + height - BAR_HEIGHT), bar, CORRECT_COLOUR)?;
-    let format = TextFormat {
-        size: SMALLEST_FONT_SIZE,
-        colour: cell.text_colour,
-        alignment: HPos::Center,
-        ..TextFormat::default()
-    };
+    let centred = text_style(SMALLEST_FONT_SIZE)
+        .color(&cell.text_colour)
+        .pos(Pos::new(HPos::Center, VPos::Center));
     for (line, down) in cell.lines.iter().zip([5.0, 13.5]) {
-        draw_text(sheet, line, (x + 0.5 * width, y + down), &format)?;
+        draw_text(sheet, line, (x + 0.5 * width, y + down), &centred)?;
     }
     Ok(())
 }

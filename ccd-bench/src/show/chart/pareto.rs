@@ -8,7 +8,7 @@ use super::sheet::{
     CHART_WIDTH, DEFAULT_FONT_SIZE, Sheet, TEXT_COLOUR, draw_svg, font, to_drawing_units,
 };
 use super::style::WARNING_COLOUR;
-use super::{ChartData, MethodFamily, StyledMethod};
+use super::{ChartData, StyledMethod};
 use crate::run::measured::MeasurementCell;
 use anyhow::Result;
 use ccd_core::order::greater;
@@ -24,7 +24,7 @@ const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 /// Returns the SVG text of the chart, with a plane for each measured scene; `None` if there are no times.
 pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
     let scenes = charts.measured_scenes();
-    let shown = charts.methods_with_styles(&MethodFamily::COMPARED_FAMILIES);
+    let shown = charts.methods_with_styles();
     let cells = |is_shown: fn(&StyledMethod<'_>) -> bool| {
         let methods = shown.iter().filter(move |method| is_shown(method));
         let of = |(method, _): &StyledMethod<'_>| {

@@ -2,8 +2,8 @@
 
 use super::ChartedMethod;
 use super::sheet::{
-    CHART_MARGIN, DEFAULT_FONT_SIZE, Sheet, TEXT_COLOUR, TextFormat, draw_text, font,
-    to_drawing_units,
+    CHART_MARGIN, DEFAULT_FONT_SIZE, Sheet, TEXT_COLOUR, draw_text, font, text_style,
+    to_drawing_position, to_drawing_units,
 };
 use super::style::{MARKER_RADIUS, MethodStyle};
 use anyhow::Result;
@@ -159,18 +159,11 @@ type Glyph<'s, C> =
 
 /// Draws the title and the subtitle of a chart.
 pub(super) fn draw_header(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()> {
-    let format = TextFormat {
-        size: 16.0,
-        weight: FontStyle::Bold,
-        ..TextFormat::default()
-    };
-    draw_text(sheet, title, (CHART_MARGIN, 16.0), &format)?;
-    draw_text(
-        sheet,
-        subtitle,
-        (CHART_MARGIN, 36.0),
-        &TextFormat::default(),
-    )
+    let mut large = text_style(16.0);
+    large.font = font(16.0, FontStyle::Bold);
+    draw_text(sheet, title, (CHART_MARGIN, 16.0), &large)?;
+    let plain = text_style(DEFAULT_FONT_SIZE);
+    draw_text(sheet, subtitle, (CHART_MARGIN, 36.0), &plain)
 }
 
 /// Returns the height of the legend and the remarks, in pixels.
@@ -190,39 +183,26 @@ pub(super) fn draw_footer(
     for (index, (method, style)) in shown.iter().enumerate() {
         let left = CHART_MARGIN + width * (index % columns) as f64;
         let middle = top + LINE_HEIGHT * ((index / columns) as f64 + 0.5);
-        let (from, at, to) = (
-            to_drawing_units(left),
-            to_drawing_units(left + 15.0),
-            to_drawing_units(left + 30.0),
-        );
-        let line = vec![
-            (from, to_drawing_units(middle)),
-            (to, to_drawing_units(middle)),
-        ];
+        let [from, at, to] =
+            [0.0, 15.0, 30.0].map(|right| to_drawing_position((left + right, middle)));
         let (dash, gap) = style.dash_and_gap.unwrap_or((300, 0));
-        sheet.draw(&DashedPathElement::new(
-            line,
-            dash,
-            gap,
-            style.line_style(15),
-        ))?;
-        sheet.draw(&marker_glyph((at, to_drawing_units(middle)), style))?;
+        let line = DashedPathElement::new([from, to], dash, gap, style.line_style(15));
+        sheet.draw(&line)?;
+        sheet.draw(&marker_glyph(at, style))?;
         let mark = if style.is_unsafe { " (unsafe)" } else { "" };
         let label = format!("{}: {}{mark}", method.family.legend_heading(), method.name);
-        draw_text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;
-    }
-    let top = top + LINE_HEIGHT * (shown.len().div_ceil(columns) as f64 + 0.5);
-    for (line, remark) in remarks.iter().enumerate() {
-        let format = TextFormat {
-            size: DEFAULT_FONT_SIZE - 1.0,
-            ..TextFormat::default()
-        };
         draw_text(
             sheet,
-            remark,
-            (CHART_MARGIN, top + LINE_HEIGHT * line as f64),
-            &format,
+            &label,
+            (left + 36.0, middle),
+            &text_style(DEFAULT_FONT_SIZE),
         )?;
+    }
+    let top = top + LINE_HEIGHT * (shown.len().div_ceil(columns) as f64 + 0.5);
+    let small = text_style(DEFAULT_FONT_SIZE - 1.0);
+    for (line, remark) in remarks.iter().enumerate() {
+        let at = (CHART_MARGIN, top + LINE_HEIGHT * line as f64);
+        draw_text(sheet, remark, at, &small)?;
     }
     Ok(())
 }

@@ -26,25 +26,10 @@ pub(super) type Sheet<'s> = DrawingArea<SVGBackend<'s>, Shift>;
 /// A position in pixels: right of and below the upper left corner.
 pub(super) type PixelPosition = (f64, f64);
 
-/// The size, colour, weight, alignment and rotation of a text.
-pub(super) struct TextFormat {
-    pub(super) size: f64,
-    pub(super) colour: RGBColor,
-    pub(super) weight: FontStyle,
-    pub(super) alignment: HPos,
-    pub(super) rotation: FontTransform,
-}
-
-impl Default for TextFormat {
-    fn default() -> Self {
-        TextFormat {
-            size: DEFAULT_FONT_SIZE,
-            colour: TEXT_COLOUR,
-            weight: FontStyle::Normal,
-            alignment: HPos::Left,
-            rotation: FontTransform::None,
-        }
-    }
+/// Returns the style of a text whose left end has the middle of its height at the text's position.
+pub(super) fn text_style(size: f64) -> TextStyle<'static> {
+    let left = Pos::new(HPos::Left, VPos::Center);
+    font(size, FontStyle::Normal).color(&TEXT_COLOUR).pos(left)
 }
 
 /// Returns the SVG file that `body` draws on a white sheet of the given size in pixels.
@@ -53,10 +38,8 @@ pub(super) fn draw_svg(
     size: PixelPosition,
     body: impl FnOnce(&Sheet<'_>) -> Result<()>,
 ) -> Result<String> {
-    let (width, height) = (
-        to_drawing_units(size.0).unsigned_abs(),
-        to_drawing_units(size.1).unsigned_abs(),
-    );
+    let (width, height) = to_drawing_position(size);
+    let (width, height) = (width.unsigned_abs(), height.unsigned_abs());
     let mut text = String::new();
     {
         let sheet = SVGBackend::with_string(&mut text, (width, height)).into_drawing_area();
@@ -79,18 +62,10 @@ pub(super) fn draw_svg(
 pub(super) fn draw_text(
     sheet: &Sheet<'_>,
     text: &str,
-    (x, y): PixelPosition,
-    format: &TextFormat,
+    at: PixelPosition,
+    style: &TextStyle<'_>,
 ) -> Result<()> {
-    let style = font(format.size, format.weight)
-        .transform(format.rotation.clone())
-        .color(&format.colour)
-        .pos(Pos::new(format.alignment, VPos::Center));
-    Ok(sheet.draw(&Text::new(
-        text,
-        (to_drawing_units(x), to_drawing_units(y)),
-        style,
-    ))?)
+    Ok(sheet.draw(&Text::new(text, to_drawing_position(at), style.clone()))?)
 }
 
 /// Fills a rectangle that is given by its upper left corner and its size.
@@ -100,8 +75,7 @@ pub(super) fn fill_rect(
     size: PixelPosition,
     colour: RGBColor,
 ) -> Result<()> {
-    let corners =
-        [(x, y), (x + size.0, y + size.1)].map(|(x, y)| (to_drawing_units(x), to_drawing_units(y)));
+    let corners = [(x, y), (x + size.0, y + size.1)].map(to_drawing_position);
     Ok(sheet.draw(&Rectangle::new(corners, colour.filled()))?)
 }
 
@@ -117,6 +91,11 @@ pub(super) fn font(size: f64, weight: FontStyle) -> FontDesc<'static> {
 /// Returns the approximate width of a text, in pixels.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * RELATIVE_CHARACTER_WIDTH * size
+}
+
+/// Converts a position in pixels to drawing units.
+pub(super) fn to_drawing_position((x, y): PixelPosition) -> (i32, i32) {
+    (to_drawing_units(x), to_drawing_units(y))
 }
 
 /// Converts pixels to drawing units; NaN becomes 0.

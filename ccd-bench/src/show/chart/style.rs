@@ -1,6 +1,6 @@
 //! Chooses the colour and the marker of each method, the same in every chart.
 
-use super::sheet::to_drawing_units;
+use super::sheet::to_drawing_position;
 use super::{ChartedMethod, MethodFamily};
 use plotters::style::{Color, RGBColor, ShapeStyle};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
@@ -48,13 +48,12 @@ pub(super) fn method_styles(
     methods: &[ChartedMethod<'_>],
     is_unsafe: impl Fn(&str) -> bool,
 ) -> Vec<MethodStyle> {
-    let mut taken = [0; 4];
+    let mut taken = [0; 3];
     let style = |method: &ChartedMethod<'_>| {
         let (family, dash) = match method.family {
             MethodFamily::ThisProject => (0, None),
             MethodFamily::Rival => (1, Some((70, 40))),
             MethodFamily::Peer => (2, Some((20, 30))),
-            MethodFamily::OtherPieces => (3, None),
         };
         let number = taken[family] + family;
         taken[family] += 1;
@@ -79,10 +78,7 @@ impl MethodStyle {
         let (count, first) = self.marker;
         let corner = |corner: u32| {
             let angle = first + TAU * f64::from(corner) / f64::from(count);
-            (
-                to_drawing_units(MARKER_RADIUS * angle.cos()),
-                to_drawing_units(MARKER_RADIUS * angle.sin()),
-            )
+            to_drawing_position((MARKER_RADIUS * angle.cos(), MARKER_RADIUS * angle.sin()))
         };
         (0..count).map(corner).collect()
     }

@@ -3,7 +3,7 @@ use super::*;
 use plotters::style::RGBColor;
 
 const SCENES: [&str; 3] = ["knot2880", "knot34560", "never measured"];
-const METHODS: [ChartedMethod<'_>; 4] = [
+const METHODS: [ChartedMethod<'_>; 3] = [
     ChartedMethod {
         name: "ours",
         family: MethodFamily::ThisProject,
@@ -15,10 +15,6 @@ const METHODS: [ChartedMethod<'_>; 4] = [
     ChartedMethod {
         name: "absent",
         family: MethodFamily::Rival,
-    },
-    ChartedMethod {
-        name: "over patches",
-        family: MethodFamily::OtherPieces,
     },
 ];
 
