@@ -30,6 +30,7 @@ pub enum Verdict {
     /// The claim is that there is no contact, but there is one.
     Missed,
     /// The process of the method ended instead of answering.
+    #[value(name = "died")]
     Crashed,
     /// The query exceeded the time limit and was stopped.
     #[value(name = "cut off")]
