@@ -2,6 +2,7 @@
 
 mod answer;
 mod chart;
+mod inputs;
 mod judge;
 mod stability;
 mod truth;

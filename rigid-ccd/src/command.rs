@@ -24,6 +24,7 @@ mod view;
 
 pub use bad_rows::BadRowCounter;
 pub use files::{input_name, is_same_file, open_motions, refuse_overwriting};
+pub use numbers::{parse_seconds, tolerance};
 pub use output::OutputError;
 pub use progress::{Progress, TotalWork};
 pub use table::TableWriter;

@@ -1,19 +1,21 @@
 //! The command `ccd-bench answer`: answers queries on standard input with one method, in a process that can be killed
 //! from outside.
 
+use super::inputs::MeshPairArgs;
 use crate::method::solver::Solver;
 use crate::method::wire::{REFUSAL_PREFIX, serve_queries};
 use crate::method::{Method, ProjectSolver};
 use crate::run::contest::MAX_PAIRS_FOR_NAIVE_SCHEDULE;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
+use ccd_core::Body;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::batch::{Bodies, ScheduleKind};
 use rigid_ccd::command::{OutputError, RunOutcome};
+use std::cell::OnceCell;
 use std::io::{self, Write};
 #[cfg(unix)]
 use std::os::unix::process::parent_id;
-use std::path::{Path, PathBuf};
 #[cfg(unix)]
 use std::{thread, time::Duration};
 
@@ -23,12 +25,8 @@ pub(super) struct AnswerArgs {
     /// The name of the method, as in the tables
     #[arg(long)]
     method: String,
-    /// The mesh of body A
-    #[arg(long, value_name = "MESH")]
-    a: PathBuf,
-    /// The mesh of body B
-    #[arg(long, value_name = "MESH")]
-    b: PathBuf,
+    #[command(flatten)]
+    meshes: MeshPairArgs,
     /// The tolerance, for methods that take one, in the scene's unit of length
     #[arg(long, value_name = "LENGTH")]
     tolerance: f64,
@@ -41,49 +39,43 @@ pub(super) fn run(args: &AnswerArgs) -> Result<RunOutcome> {
     exit_when_parent_ends();
     let name = &args.method;
     let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
-    let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
-    let meshes = [read(&args.a)?, read(&args.b)?];
-    if let Err(refusal) = answer_queries(method, &meshes, args)? {
-        writeln!(io::stdout(), "{REFUSAL_PREFIX}{refusal}").map_err(reply_write_error)?;
+    let (meshes, bodies) = (args.meshes.read()?, OnceCell::new());
+    match solver(method, &meshes, args.margin, &bodies) {
+        Ok(mut solver) => serve_standard_streams(solver.as_mut(), args.tolerance)?,
+        Err(refusal) => {
+            writeln!(io::stdout(), "{REFUSAL_PREFIX}{refusal:#}").map_err(reply_write_error)?;
+        }
     }
     Ok(RunOutcome::AllAnswered)
 }
 
-/// Answers all queries on standard input; the inner `Err` says why the method refuses the bodies or the setting.
-fn answer_queries(
+/// Makes the solver of a method, with the bodies that it needs in `bodies`.
+///
+/// # Errors
+/// Why the method refuses the meshes or the margin.
+fn solver<'b>(
     method: Method,
     [a, b]: &[TriangleMesh; 2],
-    args: &AnswerArgs,
-) -> Result<Result<(), String>> {
-    let tolerance = args.tolerance;
-    if args.margin != 0.0 && !matches!(method, Method::ThisProject(..)) {
-        return Ok(Err("the method keeps no margin".to_owned()));
+    margin: f64,
+    bodies: &'b OnceCell<[Body; 2]>,
+) -> Result<Box<dyn Solver + 'b>> {
+    if margin != 0.0 && !matches!(method, Method::ThisProject(..)) {
+        bail!("the method keeps no margin");
     }
-    match method {
+    Ok(match method {
         Method::ThisProject(kind, pieces) => {
-            let bodies = [a, b].map(|mesh| pieces.make_body(mesh));
-            let [a, b] = match bodies {
-                [Ok(a), Ok(b)] => [a, b],
-                [Err(error), _] | [_, Err(error)] => return Ok(Err(error.to_string())),
-            };
+            let made = [pieces.make_body(a)?, pieces.make_body(b)?];
+            let [a, b] = bodies.get_or_init(|| made);
             let pairs = a.pieces().len() as u64 * b.pieces().len() as u64;
             if kind.schedule == ScheduleKind::Naive && pairs > MAX_PAIRS_FOR_NAIVE_SCHEDULE {
-                return Ok(Err(format!("{pairs} pairs are too many")));
+                bail!("{pairs} pairs are too many");
             }
-            let bodies = Bodies { a: &a, b: &b };
-            serve_standard_streams(
-                &mut ProjectSolver::new(kind, bodies, args.margin),
-                tolerance,
-            )?;
+            Box::new(ProjectSolver::new(kind, Bodies { a, b }, margin))
         }
-        Method::Rival(kind) => serve_standard_streams(kind.solver(a, b).as_mut(), tolerance)?,
-        Method::Peer(kind) => match kind.solver(a, b) {
-            Ok(mut solver) => serve_standard_streams(solver.as_mut(), tolerance)?,
-            Err(error) => return Ok(Err(format!("{error:#}"))),
-        },
-        Method::Script(_) => return Ok(Err("the method is run by a script".to_owned())),
-    }
-    Ok(Ok(()))
+        Method::Rival(kind) => kind.solver(a, b),
+        Method::Peer(kind) => kind.solver(a, b)?,
+        Method::Script(_) => bail!("the method is run by a script"),
+    })
 }
 
 fn serve_standard_streams(solver: &mut dyn Solver, tolerance: f64) -> Result<()> {

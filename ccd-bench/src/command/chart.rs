@@ -12,7 +12,7 @@ use crate::scene::listings;
 use crate::show::presentation::write_report;
 use anyhow::{Result, ensure};
 use clap::Args;
-use rigid_ccd::command::RunOutcome;
+use rigid_ccd::command::{RunOutcome, parse_seconds};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -41,10 +41,10 @@ pub(super) struct ChartArgs {
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     tolerances: Vec<f64>,
     /// Seconds for each method on each scene at each tolerance; after that, no more queries are started
-    #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     cell_time: Option<Duration>,
     /// Seconds that a peer library may take for a query before it is stopped
-    #[arg(long = "patience", value_name = "SECONDS", value_parser = duration_from_seconds)]
+    #[arg(long = "patience", value_name = "SECONDS", value_parser = parse_seconds)]
     query_time_limit: Option<Duration>,
     #[command(flatten)]
     programs: MethodPrograms,
@@ -182,8 +182,4 @@ pub(super) fn select_by_name<T>(
     }
     let wanted = |item: &T| names.is_empty() || names.contains(&name_of(item).as_str());
     Ok(all.into_iter().filter(wanted).collect())
-}
-
-fn duration_from_seconds(seconds: &str) -> Result<Duration> {
-    Ok(Duration::try_from_secs_f64(seconds.parse()?)?)
 }

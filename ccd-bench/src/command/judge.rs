@@ -1,5 +1,6 @@
 //! The command `ccd-bench judge`: runs one method, and compares its answers with the exact ones.
 
+use super::inputs::QueryTableArgs;
 use crate::method::Method;
 use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms};
 use crate::method::rival::to_screw_motions;
@@ -7,14 +8,12 @@ use crate::method::solver::ContactClaim;
 use crate::run::contest::{judge, judge_outcome};
 use crate::truth::{Referee, Surface, TruthRow};
 use anyhow::{Context, Result, anyhow};
-use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
-use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::command::{
-    BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions,
+    BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions, tolerance,
 };
 use std::num::NonZeroU32;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Ask one method about a table of motions, and judge its answers by the exact ones
@@ -24,15 +23,8 @@ pub(super) struct JudgeArgs {
     /// The name of the method, as in the tables
     #[arg(long, value_name = "NAME")]
     method: String,
-    /// Body A: a mesh, .obj, .stl, .ply or .off
-    #[arg(long, value_name = "MESH")]
-    a: PathBuf,
-    /// Body B: a mesh, .obj, .stl, .ply or .off
-    #[arg(long, value_name = "MESH")]
-    b: PathBuf,
-    /// The table of motions, CSV, in the format of `ccd query`; - reads standard input
-    #[arg(long, value_name = "CSV")]
-    motions: PathBuf,
+    #[command(flatten)]
+    input: QueryTableArgs,
     /// The tolerance, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value = "1e-3", value_parser = tolerance)]
     tolerance: f64,
@@ -58,18 +50,17 @@ const VERDICT_COLUMNS: [&str; 7] = ["id", "status", "lo", "hi", "verdict", "answ
 pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
     let name = &args.method;
     let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
-    let read = |path: &Path| TriangleMesh::read(path);
-    let meshes = [read(&args.a)?, read(&args.b)?];
+    let meshes = args.input.meshes.read()?;
     let surfaces = meshes.each_ref().map(Surface::new);
     let referee = Referee::new(&surfaces[0], &surfaces[1]);
     let setting = GuardedMethodSettings::new(method, args.tolerance);
     let guarded = GuardedMethod::start(&args.programs, setting, meshes.each_ref());
     let mut guarded = guarded.with_context(|| name.clone())?;
     let mut table = TableWriter::create(&args.out, &VERDICT_COLUMNS)?;
-    let mut bad_rows = BadRowCounter::new(input_name(&args.motions));
-    let (rows, _) = open_motions(&args.motions)?;
+    let mut bad_rows = BadRowCounter::new(input_name(&args.input.motions));
+    let (rows, _) = open_motions(&args.input.motions)?;
     for row in rows {
-        let query = match row.with_context(|| input_name(&args.motions))? {
+        let query = match row.with_context(|| input_name(&args.input.motions))? {
             Ok((_, query)) => query,
             Err(error) => {
                 bad_rows.report(error.position, &error.problem, &Progress::new_hidden());
@@ -102,13 +93,4 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
         0 => RunOutcome::AllAnswered,
         _ => RunOutcome::SomeRowsBad,
     })
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok();
-    number
-        .filter(|value| (LEAST_TOLERANCE..=MAX_COORDINATE).contains(value))
-        .ok_or_else(|| {
-            format!("give a number from {LEAST_TOLERANCE:e} to {MAX_COORDINATE:e}, such as 1e-3")
-        })
 }

@@ -1,10 +1,10 @@
 //! The command `ccd-bench truth`: reads two meshes and a table of motions, and writes a table of
 //! brackets of the exact first contacts.
 
+use super::inputs::QueryTableArgs;
 use crate::truth::{Referee, Surface, TRUTH_COLUMNS, TRUTH_STATUSES, TruthRow};
 use anyhow::{Context, Result};
 use ccd_core::order::greater;
-use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{
@@ -14,22 +14,15 @@ use rigid_ccd::command::{
 use rigid_ccd::table::motions::MotionRow;
 use std::collections::HashMap;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Bracket the exact times of first contact of two meshes, as the truth by which answers are judged
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct TruthArgs {
-    /// Body A: a mesh, .obj, .stl, .ply or .off
-    #[arg(long, value_name = "MESH")]
-    a: PathBuf,
-    /// Body B: a mesh, .obj, .stl, .ply or .off
-    #[arg(long, value_name = "MESH")]
-    b: PathBuf,
-    /// The table of motions, CSV, in the format of `ccd query`; - reads standard input
-    #[arg(long, value_name = "CSV")]
-    motions: PathBuf,
+    #[command(flatten)]
+    input: QueryTableArgs,
     /// The table of truths, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     out: PathBuf,
@@ -67,28 +60,25 @@ const BATCH_SIZE: usize = 256;
 
 /// Brackets the first contact of every valid row, and writes the problem of every invalid row to the table.
 pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
+    let input = &args.input;
     for (option, path) in [
-        ("--motions", &args.motions),
-        ("--a", &args.a),
-        ("--b", &args.b),
+        ("--motions", &input.motions),
+        ("--a", &input.meshes.a),
+        ("--b", &input.meshes.b),
     ] {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
-    let (mut rows, length) = open_motions(&args.motions)?;
-    let surface = |option: &str, path: &Path| -> Result<Surface> {
-        let mesh = TriangleMesh::read(path).with_context(|| option.to_owned())?;
-        Ok(Surface::new(&mesh))
-    };
-    let (a, b) = (surface("--a", &args.a)?, surface("--b", &args.b)?);
+    let (mut rows, length) = open_motions(&input.motions)?;
+    let [a, b] = input.meshes.read()?.each_ref().map(Surface::new);
     let referee = Referee::new(&a, &b);
     let mut table = TableWriter::create(&args.out, &TRUTH_COLUMNS)?;
     let progress = Progress::for_rows(length, args.quiet);
-    let mut bad_rows = BadRowCounter::new(input_name(&args.motions));
+    let mut bad_rows = BadRowCounter::new(input_name(&input.motions));
     let (mut counts, mut widest) = (HashMap::new(), 0.0);
     let start = Instant::now();
     loop {
         let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(BATCH_SIZE).collect();
-        let batch = batch.with_context(|| input_name(&args.motions))?;
+        let batch = batch.with_context(|| input_name(&input.motions))?;
         if batch.is_empty() {
             break;
         }
@@ -124,7 +114,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
     if counts.is_empty() && bad_rows.count() == 0 {
         print_error(&format!(
             "{}: has a header, but no rows",
-            input_name(&args.motions)
+            input_name(&input.motions)
         ));
     }
     if !args.quiet {

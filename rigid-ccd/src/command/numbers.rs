@@ -4,7 +4,7 @@ use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use std::time::Duration;
 
 /// Parses the value of `--tolerance`, and refuses one out of the library's range.
-pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+pub fn tolerance(text: &str) -> Result<f64, String> {
     number(text)
         .filter(|value| (LEAST_TOLERANCE..=MAX_COORDINATE).contains(value))
         .ok_or_else(|| {
@@ -25,7 +25,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
 }
 
 /// Parses a duration in seconds.
-pub(super) fn parse_seconds(text: &str) -> Result<Duration, String> {
+pub fn parse_seconds(text: &str) -> Result<Duration, String> {
     number(text)
         .and_then(|value| Duration::try_from_secs_f64(value).ok())
         .ok_or_else(|| "give a number of seconds of at least 0, such as 0.01".to_owned())
