@@ -19,6 +19,10 @@ const TWO: Interval = point_interval(2.0);
 const SINE_RANGE: Interval = Interval::new(-1.0, 1.0);
 
 impl IntervalVector {
+    pub(super) fn midpoint(&self) -> DVec3 {
+        DVec3::from_array(self.0.map(Interval::midpoint))
+    }
+
     pub(super) fn scaled(&self, by: Interval) -> Self {
         IntervalVector(self.0.map(|x| x * by))
     }

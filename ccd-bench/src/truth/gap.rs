@@ -2,8 +2,9 @@
 
 use super::DistanceBounds;
 use super::rounding::FORTY_ROUNDINGS_ERROR;
-use super::search::{Pair, Search};
+use super::search::{OpenedPair, Search};
 use super::snapshot::{LinearizedMotions, TimeSpan};
+use super::surface::{Node, Triangle};
 use super::triangle::{gap_along, nearest_or_common_points, separating_axis_candidates};
 use ccd_core::order::{greater, lesser};
 
@@ -17,10 +18,7 @@ pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBoun
     let Some(roots) = search.root_pair() else {
         return bracket;
     };
-    let snapshot = search.linearize_motions(TimeSpan {
-        start: time,
-        end: time,
-    });
+    let snapshot = search.linearize_motions(TimeSpan::instant(time));
     let mut stack = vec![(f64::NEG_INFINITY, roots)];
     while let Some((bound, pair)) = stack.pop() {
         if bound >= bracket.upper {
@@ -34,19 +32,21 @@ pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBoun
             };
         }
         search.remaining_budget -= 1;
-        if let Some(split) = search.split(pair) {
-            let mut parts = split
-                .child_pairs
-                .map(|part| (box_distance_bound(&search, &snapshot, part), part));
-            // The last one is examined first.
-            if parts[0].0 < parts[1].0 {
-                parts.swap(0, 1);
+        match search.open(pair) {
+            OpenedPair::Children(_, pairs) => {
+                let bound = |[a, b]: [&Node; 2]| snapshot.box_distance_lower_bound(a, b);
+                let mut parts = pairs.map(|part| (bound(search.nodes(part)), part));
+                // The last one is examined first.
+                if parts[0].0 < parts[1].0 {
+                    parts.swap(0, 1);
+                }
+                stack.extend(parts);
             }
-            stack.extend(parts);
-        } else {
-            let found = triangle_distance_bounds(&search, &snapshot, pair);
-            bracket.lower = lesser(bracket.lower, greater(found.lower, bound));
-            bracket.upper = lesser(bracket.upper, found.upper);
+            OpenedPair::Triangles(triangles) => {
+                let found = triangle_distance_bounds(&snapshot, triangles);
+                bracket.lower = lesser(bracket.lower, greater(found.lower, bound));
+                bracket.upper = lesser(bracket.upper, found.upper);
+            }
         }
     }
     // Every pair that was left out is at least `upper` apart.
@@ -54,24 +54,12 @@ pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBoun
     bracket
 }
 
-fn box_distance_bound(search: &Search<'_>, snapshot: &LinearizedMotions, pair: Pair) -> f64 {
-    let [a, b] = search.nodes(pair);
-    snapshot.box_distance_lower_bound(a, b)
-}
-
 /// Returns bounds on the distance of two triangles: any two points bound it from above, and the gap along any direction
 /// from below.
 fn triangle_distance_bounds(
-    search: &Search<'_>,
     snapshot: &LinearizedMotions,
-    pair: Pair,
+    [a, b]: [&Triangle; 2],
 ) -> DistanceBounds {
-    let Some([a, b]) = search.triangles(pair) else {
-        return DistanceBounds {
-            lower: 0.0,
-            upper: f64::INFINITY,
-        };
-    };
     let placed = snapshot.triangle_of_a_at_middle(a);
     let (p, q) = nearest_or_common_points(&placed, b);
     let directions = separating_axis_candidates(&placed, b).chain([(p - q).normalize()]);

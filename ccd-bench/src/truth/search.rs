@@ -1,7 +1,7 @@
 //! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
 //! from the pairs of nodes that could not be excluded over the whole.
 
-use super::snapshot::{BoxSeparation, IntervalMaps, LinearizedMotions, TimeSpan};
+use super::snapshot::{IntervalMaps, LinearizedMotions, TimeSpan};
 use super::surface::{Node, NodeContent, Surface, Triangle};
 use super::track::EnclosedMotion;
 use super::triangle::{gap_along, nearest_points, separating_axis_candidates};
@@ -45,15 +45,6 @@ const FACE_NORMAL_COUNT: usize = 2;
 /// The distance of two triangles, as a fraction of their edge lengths, below which cross products of edges are tested
 /// too.
 const MAX_RELATIVE_DISTANCE_FOR_EDGE_NORMALS: f64 = 1e-3;
-
-/// The result of testing pairs of nodes for contact within an interval of time.
-#[derive(Debug, PartialEq)]
-enum RemainingPairs {
-    /// The pairs of nodes that may meet within the interval.
-    MayMeet(Vec<Pair>),
-    /// The budget of tests was used up before all pairs were tested.
-    BudgetSpent,
-}
 
 impl<'a> Search<'a> {
     pub(super) fn new(referee: &Referee<'a>, query: &Motions) -> Self {
@@ -104,19 +95,18 @@ impl<'a> Search<'a> {
                 continue;
             };
             let snapshot = self.linearize_motions(span);
-            let left = match self.pairs_that_may_meet(&snapshot, &pairs) {
-                RemainingPairs::MayMeet(left) if left.is_empty() => continue,
-                RemainingPairs::MayMeet(left) => left,
-                RemainingPairs::BudgetSpent => {
-                    return Truth::Undecided {
-                        lo: undecided.first.unwrap_or(span.start),
-                    };
-                }
+            let Some(left) = self.pairs_that_may_meet(&snapshot, &pairs) else {
+                let lo = undecided.first.unwrap_or(span.start);
+                return Truth::Undecided { lo };
             };
+            if left.is_empty() {
+                continue;
+            }
             let middle = span.start.midpoint(span.end);
             if span.end - span.start > shortest && span.start < middle && middle < span.end {
                 let left = Rc::new(left);
-                let [early, late] = span.split_at(middle);
+                let halves = [(span.start, middle), (middle, span.end)];
+                let [early, late] = halves.map(|(start, end)| TimeSpan { start, end });
                 pending.push((late, Rc::clone(&left)));
                 pending.push((early, left));
                 continue;
@@ -141,51 +131,49 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the pairs of nodes that may meet within the interval; nodes larger than their displacement are split
-    /// first.
+    /// first. `None` if the budget of tests was used up before all pairs were tested.
     fn pairs_that_may_meet(
         &mut self,
         snapshot: &LinearizedMotions,
         pairs: &[Pair],
-    ) -> RemainingPairs {
+    ) -> Option<Vec<Pair>> {
         let mut left = Vec::new();
         if snapshot.are_bodies_far_apart() {
-            return RemainingPairs::MayMeet(left);
+            return Some(left);
         }
         let mut stack = pairs.to_vec();
         while let Some(pair) = stack.pop() {
             if self.remaining_budget == 0 {
-                return RemainingPairs::BudgetSpent;
+                return None;
             }
             self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
-            let BoxSeparation::Near { travel } = snapshot.test_box_separation(a, b) else {
+            let Some(travel) = snapshot.travel_unless_apart(a, b) else {
                 continue;
             };
-            match self.split(pair) {
-                Some(SplitPair {
-                    half_diagonal: size,
-                    child_pairs: parts,
-                }) if size > MAX_UNSPLIT_SIZE_PER_TRAVEL * travel => {
-                    stack.extend(parts);
-                }
-                Some(_) => left.push(pair),
-                None if greater(a.half_diagonal, b.half_diagonal)
-                    < MAX_BOX_TEST_SIZE_PER_TRAVEL * travel =>
+            let may_meet = match self.open(pair) {
+                OpenedPair::Children(larger, pairs)
+                    if larger.half_diagonal > MAX_UNSPLIT_SIZE_PER_TRAVEL * travel =>
                 {
-                    left.push(pair);
+                    stack.extend(pairs);
+                    false
                 }
-                None if self.are_triangles_apart(snapshot, pair) => {}
-                None => left.push(pair),
+                OpenedPair::Children(..) => true,
+                OpenedPair::Triangles(triangles) => {
+                    let size = greater(a.half_diagonal, b.half_diagonal);
+                    size < MAX_BOX_TEST_SIZE_PER_TRAVEL * travel
+                        || !Self::are_triangles_apart(snapshot, triangles)
+                }
+            };
+            if may_meet {
+                left.push(pair);
             }
         }
-        RemainingPairs::MayMeet(left)
+        Some(left)
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the interval.
-    fn are_triangles_apart(&self, snapshot: &LinearizedMotions, pair: Pair) -> bool {
-        let Some([a, b]) = self.triangles(pair) else {
-            return false;
-        };
+    fn are_triangles_apart(snapshot: &LinearizedMotions, [a, b]: [&Triangle; 2]) -> bool {
         let [start, end] = snapshot.triangles_at_ends(a, b);
         let apart = |n| {
             let least = lesser(
@@ -244,17 +232,15 @@ impl<'a> Search<'a> {
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         self.remaining_budget = self.remaining_budget.saturating_sub(pairs.len() as u64);
-        let mut triangles = pairs.iter().filter_map(|&pair| self.triangles(pair));
-        triangles.any(|[a, b]| instant.certainly_meet(a, b))
+        pairs.iter().any(|&pair| match self.open(pair) {
+            OpenedPair::Children(..) => false,
+            OpenedPair::Triangles([a, b]) => instant.certainly_meet(a, b),
+        })
     }
 
     /// Tests whether the surfaces touch at a time, by the evidence that `proof` requires.
     fn decide_touch_at(&mut self, roots: Pair, time: f64, proof: TouchCriterion) -> TouchDecision {
-        let span = TimeSpan {
-            start: time,
-            end: time,
-        };
-        let snapshot = self.linearize_motions(span);
+        let snapshot = self.linearize_motions(TimeSpan::instant(time));
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         let mut stack = vec![roots];
@@ -264,19 +250,17 @@ impl<'a> Search<'a> {
             }
             self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
-            if snapshot.test_box_separation(a, b) == BoxSeparation::Apart {
+            if snapshot.travel_unless_apart(a, b).is_none() {
                 continue;
             }
-            if let Some(SplitPair {
-                child_pairs: parts, ..
-            }) = self.split(pair)
-            {
-                stack.extend(parts);
-            } else if !self.are_triangles_apart(&snapshot, pair) {
-                let triangles = self.triangles(pair);
-                let meet = |[a, b]: [&Triangle; 2]| instant.certainly_meet(a, b);
-                if proof == TouchCriterion::NotApart || triangles.is_some_and(meet) {
-                    return TouchDecision::Touching;
+            match self.open(pair) {
+                OpenedPair::Children(_, pairs) => stack.extend(pairs),
+                OpenedPair::Triangles([a, b]) => {
+                    if !Self::are_triangles_apart(&snapshot, [a, b])
+                        && (proof == TouchCriterion::NotApart || instant.certainly_meet(a, b))
+                    {
+                        return TouchDecision::Touching;
+                    }
                 }
             }
         }
@@ -287,45 +271,35 @@ impl<'a> Search<'a> {
         [self.surfaces[0].node(a), self.surfaces[1].node(b)]
     }
 
-    pub(super) fn triangles(&self, pair: Pair) -> Option<[&'a Triangle; 2]> {
-        let [a, b] = self.nodes(pair).map(|node| node.content);
-        match [a, b] {
-            [NodeContent::Triangle(a), NodeContent::Triangle(b)] => {
-                Some([self.surfaces[0].triangle(a), self.surfaces[1].triangle(b)])
-            }
-            _ => None,
-        }
-    }
-
-    /// Splits the larger node of a pair, or the inner node if the other node is a leaf; returns `None` for two leaves.
-    pub(super) fn split(&self, [a, b]: Pair) -> Option<SplitPair> {
+    /// Opens the larger of two nodes, or the only one that is no leaf.
+    pub(super) fn open(&self, [a, b]: Pair) -> OpenedPair<'a> {
         let [node_a, node_b] = self.nodes([a, b]);
-        let of_a = |parts: [u32; 2]| SplitPair {
-            half_diagonal: node_a.half_diagonal,
-            child_pairs: parts.map(|part| [part, b]),
-        };
-        let of_b = |parts: [u32; 2]| SplitPair {
-            half_diagonal: node_b.half_diagonal,
-            child_pairs: parts.map(|part| [a, part]),
-        };
+        let with_b = |parts: [u32; 2]| parts.map(|part| [part, b]);
         match (node_a.content, node_b.content) {
             (NodeContent::Children(parts), NodeContent::Children(_))
                 if node_a.half_diagonal >= node_b.half_diagonal =>
             {
-                Some(of_a(parts))
+                OpenedPair::Children(node_a, with_b(parts))
             }
-            (_, NodeContent::Children(parts)) => Some(of_b(parts)),
-            (NodeContent::Children(parts), NodeContent::Triangle(_)) => Some(of_a(parts)),
-            (NodeContent::Triangle(_), NodeContent::Triangle(_)) => None,
+            (_, NodeContent::Children(parts)) => {
+                OpenedPair::Children(node_b, parts.map(|part| [a, part]))
+            }
+            (NodeContent::Children(parts), NodeContent::Triangle(_)) => {
+                OpenedPair::Children(node_a, with_b(parts))
+            }
+            (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
+                OpenedPair::Triangles([self.surfaces[0].triangle(a), self.surfaces[1].triangle(b)])
+            }
         }
     }
 }
 
-/// The pairs that result from splitting one node of a pair.
-pub(super) struct SplitPair {
-    /// Half the diagonal of the box of the node that was split.
-    half_diagonal: f64,
-    pub(super) child_pairs: [Pair; 2],
+/// What is tested in place of a pair of nodes.
+pub(super) enum OpenedPair<'a> {
+    /// The node that is opened, and its children, each with the other node.
+    Children(&'a Node, [Pair; 2]),
+    /// The triangles of two leaves.
+    Triangles([&'a Triangle; 2]),
 }
 
 /// The evidence that makes two surfaces count as touching.
@@ -370,17 +344,5 @@ impl TimeSpan {
     fn clipped_from(self, start: f64) -> Option<Self> {
         let start = greater(self.start, start);
         (start < self.end).then_some(TimeSpan { start, ..self })
-    }
-
-    fn split_at(self, middle: f64) -> [Self; 2] {
-        let early = TimeSpan {
-            end: middle,
-            ..self
-        };
-        let late = TimeSpan {
-            start: middle,
-            ..self
-        };
-        [early, late]
     }
 }

@@ -61,13 +61,14 @@ struct ExtentMatrices {
     b: DMat3,
 }
 
-/// Whether two boxes may meet in the interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum BoxSeparation {
-    /// The boxes stay apart for the whole interval.
-    Apart,
-    /// The boxes may meet; `travel` bounds their relative displacement.
-    Near { travel: f64 },
+impl TimeSpan {
+    /// Returns the span that has only one time.
+    pub(super) fn instant(time: f64) -> Self {
+        TimeSpan {
+            start: time,
+            end: time,
+        }
+    }
 }
 
 impl LinearizedMotions {
@@ -89,7 +90,6 @@ impl LinearizedMotions {
         let sizes = placement.image_length_bound
             + size_b
             + half * (rate_a.image_length_bound + rate_b.image_length_bound);
-        let centre = |v: &IntervalVector| DVec3::from_array(v.0.map(Interval::midpoint));
         let (r, w_a, w_b) = (placement.matrix, rate_a.matrix * half, rate_b.matrix * half);
         let back = r.transpose();
         LinearizedMotions {
@@ -109,8 +109,8 @@ impl LinearizedMotions {
             placement,
             velocity_map_a: rate_a,
             velocity_map_b: rate_b,
-            centre_offset: centre(&exactly.centre_offset),
-            centre_offset_rate: centre(&exactly.velocity),
+            centre_offset: exactly.centre_offset.midpoint(),
+            centre_offset_rate: exactly.velocity.midpoint(),
             radius_sum: a.max_distance_from_centre + b.max_distance_from_centre,
         }
     }
@@ -130,8 +130,9 @@ impl LinearizedMotions {
                 + FORTY_ROUNDINGS_ERROR * (d.length() + w.length())
     }
 
-    /// Tests whether one of the six face normals of two boxes separates them over the whole interval.
-    pub(super) fn test_box_separation(&self, a: &Node, b: &Node) -> BoxSeparation {
+    /// Returns a bound on the relative displacement of two boxes; `None` if one of their six face normals separates them
+    /// over the whole interval.
+    pub(super) fn travel_unless_apart(&self, a: &Node, b: &Node) -> Option<f64> {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half_duration
             * (self.velocity_map_a.apply(a.centre) - self.velocity_map_b.apply(b.centre));
@@ -139,7 +140,7 @@ impl LinearizedMotions {
             .extent_matrices_along_b
             .axis_gap_lower_bounds(apart, moved, a, b);
         if gaps_b.max_element() > self.gap_error_bound {
-            return BoxSeparation::Apart;
+            return None;
         }
         let gaps_a = self.extent_matrices_along_a.axis_gap_lower_bounds(
             self.rotate_to_a_frame(apart),
@@ -148,11 +149,9 @@ impl LinearizedMotions {
             b,
         );
         if gaps_a.max_element() > self.gap_error_bound {
-            return BoxSeparation::Apart;
+            return None;
         }
-        BoxSeparation::Near {
-            travel: moved.length() + self.linearization_error_bound,
-        }
+        Some(moved.length() + self.linearization_error_bound)
     }
 
     /// Returns a lower bound of the distance of two boxes at the middle time; it does not hold over the interval.
@@ -230,18 +229,11 @@ impl AffineMap {
     /// an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at most 4u(|m||p| + |o|), plus √3
     /// rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(IntervalMatrix, IntervalVector), farthest: f64) -> Self {
-        let rows = matrix
-            .0
-            .map(|row| DVec3::from_array(row.map(Interval::midpoint)));
-        let entries = matrix.0.iter().flatten();
-        let width = entries.fold(0.0, |width, entry| {
-            nan_propagating_max(width, entry.radius())
-        });
-        let offset_width = offset
-            .0
-            .iter()
-            .fold(0.0, |w, x| nan_propagating_max(w, x.radius()));
-        let offset = DVec3::from_array(offset.0.map(Interval::midpoint));
+        let rows = matrix.0.map(|row| IntervalVector(row).midpoint());
+        let widest = |width: f64, entry: &Interval| nan_propagating_max(width, entry.radius());
+        let width = matrix.0.iter().flatten().fold(0.0, widest);
+        let offset_width = offset.0.iter().fold(0.0, widest);
+        let offset = offset.midpoint();
         let row = rows.iter().fold(0.0, |longest: f64, row| {
             nan_propagating_max(longest, row.length())
         });

@@ -12,7 +12,7 @@ use super::RivalMotion;
 use super::obb_tree::{ObbTree, trees_intersect};
 use super::resolution::resolution;
 use super::screw::to_screw_motions;
-use super::tree::NodeContent;
+use super::tree::{OpenedPair, open_pair};
 use crate::method::solver::{ContactClaim, Reply, Solver};
 use boxes::{BoxSeparation, test_box_separation};
 use ccd_core::order::{greater, lesser};
@@ -203,17 +203,10 @@ impl Search<'_> {
                 .extend([late, early].map(|interval| NodePair { nodes, interval }));
             return FirstTouch::NotInInterval;
         }
-        let open = match (a.content, b.content) {
-            (NodeContent::Triangle(p), NodeContent::Triangle(q)) => {
-                return self.first_touch_of_leaves([p, q], interval);
-            }
-            (NodeContent::Children(children), NodeContent::Triangle(_)) => {
-                children.map(|child| [child, nodes[1]])
-            }
-            (NodeContent::Children(children), NodeContent::Children(_)) if size[0] > size[1] => {
-                children.map(|child| [child, nodes[1]])
-            }
-            (_, NodeContent::Children(children)) => children.map(|child| [nodes[0], child]),
+        let open = match open_pair([a.content, b.content], size) {
+            OpenedPair::Triangles(leaves) => return self.first_touch_of_leaves(leaves, interval),
+            OpenedPair::OfA(children) => children.map(|child| [child, nodes[1]]),
+            OpenedPair::OfB(children) => children.map(|child| [nodes[0], child]),
         };
         self.stack
             .extend(open.map(|nodes| NodePair { nodes, interval }));

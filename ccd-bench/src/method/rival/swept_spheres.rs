@@ -1,7 +1,7 @@
 //! A tree of spheres swept over rectangles, above the triangles of a mesh.
 
 use super::principal_axes::principal_axes;
-use super::tree::NodeContent;
+use super::tree::{NodeContent, OpenedPair, open_pair};
 use super::triangles_apart::{NearestPoints, Triangle, nearest_points};
 use super::{Placement, rectangles};
 use ccd_core::glam::{DVec2, DVec3};
@@ -60,12 +60,8 @@ pub(super) enum PairChildren {
     Triangles(TriangleIndexPair),
 }
 
-/// A triangle of A and a triangle of B, by their indices.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TriangleIndexPair {
-    a: u32,
-    b: u32,
-}
+/// The indices of a triangle of each tree.
+pub(super) type TriangleIndexPair = [u32; 2];
 
 /// A lower bound of the distance of two nodes, with the direction from A to B.
 #[derive(Clone, Copy, Debug)]
@@ -178,8 +174,8 @@ impl RssTreePair {
         leaves: TriangleIndexPair,
         placement: &Placement,
     ) -> NearestPoints {
-        let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));
-        nearest_points(&self.a.triangles[leaves.a as usize], &moved)
+        let moved = self.b.triangles[leaves[1] as usize].map(|corner| placement.apply(corner));
+        nearest_points(&self.a.triangles[leaves[0] as usize], &moved)
     }
 
     /// Returns the pairs that replace a pair of nodes: the larger node is opened \[PQP99 §5\], and two leaves give
@@ -187,40 +183,28 @@ impl RssTreePair {
     #[inline]
     pub(super) fn children(&self, pair: &RssNodePair) -> PairChildren {
         let (a, b) = self.nodes(pair);
-        match (a.content, b.content) {
-            (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
-                PairChildren::Triangles(TriangleIndexPair { a, b })
-            }
-            (NodeContent::Children(below), NodeContent::Children(_))
-                if a.diameter_bound() > b.diameter_bound() =>
-            {
-                self.split_a(pair, below)
-            }
-            (_, NodeContent::Children(below)) => self.split_b(pair, below),
-            (NodeContent::Children(below), NodeContent::Triangle(_)) => self.split_a(pair, below),
+        let sizes = [a.diameter_bound(), b.diameter_bound()];
+        match open_pair([a.content, b.content], sizes) {
+            OpenedPair::Triangles(leaves) => PairChildren::Triangles(leaves),
+            OpenedPair::OfA(below) => PairChildren::Pairs(below.map(|a| {
+                let child = &self.a.nodes[a as usize].placement;
+                let placement = pair.placement.relative_to(child);
+                RssNodePair {
+                    a,
+                    placement,
+                    ..*pair
+                }
+            })),
+            OpenedPair::OfB(below) => PairChildren::Pairs(below.map(|b| {
+                let child = &self.b.nodes[b as usize].placement;
+                let placement = compose(&pair.placement, child);
+                RssNodePair {
+                    b,
+                    placement,
+                    ..*pair
+                }
+            })),
         }
-    }
-
-    #[inline]
-    fn split_a(&self, pair: &RssNodePair, below: [u32; 2]) -> PairChildren {
-        PairChildren::Pairs(below.map(|a| {
-            RssNodePair {
-                a,
-                b: pair.b,
-                placement: pair
-                    .placement
-                    .relative_to(&self.a.nodes[a as usize].placement),
-            }
-        }))
-    }
-
-    #[inline]
-    fn split_b(&self, pair: &RssNodePair, below: [u32; 2]) -> PairChildren {
-        PairChildren::Pairs(below.map(|b| RssNodePair {
-            a: pair.a,
-            b,
-            placement: compose(&pair.placement, &self.b.nodes[b as usize].placement),
-        }))
     }
 }
 

@@ -2,6 +2,29 @@
 
 use super::triangles_apart::Triangle;
 
+/// What a traversal of two trees examines in place of a pair of nodes.
+pub(super) enum OpenedPair {
+    /// The children of A's node, each with B's node.
+    OfA([u32; 2]),
+    /// The children of B's node, each with A's node.
+    OfB([u32; 2]),
+    /// The triangles of two leaves.
+    Triangles([u32; 2]),
+}
+
+/// Opens the larger of two nodes, given by their contents and sizes, or the only one that is no leaf.
+#[inline]
+pub(super) fn open_pair([a, b]: [NodeContent; 2], [size_a, size_b]: [f64; 2]) -> OpenedPair {
+    match (a, b) {
+        (NodeContent::Triangle(a), NodeContent::Triangle(b)) => OpenedPair::Triangles([a, b]),
+        (NodeContent::Children(below), NodeContent::Children(_)) if size_a > size_b => {
+            OpenedPair::OfA(below)
+        }
+        (_, NodeContent::Children(below)) => OpenedPair::OfB(below),
+        (NodeContent::Children(below), NodeContent::Triangle(_)) => OpenedPair::OfA(below),
+    }
+}
+
 /// The children of a node, or the triangle of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NodeContent {

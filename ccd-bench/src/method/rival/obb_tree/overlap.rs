@@ -3,7 +3,7 @@
 use super::{Obb, ObbTree};
 use crate::method::rival::Placement;
 use crate::method::rival::interval::cross_radius;
-use crate::method::rival::tree::NodeContent;
+use crate::method::rival::tree::{OpenedPair, open_pair};
 use crate::method::rival::triangles_cross::triangles_cross;
 use ccd_core::glam::{DMat3, DVec3};
 
@@ -37,31 +37,20 @@ pub(in crate::method::rival) fn trees_intersect(
         {
             continue;
         }
-        match (node_a.content, node_b.content) {
-            (NodeContent::Triangle(p), NodeContent::Triangle(q)) => {
+        let nodes = [node_a, node_b];
+        let sizes = nodes.map(|node| node.bounds.half_extents.max_element());
+        match open_pair(nodes.map(|node| node.content), sizes) {
+            OpenedPair::Triangles([p, q]) => {
                 let p = a.triangle(p).map(|x| between_origins.apply(x));
                 if triangles_cross(&p, b.triangle(q)) {
                     return true;
                 }
             }
-            (NodeContent::Children([left, right]), other)
-                if should_split_a(other, &node_a.bounds, &node_b.bounds) =>
-            {
-                stack.extend([(right, j), (left, j)]);
-            }
-            (_, NodeContent::Children([left, right])) => stack.extend([(i, right), (i, left)]),
-            (NodeContent::Children([left, right]), NodeContent::Triangle(_)) => {
-                stack.extend([(right, j), (left, j)]);
-            }
+            OpenedPair::OfA([left, right]) => stack.extend([(right, j), (left, j)]),
+            OpenedPair::OfB([left, right]) => stack.extend([(i, right), (i, left)]),
         }
     }
     false
-}
-
-/// Returns true if A's node is to be opened before B's, because B's node is a leaf or smaller.
-fn should_split_a(other: NodeContent, a: &Obb, b: &Obb) -> bool {
-    matches!(other, NodeContent::Triangle(_))
-        || a.half_extents.max_element() > b.half_extents.max_element()
 }
 
 impl Obb {

@@ -105,8 +105,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             let mut true_distance = f64::INFINITY;
             for &i in &a {
                 for &j in &b {
-                    let nearest =
-                        trees.nearest_points(super::TriangleIndexPair { a: i, b: j }, &placement);
+                    let nearest = trees.nearest_points([i, j], &placement);
                     true_distance = lesser(true_distance, nearest.vector_from_a_to_b().length());
                 }
             }
