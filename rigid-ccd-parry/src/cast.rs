@@ -133,13 +133,13 @@ impl Cast {
             + off
             + self.displacement_rounding(reach);
         let settings = self.settings(&[body], slack)?;
-        let stand_in = plane.covering_box(of_plane, 2.0 * reach).map_err(|error| {
-            let which = index as u8 + 1;
-            CastError::Shape {
-                shape_number: which,
-                error,
-            }
-        })?;
+        let stand_in =
+            plane
+                .covering_box(of_plane, 2.0 * reach)
+                .map_err(|error| CastError::Shape {
+                    shape_number: index as u8 + 1,
+                    error,
+                })?;
         let (mut bodies, mut motions) = ([&stand_in, body], [of_plane.motion, side.motion]);
         if index == 1 {
             bodies.reverse();
@@ -245,11 +245,7 @@ impl MotionFromStart {
     /// Returns the motion with a ball that contains the body, and whose centre moves in a straight line.
     fn motion_with_extent(&self, body: &BodyOfShape) -> MotionWithExtent {
         let (middle, radius) = body.ball;
-        let about = if self.motion.spin() == DVec3::ZERO {
-            middle
-        } else {
-            self.motion.centre()
-        };
+        let about = self.rotation_centre_or(middle);
         MotionWithExtent {
             motion: self.motion,
             about,
@@ -257,18 +253,22 @@ impl MotionFromStart {
         }
     }
 
+    fn rotation_centre_or(&self, point: DVec3) -> DVec3 {
+        if self.motion.spin() == DVec3::ZERO {
+            point
+        } else {
+            self.motion.centre()
+        }
+    }
+
     /// Returns the motion of a half-space, about the other body's start position or, if the half-space rotates, about
     /// the centre.
     fn plane_motion_with_extent(&self, other: &MotionWithExtent) -> MotionWithExtent {
         let start = self.motion.start();
-        let about = if self.motion.spin() == DVec3::ZERO {
-            start.inverse().transform_point(other.start_position())
-        } else {
-            self.motion.centre()
-        };
+        let beside = start.inverse().transform_point(other.start_position());
         MotionWithExtent {
             motion: self.motion,
-            about,
+            about: self.rotation_centre_or(beside),
             reach: 0.0,
         }
     }

@@ -52,29 +52,32 @@ impl CastError {
     pub(crate) fn motions_or_error<T>(
         made: [Result<T, InputError>; 2],
     ) -> Result<[T; 2], CastError> {
-        let named = |which| {
-            move |error| CastError::Motion {
-                motion_number: which,
-                error,
-            }
-        };
-        let [a, b] = made;
-        Ok([a.map_err(named(1))?, b.map_err(named(2))?])
+        both(made, |motion_number, error| CastError::Motion {
+            motion_number,
+            error,
+        })
     }
 
     /// Returns both results, or the first error, with the number of the shape that it is about.
     pub(crate) fn shapes_or_error<T>(
         made: [Result<T, ShapeError>; 2],
     ) -> Result<[T; 2], CastError> {
-        let named = |which| {
-            move |error| CastError::Shape {
-                shape_number: which,
-                error,
-            }
-        };
-        let [a, b] = made;
-        Ok([a.map_err(named(1))?, b.map_err(named(2))?])
+        both(made, |shape_number, error| CastError::Shape {
+            shape_number,
+            error,
+        })
     }
+}
+
+fn both<T, E>(
+    [a, b]: [Result<T, E>; 2],
+    named: fn(u8, E) -> CastError,
+) -> Result<[T; 2], CastError> {
+    let (a, b) = (
+        a.map_err(|error| named(1, error)),
+        b.map_err(|error| named(2, error)),
+    );
+    Ok([a?, b?])
 }
 
 /// The error of a shape from which no body can be made.

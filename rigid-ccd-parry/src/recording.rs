@@ -3,7 +3,7 @@
 use crate::scene::Scene;
 use ccd_core::{Body, Motion, Settings, StartPolicy};
 use rigid_ccd::mesh::{Model, PrepareError, StoreError};
-use std::fmt::Write;
+use rigid_ccd::table::motions::{Motions, write};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -67,9 +67,16 @@ impl Recording {
         let [a, b, motions] = ["a.ccd", "b.ccd", "motions.csv"].map(|name| folder.join(name));
         Model::from_body(&self.bodies[0])?.save(&a)?;
         Model::from_body(&self.bodies[1])?.save(&b)?;
-        let table = self.motions_table_text();
-        ccd_file::write(&motions, |out| out.write_all(table.as_bytes()))
-            .map_err(failed(&motions))?;
+        let query = Motions {
+            id: "cast".to_owned(),
+            a: self.motions[0],
+            b: self.motions[1],
+            duration: self.duration,
+        };
+        ccd_file::write(&motions, |out| {
+            write(out, &[query]).map_err(io::Error::other)
+        })
+        .map_err(failed(&motions))?;
         let Settings {
             tolerance, margin, ..
         } = self.settings;
@@ -83,30 +90,6 @@ impl Recording {
             b.display(),
             motions.display(),
         ))
-    }
-
-    /// Returns the text of the table of motions, which has one row.
-    fn motions_table_text(&self) -> String {
-        let (mut names, mut cells) = (String::from("duration"), self.duration.to_string());
-        for (body, motion) in ["a", "b"].iter().zip(&self.motions) {
-            let start = motion.start();
-            let [x, y, z, w] = start.rotation().to_array();
-            let groups: [(&str, &str, &[f64]); 5] = [
-                ("p", "xyz", &start.translation().to_array()),
-                ("q", "wxyz", &[w, x, y, z]),
-                ("v", "xyz", &motion.velocity().to_array()),
-                ("w", "xyz", &motion.spin().to_array()),
-                ("c", "xyz", &motion.centre().to_array()),
-            ];
-            for (group, axes, numbers) in groups {
-                for (axis, cell) in axes.chars().zip(numbers) {
-                    // Writing to a string cannot fail.
-                    let _ = write!(names, ",{body}_{group}{axis}");
-                    let _ = write!(cells, ",{cell:e}");
-                }
-            }
-        }
-        format!("{names}\n{cells}\n")
     }
 }
 

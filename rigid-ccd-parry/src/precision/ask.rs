@@ -7,7 +7,7 @@ use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
 use crate::cast::{Cast, PreparedShape};
 use crate::interval::Interval;
-use crate::{CastError, Options};
+use crate::{CastError, Options, ShapeError};
 use ccd_core::{Motion, StartPolicy};
 use rigid_ccd::Solver;
 
@@ -46,10 +46,11 @@ pub(super) fn linear_cast_from_arguments(
 /// Runs a cast on two shapes, and converts the hit to parry's type; without a cast there is no hit.
 pub(super) fn answer(
     cast: Option<Cast>,
-    shapes: [&PreparedShape; 2],
+    shapes: [Result<PreparedShape, ShapeError>; 2],
     solver: &mut Solver,
 ) -> Result<Option<ShapeCastHit>, CastError> {
-    let found = cast.map(|cast| cast.answer(shapes, solver)).transpose()?;
+    let [a, b] = CastError::shapes_or_error(shapes)?;
+    let found = cast.map(|cast| cast.answer([&a, &b], solver)).transpose()?;
     Ok(found.flatten().as_ref().map(hit))
 }
 

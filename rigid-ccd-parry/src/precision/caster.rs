@@ -187,8 +187,8 @@ impl Caster {
         cast: Option<Cast>,
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = CastError::shapes_or_error(shapes.map(|shape| self.prepared_shape(shape)))?;
-        ask::answer(cast, [&a, &b], &mut self.solver)
+        let shapes = shapes.map(|shape| self.prepared_shape(shape));
+        ask::answer(cast, shapes, &mut self.solver)
     }
 }
 

@@ -137,21 +137,13 @@ fn answer(cast: Option<Cast>, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCas
     // The memory is gone while its thread ends.
     let memory = THREAD_MEMORY.try_with(Cell::take).ok().flatten();
     let mut memory = memory.unwrap_or_default();
-    let found = memory.answer(cast, shapes);
+    let shapes = shapes.map(|shape| memory.prepared_shape(shape));
+    let found = ask::answer(cast, shapes, &mut memory.solver);
     let _ = THREAD_MEMORY.try_with(|place| place.set(Some(memory)));
     found
 }
 
 impl ThreadMemory {
-    fn answer(
-        &mut self,
-        cast: Option<Cast>,
-        shapes: [&dyn Shape; 2],
-    ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = CastError::shapes_or_error(shapes.map(|shape| self.prepared_shape(shape)))?;
-        ask::answer(cast, [&a, &b], &mut self.solver)
-    }
-
     fn prepared_shape(&mut self, shape: &dyn Shape) -> Result<PreparedShape, ShapeError> {
         match shape.as_typed_shape() {
             TypedShape::HalfSpace(plane) => half_space(plane).map(PreparedShape::HalfSpace),
