@@ -47,14 +47,8 @@ pub struct DynamicChecker {
 #[derive(Clone, Copy, Debug, Default)]
 struct RadiusCache(Option<(DVec3, f64)>);
 
-/// A segment of the duration, and lower bounds on the distance at its ends.
-#[derive(Clone, Copy, Debug)]
-struct TimeSegment {
-    start: f64,
-    end: f64,
-    start_distance_bound: f64,
-    end_distance_bound: f64,
-}
+/// The two ends of an interval of time, each as a time with a lower bound on the distance of the bodies then.
+type TimeSegment = [(f64, f64); 2];
 
 /// The precision at which a lower bound of the distance suffices, so that a descent may stop.
 #[derive(Clone, Copy, Debug)]
@@ -106,16 +100,12 @@ impl Solver for DynamicChecker {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let speed =
             |course: &RivalMotion, reach: f64| course.velocity.length() + course.rate * reach;
+        let reach_a = self.radius_cache_a.radius_about(a.centre, &self.trees.a);
+        let reach_b = self.radius_cache_b.radius_about(b.centre, &self.trees.b);
         let mut task = QueryTask {
             a,
             b,
-            speed_bound: speed(
-                &a,
-                self.radius_cache_a.radius_about(a.centre, &self.trees.a),
-            ) + speed(
-                &b,
-                self.radius_cache_b.radius_about(b.centre, &self.trees.b),
-            ),
+            speed_bound: speed(&a, reach_a) + speed(&b, reach_b),
             tolerance,
             earliest_touch_time: None,
             steps: 0,
@@ -149,12 +139,8 @@ impl DynamicChecker {
             DistanceBound::LimitReached => return ContactClaim::Unresolved { safe_until: 0.0 },
         };
         self.segment_stack.clear();
-        self.segment_stack.push(TimeSegment {
-            start: 0.0,
-            end: duration,
-            start_distance_bound: distance_at_from,
-            end_distance_bound: distance_at_to,
-        });
+        self.segment_stack
+            .push([(0.0, distance_at_from), (duration, distance_at_to)]);
         while let Some(segment) = self.segment_stack.pop() {
             task.steps += 1;
             if let Some(claim) = self.settle_or_halve_segment(segment, task) {
@@ -175,12 +161,7 @@ impl DynamicChecker {
         segment: TimeSegment,
         task: &mut QueryTask,
     ) -> Option<ContactClaim> {
-        let TimeSegment {
-            start: from,
-            end: to,
-            start_distance_bound: distance_at_from,
-            end_distance_bound: distance_at_to,
-        } = segment;
+        let [(from, distance_at_from), (to, distance_at_to)] = segment;
         let path = task.speed_bound * (to - from);
         if path < distance_at_from + distance_at_to {
             return None;
@@ -208,12 +189,8 @@ impl DynamicChecker {
         );
         let at_middle = match self.distance_lower_bound(middle, precision, task) {
             DistanceBound::AtLeast(distance) => {
-                self.segment_stack.push(TimeSegment {
-                    start: middle,
-                    end: to,
-                    start_distance_bound: distance,
-                    end_distance_bound: distance_at_to,
-                });
+                self.segment_stack
+                    .push([(middle, distance), (to, distance_at_to)]);
                 distance
             }
             DistanceBound::Touching => {
@@ -224,12 +201,8 @@ impl DynamicChecker {
             }
             DistanceBound::LimitReached => return Some(gave_up),
         };
-        self.segment_stack.push(TimeSegment {
-            start: from,
-            end: middle,
-            start_distance_bound: distance_at_from,
-            end_distance_bound: at_middle,
-        });
+        self.segment_stack
+            .push([(from, distance_at_from), (middle, at_middle)]);
         None
     }
 

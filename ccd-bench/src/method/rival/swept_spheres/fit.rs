@@ -4,7 +4,7 @@ use super::{Node, RssTree, principal_axes};
 use crate::method::rival::Placement;
 use crate::method::rival::tree::{NodeContent, build_binary_tree};
 use crate::method::rival::triangles_apart::Triangle;
-use ccd_core::glam::{DMat3, DVec2, DVec3};
+use ccd_core::glam::{DVec2, DVec3};
 use ccd_core::order::greater;
 
 /// The relative increase of radii, which covers the rounding here and in computations with the tree.
@@ -17,8 +17,7 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
         |triangles, parent: Option<&(Placement, Node)>| {
             let (frame, lengths, radius) = fit_swept_rectangle(triangles);
             let node = Node {
-                placement: frame
-                    .relative_to(parent.map_or(&IDENTITY_PLACEMENT, |(frame, _)| frame)),
+                placement: parent.map_or(frame, |(parent, _)| frame.relative_to(parent)),
                 side_lengths: lengths,
                 radius,
                 content: NodeContent::Triangle(0),
@@ -27,15 +26,7 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
         },
         |triangles, (frame, _)| partition_triangles(triangles, frame.rotation.x_axis),
     );
-    let node = |((frame, node), below)| {
-        (
-            Node {
-                content: below,
-                ..node
-            },
-            frame,
-        )
-    };
+    let node = |((frame, node), content)| (Node { content, ..node }, frame);
     let (nodes, frames) = nodes.into_iter().map(node).unzip();
     RssTree {
         nodes,
@@ -43,11 +34,6 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
         triangles,
     }
 }
-
-const IDENTITY_PLACEMENT: Placement = Placement {
-    rotation: DMat3::IDENTITY,
-    translation: DVec3::ZERO,
-};
 
 /// Splits triangles by their centres along an axis, and returns the number of triangles in the first part. The split is
 /// at the mean, or in the middle of the order if that would be lopsided.
