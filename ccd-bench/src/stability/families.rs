@@ -55,7 +55,7 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
-    step.with_query_and_rotations(falling, BodyMotion::SLAB_MOTION, expected)
+    step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB, expected)
 }
 
 /// The half length and the half width of a rod.
@@ -75,7 +75,7 @@ fn rod_angle_at_wall(wall: f64) -> f64 {
 /// Returns the family step in which a rod rotates at the origin, next to a wall whose near side is at x = `wall`.
 fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyStep> {
     let step = FamilyStep::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
-    let beside = BodyMotion::resting_motion((wall + 1.0) * DVec3::X);
+    let beside = BodyMotion::resting((wall + 1.0) * DVec3::X);
     step.with_query_and_rotations(turning, beside, expected)
 }
 

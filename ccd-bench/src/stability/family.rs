@@ -85,7 +85,7 @@ pub(super) fn contact_at(time: f64, slack: f64) -> Truth {
 }
 
 impl BodyMotion {
-    pub(super) const STILL_MOTION: BodyMotion = BodyMotion {
+    pub(super) const STILL: BodyMotion = BodyMotion {
         start_position: DVec3::ZERO,
         orientation: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
@@ -94,29 +94,29 @@ impl BodyMotion {
     };
 
     /// The motion of a body that falls from z = 3 to z = −1.
-    pub(super) const FALLING_MOTION: BodyMotion = BodyMotion {
+    pub(super) const FALLING: BodyMotion = BodyMotion {
         start_position: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
-        ..BodyMotion::STILL_MOTION
+        ..BodyMotion::STILL
     };
 
     /// The motion of a slab that rests at z = −1, so that its top is at 0.
-    pub(super) const SLAB_MOTION: BodyMotion = BodyMotion {
+    pub(super) const RESTING_SLAB: BodyMotion = BodyMotion {
         start_position: DVec3::NEG_Z,
-        ..BodyMotion::STILL_MOTION
+        ..BodyMotion::STILL
     };
 
     /// Returns the motion of a body that rests at a position.
-    pub(super) fn resting_motion(at: DVec3) -> Self {
-        BodyMotion::straight_motion(at, DVec3::ZERO)
+    pub(super) fn resting(at: DVec3) -> Self {
+        BodyMotion::straight(at, DVec3::ZERO)
     }
 
     /// Returns the motion of a body in a straight line, without rotation.
-    pub(super) fn straight_motion(at: DVec3, velocity: DVec3) -> Self {
+    pub(super) fn straight(at: DVec3, velocity: DVec3) -> Self {
         BodyMotion {
             start_position: at,
             velocity,
-            ..BodyMotion::STILL_MOTION
+            ..BodyMotion::STILL
         }
     }
 

@@ -41,52 +41,51 @@ fn contact_free_step(
 
 fn ball_passing_a_box(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
-    let flying = BodyMotion::straight_motion(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
-    contact_free_step(step, gap, flying, BodyMotion::SLAB_MOTION)
+    let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
+    contact_free_step(step, gap, flying, BodyMotion::RESTING_SLAB)
 }
 
 fn cubes_passing(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, cube()?);
-    let flying = BodyMotion::straight_motion(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    contact_free_step(step, gap, flying, BodyMotion::STILL_MOTION)
+    let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
+    contact_free_step(step, gap, flying, BodyMotion::STILL)
 }
 
 fn balls_passing(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(ball(0.5, 600)?, ball(0.5, 600)?);
-    let flying = BodyMotion::straight_motion(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    contact_free_step(step, gap, flying, BodyMotion::STILL_MOTION)
+    let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
+    contact_free_step(step, gap, flying, BodyMotion::STILL)
 }
 
 fn cube_sliding_over_slab(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, slab()?);
-    let sliding = BodyMotion::straight_motion(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
-    contact_free_step(step, gap, sliding, BodyMotion::SLAB_MOTION)
+    let sliding = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
+    contact_free_step(step, gap, sliding, BodyMotion::RESTING_SLAB)
 }
 
 fn cube_leaving_slab(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, slab()?);
-    let rising = BodyMotion::straight_motion(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
-    contact_free_step(step, gap, rising, BodyMotion::SLAB_MOTION)
+    let rising = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
+    contact_free_step(step, gap, rising, BodyMotion::RESTING_SLAB)
 }
 
 /// Makes a square peg that moves through a square hole, with a gap on all four sides (case T16).
 fn peg_through_a_hole(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
-    let falling = BodyMotion::straight_motion(2.0 * DVec3::Z, -4.0 * DVec3::Z);
-    contact_free_step(step, gap, falling, BodyMotion::STILL_MOTION)
+    let falling = BodyMotion::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
+    contact_free_step(step, gap, falling, BodyMotion::STILL)
 }
 
 fn spinning_top(gap: f64) -> Result<FamilyStep> {
-    let spinning =
-        BodyMotion::straight_motion(gap * DVec3::Z, 0.5 * DVec3::X).with_spin(50.0 * DVec3::Z);
+    let spinning = BodyMotion::straight(gap * DVec3::Z, 0.5 * DVec3::X).with_spin(50.0 * DVec3::Z);
     let step = FamilyStep::new(cone(24, 0.7)?, slab()?);
-    contact_free_step(step, gap, spinning, BodyMotion::SLAB_MOTION)
+    contact_free_step(step, gap, spinning, BodyMotion::RESTING_SLAB)
 }
 
 /// Makes a rod that rotates by half a turn about its middle, past a wall that its corners miss by a gap.
 fn rod_past_a_wall(gap: f64) -> Result<FamilyStep> {
     let reach = f64::hypot(ROD_HALF_SIDES.0, ROD_HALF_SIDES.1);
-    let turning = BodyMotion::STILL_MOTION.with_spin(std::f64::consts::PI * DVec3::Y);
+    let turning = BodyMotion::STILL.with_spin(std::f64::consts::PI * DVec3::Y);
     // The reach is rounded, and the gap with it.
     let step = rod_beside_wall(turning, reach + gap, Truth::Free)?;
     Ok(step.with_tolerance(greater(tolerance(gap), 1e-11)))

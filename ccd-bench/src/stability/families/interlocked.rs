@@ -44,19 +44,19 @@ fn hooks(slack: f64) -> Result<FamilyStep> {
         |x, z| z == 0 || x != 1,
     )?;
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
-    let holding = BodyMotion::straight_motion((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
+    let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .with_orientation(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
     let step = FamilyStep::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
-    step.with_query_and_rotations(holding, BodyMotion::STILL_MOTION, contact_at(slack, 1e-14))
+    step.with_query_and_rotations(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
 }
 
 /// Makes a ring that falls flat onto an equal ring, and meets it all around.
 fn ring_onto_ring(way: f64) -> Result<FamilyStep> {
     let (radius, tube) = (1.0, 0.25);
-    let falling = BodyMotion::straight_motion((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
+    let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_query_and_rotations(falling, BodyMotion::STILL_MOTION, contact_at(way, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }
 
 /// The pitch of the threads: their rise per turn.
@@ -71,15 +71,15 @@ fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyStep> {
     // here: the flanks keep more than half of their play.
     let sides = 64;
     let flank = helicoid(THREAD_RADII, PITCH, sides, 3)?;
-    let turning = BodyMotion::straight_motion(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
+    let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .with_spin(TAU * turns * DVec3::Z);
     let step = FamilyStep::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
-    step.with_query_and_rotations(turning, BodyMotion::STILL_MOTION, Truth::Free)
+    step.with_query_and_rotations(turning, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a sheet that slides between two other sheets, at a gap from each.
 fn sheet_between_sheets(gap: f64) -> Result<FamilyStep> {
-    let sliding = BodyMotion::straight_motion(-3.0 * DVec3::X, 6.0 * DVec3::X);
+    let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     contact_free_step(
         FamilyStep::new(
             sheet(4)?,
@@ -94,7 +94,7 @@ fn sheet_between_sheets(gap: f64) -> Result<FamilyStep> {
 fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
-    let moving = BodyMotion::straight_motion(-3.0 * DVec3::X, 6.0 * DVec3::X)
+    let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
         .with_orientation(DQuat::from_rotation_y(tilt));
     contact_free_step(
         FamilyStep::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
@@ -105,7 +105,7 @@ fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
 
 fn contact_free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilyStep> {
     let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
-    step.with_query_and_rotations_if(gap >= 1e-12, moving, BodyMotion::STILL_MOTION, Truth::Free)
+    step.with_query_and_rotations_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a rod that rotates into a wall, with its mesh stored in a frame that is rotated by the given angle (case T3).
@@ -113,14 +113,14 @@ fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
     let rod = rod()?.transformed(DAffine3::from_quat(frame.inverse()))?;
-    let turning = BodyMotion::STILL_MOTION
+    let turning = BodyMotion::STILL
         .with_orientation(frame)
         .with_spin(PI * DVec3::Y);
     let step = FamilyStep::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(rod_angle_at_wall(wall) / PI, 1e-14);
     step.with_query_and_rotations(
         turning,
-        BodyMotion::resting_motion((wall + 1.0) * DVec3::X),
+        BodyMotion::resting((wall + 1.0) * DVec3::X),
         expected,
     )
 }

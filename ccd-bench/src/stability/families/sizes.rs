@@ -48,39 +48,39 @@ fn margin_parameter_values() -> Vec<f64> {
 /// Makes a cube that falls onto a larger or smaller cube, and reaches it at half the duration.
 fn cubes_of_unequal_size(size: f64) -> Result<FamilyStep> {
     let way = greater(size, 1.0);
-    let falling = BodyMotion::straight_motion((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
+    let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step = FamilyStep::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
-    step.with_query_and_rotations(falling, BodyMotion::STILL_MOTION, contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
 /// `tests/it/scenes.rs`.
 fn scene_in_length_unit(size: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight_motion(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
+    let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
     let step = FamilyStep::new(
         cuboid(half, half, half)?,
         cuboid(9.0 * size, 9.0 * size, size)?,
     )
     .with_tolerance(1e-6 * size);
-    let slab = BodyMotion::resting_motion(-size * DVec3::Z);
+    let slab = BodyMotion::resting(-size * DVec3::Z);
     step.with_query_and_rotations(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
 fn scene_in_time_unit(duration: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING_MOTION;
+    let falling = BodyMotion::FALLING;
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { duration, ..step };
-    let slab = BodyMotion::SLAB_MOTION;
+    let slab = BodyMotion::RESTING_SLAB;
     step.with_query_and_rotations(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another cube while both move sideways by `travel`.
 fn cubes_moving_together(travel: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight_motion(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
-    let fleeing = BodyMotion::straight_motion(DVec3::ZERO, travel * DVec3::X);
+    let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
+    let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = FamilyStep::new(cube()?, cube()?);
     step.with_query(falling, fleeing, contact_at(0.5, 1e-14))
 }
@@ -91,23 +91,19 @@ fn cube_about_far_centre(distance: f64) -> Result<FamilyStep> {
     let turning = BodyMotion {
         angular_velocity: spin * DVec3::Y,
         centre: -distance * DVec3::Z,
-        ..BodyMotion::STILL_MOTION
+        ..BodyMotion::STILL
     };
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = FamilyStep::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-14);
-    step.with_query(
-        turning,
-        BodyMotion::resting_motion(2.0 * DVec3::X),
-        expected,
-    )
+    step.with_query(turning, BodyMotion::resting(2.0 * DVec3::X), expected)
 }
 
 /// Makes a cone that falls onto a slab with its tip first; the sides of the cone are long and thin triangles.
 fn needle_onto_slab(width: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight_motion(2.5 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     fall_onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
 
@@ -115,20 +111,16 @@ fn needle_onto_slab(width: f64) -> Result<FamilyStep> {
 fn cubes_far_from_origin(distance: f64) -> Result<FamilyStep> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
-    let falling = BodyMotion::straight_motion(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let step = FamilyStep::new(cube()?, cube()?);
-    step.with_query(
-        falling,
-        BodyMotion::resting_motion(origin),
-        contact_at(0.5, 1e-14),
-    )
+    step.with_query(falling, BodyMotion::resting(origin), contact_at(0.5, 1e-14))
 }
 
 /// Makes a long and thin box that falls onto a slab; the sides of the box are long and thin triangles.
 fn thin_box_onto_slab(ratio: f64) -> Result<FamilyStep> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
-    let falling = BodyMotion::FALLING_MOTION.with_orientation(DQuat::from_rotation_x(0.3));
+    let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_x(0.3));
     let reach = thin * (sin + cos);
     fall_onto_slab(cuboid(1.0, thin, thin)?, falling, (3.0 - reach) / 4.0)
 }
@@ -137,8 +129,8 @@ fn thin_box_onto_slab(ratio: f64) -> Result<FamilyStep> {
 /// of `tests/it/scenes.rs`.
 fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
     let (bullet, half) = (0.005, 0.05 / ratio);
-    let flying = BodyMotion::straight_motion(DVec3::ZERO, DVec3::X);
-    let paper = BodyMotion::resting_motion(0.5 * DVec3::X);
+    let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
+    let paper = BodyMotion::resting(0.5 * DVec3::X);
     let step = FamilyStep::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = contact_at(0.5 - half - bullet, 1e-14);
     step.with_query_and_rotations(flying, paper, expected)
@@ -148,10 +140,10 @@ fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
 fn margin(margin: f64) -> Result<FamilyStep> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
-    let falling = BodyMotion::straight_motion(height * DVec3::Z, -speed * DVec3::Z);
+    let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
     let step = FamilyStep::new(cube()?, slab()?);
     let step = FamilyStep { margin, ..step };
-    let slab = BodyMotion::SLAB_MOTION;
+    let slab = BodyMotion::RESTING_SLAB;
     step.with_query_and_rotations(falling, slab, contact_at(0.5, 1e-14))
 }
 
@@ -160,6 +152,6 @@ fn margin(margin: f64) -> Result<FamilyStep> {
 fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
     let half = 0.9 * size;
     let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
-    let moving = BodyMotion::straight_motion(DVec3::ZERO, 0.05 * DVec3::X);
-    step.with_query_and_rotations(moving, BodyMotion::STILL_MOTION, Truth::ContactAtStart)
+    let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
+    step.with_query_and_rotations(moving, BodyMotion::STILL, Truth::ContactAtStart)
 }

@@ -40,7 +40,7 @@ fn cube_falling_onto_slab(time: f64) -> Result<(FamilyStep, BodyMotion)> {
     let step = FamilyStep::new(cube()?, slab()?);
     Ok((
         step,
-        BodyMotion::straight_motion((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
+        BodyMotion::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
     ))
 }
 
@@ -48,25 +48,25 @@ fn contact_after_start(time: f64) -> Result<FamilyStep> {
     let (step, falling) = cube_falling_onto_slab(time)?;
     let step = step.with_tolerance(greater(0.1 * time, 1e-11));
     let expected = contact_at(time, 1e-14);
-    step.with_query_and_rotations(falling, BodyMotion::SLAB_MOTION, expected)
+    step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB, expected)
 }
 
 fn contact_before_end(before: f64) -> Result<FamilyStep> {
     let (step, falling) = cube_falling_onto_slab(1.0 - before)?;
     let expected = contact_at(1.0 - before, 1e-14);
-    step.with_query_and_rotations(falling, BodyMotion::SLAB_MOTION, expected)
+    step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB, expected)
 }
 
 fn contact_after_end(after: f64) -> Result<FamilyStep> {
     let (step, falling) = cube_falling_onto_slab(1.0 + after)?;
     let step = step.with_tolerance(greater(0.25 * after, 1e-11));
-    let slab = BodyMotion::SLAB_MOTION;
+    let slab = BodyMotion::RESTING_SLAB;
     step.with_query_and_rotations_if(after > 1e-12, falling, slab, Truth::Free)
 }
 
 /// Makes two flat sheets without thickness that start at a small distance and meet face to face.
 fn sheet_onto_sheet(way: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight_motion(way * DVec3::Z, DVec3::NEG_Z);
+    let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyStep::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_query_and_rotations(falling, BodyMotion::STILL_MOTION, contact_at(way, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }

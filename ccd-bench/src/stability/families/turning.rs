@@ -24,7 +24,7 @@ pub(super) fn families() -> Vec<Family> {
 
 /// Makes a cube that falls flat onto a slab while it rotates about the vertical.
 fn cube_falling_while_spinning(turns: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING_MOTION.with_spin(TAU * turns * DVec3::Z);
+    let falling = BodyMotion::FALLING.with_spin(TAU * turns * DVec3::Z);
     fall_onto_slab(cube()?, falling, 0.625)
 }
 
@@ -33,7 +33,7 @@ fn cube_falling_while_spinning(turns: f64) -> Result<FamilyStep> {
 fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let spin = TAU * turns;
-    let turning = BodyMotion::STILL_MOTION.with_spin(spin * DVec3::Y);
+    let turning = BodyMotion::STILL.with_spin(spin * DVec3::Y);
     let expected = contact_at(rod_angle_at_wall(wall) / spin, 1e-15);
     rod_beside_wall(turning, wall, expected)
 }
@@ -45,13 +45,13 @@ fn arm_swinging_into_wall(spin: f64) -> Result<FamilyStep> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(ROD_HALF_SIDES.1, 0.5 * arm, ROD_HALF_SIDES.1)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
-    let swinging = BodyMotion::STILL_MOTION.with_spin(spin * DVec3::Z);
+    let swinging = BodyMotion::STILL.with_spin(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
     let step = FamilyStep::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-15);
     step.with_query_and_rotations(
         swinging,
-        BodyMotion::resting_motion((wall + 1.0) * DVec3::Y),
+        BodyMotion::resting((wall + 1.0) * DVec3::Y),
         expected,
     )
 }
@@ -60,8 +60,7 @@ fn arm_swinging_into_wall(spin: f64) -> Result<FamilyStep> {
 /// of `tests/it/scenes.rs`.
 fn counter_rotating_rods(turns: f64) -> Result<FamilyStep> {
     let (apart, spin) = (3.0, TAU * turns);
-    let turning =
-        |spin: f64, x: f64| BodyMotion::resting_motion(x * DVec3::X).with_spin(spin * DVec3::Y);
+    let turning = |spin: f64, x: f64| BodyMotion::resting(x * DVec3::X).with_spin(spin * DVec3::Y);
     let angle = rod_angle_at_wall(0.5 * apart);
     debug_assert!(angle < PI);
     let step = FamilyStep::new(rod()?, rod()?);
