@@ -36,7 +36,7 @@ mod view;
 pub use mesh::{DrawnMesh, Meshes};
 pub use page::{
     Page, PageError, VIEW_CSS, VIEW_HTML, drawing_scripts, escape, fill_template, json,
-    view_scripts, views_json,
+    script_elements, view_scripts, views_json,
 };
 pub use shown_motion::{Keyframe, ShownMotion};
 pub use view::{GapCurve, GapSample, Group, ShownBody, ShownContact, View};

@@ -15,7 +15,7 @@ pub struct DrawnMesh {
 }
 
 /// The meshes of a page; equal meshes are stored only once.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Meshes(Vec<StoredMesh>);
 
 /// A mesh as it is stored in the page: little-endian numbers in base64.
@@ -45,10 +45,6 @@ impl Meshes {
         self.0
             .get(number)
             .map_or(DVec3::ZERO, |mesh| mesh.middle.into())
-    }
-
-    pub(crate) fn as_serializable(&self) -> impl Serialize {
-        &self.0
     }
 }
 

@@ -83,12 +83,12 @@ pub fn view_scripts() -> String {
         include_str!("page/marks.js"),
         include_str!("page/view.js"),
     ];
-    drawing_scripts() + &elements(&views)
+    drawing_scripts() + &script_elements(&views)
 }
 
 /// Returns the scripts for a page that draws its own scene: three.js, `Motion`, `Stage` and `Player`.
 pub fn drawing_scripts() -> String {
-    elements(&[
+    script_elements(&[
         include_str!("../vendor/three/three.min.js"),
         include_str!("page/motion.js"),
         include_str!("page/stage.js"),
@@ -96,11 +96,10 @@ pub fn drawing_scripts() -> String {
     ])
 }
 
-fn elements(scripts: &[&str]) -> String {
-    let elements = scripts
-        .iter()
-        .map(|script| format!("<script>\n{script}</script>\n"));
-    elements.collect()
+/// Returns elements of HTML that run scripts, in their order.
+pub fn script_elements(scripts: &[&str]) -> String {
+    let element = |script: &&str| format!("<script>\n{script}</script>\n");
+    scripts.iter().map(element).collect()
 }
 
 /// Returns meshes and groups of views as JSON for an element `<script type="application/json" id="views">`.
@@ -109,11 +108,10 @@ fn elements(scripts: &[&str]) -> String {
 /// The value cannot be serialised.
 pub fn views_json(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Error> {
     #[derive(Serialize)]
-    struct ViewsData<'a, M> {
-        meshes: M,
+    struct ViewsData<'a> {
+        meshes: &'a Meshes,
         groups: &'a [Group],
     }
-    let meshes = meshes.as_serializable();
     json(&ViewsData { meshes, groups })
 }
 

@@ -33,9 +33,8 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
     } else {
         String::new()
     };
-    let glue = module.js();
     let scripts = [
-        glue,
+        module.js(),
         include_str!("page/throw.js"),
         include_str!("page/side.js"),
         include_str!("page/page.js"),
@@ -44,12 +43,7 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         ("style", include_str!("page/page.css").to_owned()),
         ("code", code),
         ("stage", ccd_view::drawing_scripts()),
-        (
-            "scripts",
-            scripts
-                .map(|script| format!("<script>\n{script}</script>\n"))
-                .concat(),
-        ),
+        ("scripts", ccd_view::script_elements(&scripts)),
         ("checks", checks),
     ];
     let text = ccd_view::fill_template(include_str!("page/page.html"), &parts);
@@ -95,8 +89,5 @@ fn build_wasm_module() -> Result<PathBuf> {
         built.success(),
         "cargo cannot build for {WASM_TARGET}; run `rustup target add {WASM_TARGET}`"
     );
-    Ok(folder
-        .join(WASM_TARGET)
-        .join("release")
-        .join("ccd_web.wasm"))
+    Ok(folder.join(WASM_TARGET).join("release/ccd_web.wasm"))
 }
