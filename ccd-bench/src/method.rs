@@ -76,11 +76,7 @@ impl Method {
             (kind(best, OracleKind::Direct), PieceKind::Patches),
         ];
         let ours = ours.map(|(kind, pieces)| Method::ThisProject(kind, pieces));
-        let rivals = RivalKind::value_variants()
-            .iter()
-            .copied()
-            .map(Method::Rival);
-        let peers = PeerKind::value_variants().iter().copied().map(Method::Peer);
+        let (rivals, peers) = (all_kinds(Method::Rival), all_kinds(Method::Peer));
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
@@ -103,10 +99,7 @@ impl Method {
 
     /// Returns all methods that a script runs.
     pub fn script_methods() -> impl Iterator<Item = Method> {
-        ScriptKind::value_variants()
-            .iter()
-            .copied()
-            .map(Method::Script)
+        all_kinds(Method::Script)
     }
 
     /// Returns the method with the given name; `None` if there is none.
@@ -137,6 +130,10 @@ impl Method {
     pub fn moves_along_screws(self) -> bool {
         self == Method::Rival(RivalKind::Contact)
     }
+}
+
+fn all_kinds<K: ValueEnum + 'static>(method: fn(K) -> Method) -> impl Iterator<Item = Method> {
+    K::value_variants().iter().cloned().map(method)
 }
 
 impl RivalKind {
