@@ -67,7 +67,7 @@ fn triangle_distance_bounds(
         .filter(|n| n.is_finite())
         .map(|n| gap_along(n, &placed, b));
     DistanceBounds {
-        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS_ERROR) - snapshot.gap_error_bound(),
-        upper: (p - q).length() + snapshot.gap_error_bound(),
+        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS_ERROR) - snapshot.gap_error_bound,
+        upper: (p - q).length() + snapshot.gap_error_bound,
     }
 }

@@ -181,7 +181,7 @@ impl<'a> Search<'a> {
                 gap_along(n, &end[0], &end[1]),
             );
             // Also false for NaN: `min` drops it, so the direction itself is tested.
-            n.is_finite() && least > snapshot.gap_error_bound()
+            n.is_finite() && least > snapshot.gap_error_bound
         };
         let placed = snapshot.triangle_of_a_at_middle(a);
         let mut normals = separating_axis_candidates(&placed, b);

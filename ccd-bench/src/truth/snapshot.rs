@@ -40,7 +40,7 @@ pub(super) struct LinearizedMotions {
     half_duration: f64,
     /// The computed gap above which bodies are certainly apart: it bounds the rounding, and the motion's deviation from
     /// a straight line.
-    gap_error_bound: f64,
+    pub(super) gap_error_bound: f64,
     /// The part of `gap_error_bound` that bounds the motion's deviation from a straight line.
     linearization_error_bound: f64,
     /// The bounds on the extents of two boxes along B's axes; the next field has those along A's axes.
@@ -184,11 +184,6 @@ impl LinearizedMotions {
     /// Returns the corners of A's triangle in the common frame at the middle time.
     pub(super) fn triangle_of_a_at_middle(&self, a: &Triangle) -> Triangle {
         a.map(|p| self.placement.apply(p))
-    }
-
-    /// Returns the computed gap along a unit direction above which bodies are certainly apart.
-    pub(super) fn gap_error_bound(&self) -> f64 {
-        self.gap_error_bound
     }
 
     fn rotate_to_a_frame(&self, v: DVec3) -> DVec3 {

@@ -16,8 +16,8 @@ pub(super) struct HalvedInterval {
 /// Encloses the motion over intervals of time, with a cache of the last enclosure at each level of halving.
 #[derive(Clone, Debug)]
 pub(super) struct MotionEncloser {
-    relative_motion: RelativeMotion,
-    resolution: f64,
+    pub(super) relative_motion: RelativeMotion,
+    pub(super) resolution: f64,
     max_halvings: u64,
     placement_cache: Vec<CachedEnclosure>,
     rate_cache: Vec<CachedEnclosure>,
@@ -72,16 +72,6 @@ impl MotionEncloser {
             rate_cache: vec![nothing; MAX_HALVING_DEPTH + 1],
             halving_count: 0,
         }
-    }
-
-    /// Returns the motion of the first body in the frame of the second.
-    pub(super) fn relative_motion(&self) -> &RelativeMotion {
-        &self.relative_motion
-    }
-
-    /// Returns the width at or below which intervals are no longer halved.
-    pub(super) fn resolution(&self) -> f64 {
-        self.resolution
     }
 
     /// Returns true if an interval must not be halved, because its width is at the resolution or it comes from the

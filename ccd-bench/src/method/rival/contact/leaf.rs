@@ -103,14 +103,14 @@ fn find_root(
         return Root::None;
     };
     // As wide as the resolution: features that meet at their borders do so except for rounding.
-    let slack = 0.5 * greater(0.0, clock.resolution() - found.width());
+    let slack = 0.5 * greater(0.0, clock.resolution - found.width());
     let around = TimeSpan {
         start: found.start - slack,
         end: found.end + slack,
     };
     let only = ElementaryTestSet::ALL.filter(|other| other == test);
     if triangles
-        .tests_with_possible_roots(only, &clock.relative_motion().enclosure_over(around))
+        .tests_with_possible_roots(only, &clock.relative_motion.enclosure_over(around))
         .is_empty()
     {
         Root::None
@@ -132,18 +132,18 @@ fn bracket_root_by_false_position(
     clock: &MotionEncloser,
 ) -> Option<TimeSpan> {
     let value =
-        |time: f64| triangles.contact_function(test, &clock.relative_motion().placement_at(time));
+        |time: f64| triangles.contact_function(test, &clock.relative_motion.placement_at(time));
     let (mut span, mut ends) = (span, [value(span.start), value(span.end)]);
     if ends[0] * ends[1] > 0.0 {
         return None;
     }
     // A guess is put this far beyond the root, so that the far end of the bracket moves as well.
-    let beyond = 0.25 * clock.resolution();
+    let beyond = 0.25 * clock.resolution;
     let rising = ends[1] > ends[0];
     let mut halve = false;
     for _ in 0..MAX_BRACKET_STEPS {
         let width = span.width();
-        if !(width > clock.resolution()) {
+        if !(width > clock.resolution) {
             break;
         }
         let guess = span.start + width * (ends[0] / (ends[0] - ends[1]));

@@ -3,6 +3,7 @@
 use crate::method::rival::interval::{Interval, IntervalMat, IntervalVec, SineCosineRange};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
+use std::ops::{Add, Mul};
 
 /// The motion of the first body in the frame of the second, with positions relative to a reference point of each body.
 ///
@@ -165,7 +166,7 @@ impl MotionCoefficients {
         let half = 0.5 * span.width();
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * half);
-        let turning = enclose_rotation_over_arc(cos, sin, arc);
+        let (turning, round) = self.enclose_turn_over_arc(cos, sin, arc);
         let rotation = IntervalMat {
             middle: self.constant_term + turning.middle,
             radius: turning.radius,
@@ -173,11 +174,6 @@ impl MotionCoefficients {
         let straight = self.start_centre
             + self.velocity * span.middle()
             + self.constant_term * self.reference_offset;
-        let round = enclose_rotated_vector_over_arc(
-            cos * self.reference_offset,
-            sin * self.reference_offset,
-            arc,
-        );
         let position = IntervalVec {
             middle: straight + round.middle,
             radius: self.velocity.abs() * half + round.radius,
@@ -189,16 +185,27 @@ impl MotionCoefficients {
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * 0.5 * span.width());
         let (cos, sin) = (sin * self.rate, cos * -self.rate);
-        let round = enclose_rotated_vector_over_arc(
-            cos * self.reference_offset,
-            sin * self.reference_offset,
-            arc,
-        );
+        let (turning_rate, round) = self.enclose_turn_over_arc(cos, sin, arc);
         let velocity = IntervalVec {
             middle: self.velocity + round.middle,
             radius: round.radius,
         };
-        (enclose_rotation_over_arc(cos, sin, arc), velocity)
+        (turning_rate, velocity)
+    }
+
+    /// Returns enclosures of a rotation, given by its coefficients, and of the reference point that it rotates, for all
+    /// angles in the arc.
+    fn enclose_turn_over_arc(
+        &self,
+        cos: DMat3,
+        sin: DMat3,
+        arc: SineCosineRange,
+    ) -> (IntervalMat, IntervalVec) {
+        let [cos_point, sin_point] = [cos, sin].map(|part| part * self.reference_offset);
+        (
+            enclose_over_arc(cos, [cos.abs(), sin.abs()], arc),
+            enclose_over_arc(cos_point, [cos_point.abs(), sin_point.abs()], arc),
+        )
     }
 
     /// Returns the coefficients of cosine and sine for a rotation angle that is counted from the angle at `time`.
@@ -216,20 +223,14 @@ fn map_columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
 }
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients `cos` and
-/// `sin`.
-fn enclose_rotation_over_arc(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
-    let Interval { middle, radius } = arc.cos;
-    IntervalMat {
-        middle: cos * middle,
-        radius: cos.abs() * radius + sin.abs() * arc.sin_radius,
-    }
-}
-
-/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients as vectors.
-fn enclose_rotated_vector_over_arc(cos: DVec3, sin: DVec3, arc: SineCosineRange) -> IntervalVec {
-    let Interval { middle, radius } = arc.cos;
-    IntervalVec {
-        middle: cos * middle,
-        radius: cos.abs() * radius + sin.abs() * arc.sin_radius,
+/// `sin`, and the absolute values of both.
+#[inline]
+fn enclose_over_arc<T>(cos: T, [cos_abs, sin_abs]: [T; 2], arc: SineCosineRange) -> Interval<T>
+where
+    T: Add<Output = T> + Mul<f64, Output = T>,
+{
+    Interval {
+        middle: cos * arc.cos.middle,
+        radius: cos_abs * arc.cos.radius + sin_abs * arc.sin_radius,
     }
 }
