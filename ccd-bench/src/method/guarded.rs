@@ -216,7 +216,7 @@ const MESH_FILE_NAMES: [&str; 2] = ["a.obj", "b.obj"];
 #[derive(Debug)]
 struct MethodProcess {
     child: Child,
-    input: Option<ChildStdin>,
+    input: ChildStdin,
     output_lines: Receiver<String>,
 }
 
@@ -227,8 +227,9 @@ impl MethodProcess {
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()?;
-        let input = child.stdin.take();
-        let output = child.stdout.take();
+        let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
+            return Err(io::Error::other("no streams of the method"));
+        };
         // From here on, dropping `self` stops the process.
         let (sender, lines) = channel();
         let process = MethodProcess {
@@ -236,7 +237,6 @@ impl MethodProcess {
             input,
             output_lines: lines,
         };
-        let output = output.ok_or_else(|| io::Error::other("no output of the method"))?;
         // This thread ends with the output, which ends with the process.
         thread::spawn(move || {
             for line in BufReader::new(output).lines().map_while(Result::ok) {
@@ -257,10 +257,7 @@ impl MethodProcess {
     }
 
     fn query_and_await_reply(&mut self, query: &Motions, patience: Duration) -> QueryOutcome {
-        let Some(input) = &mut self.input else {
-            return QueryOutcome::Crashed;
-        };
-        if writeln!(input, "{}", format_query(query)).is_err() {
+        if writeln!(self.input, "{}", format_query(query)).is_err() {
             return QueryOutcome::Crashed;
         }
         match self.output_lines.recv_timeout(patience) {

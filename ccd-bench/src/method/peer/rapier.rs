@@ -62,22 +62,17 @@ impl TwoBodySimulation {
         let parameters = &mut self.world.integration_parameters;
         parameters.dt = query.duration;
         parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_DISTANCE_IN_ERRORS;
-        if let Some(b) = self.world.bodies.get_mut(self.b) {
-            b.set_position(pose_at(&query.b, 0.0), true);
-        }
-        if let Some(a) = self.world.bodies.get_mut(self.a) {
-            let centre = to_parry_vector(query.a.centre());
-            // The inertia is equal about all axes, so that the axis of rotation stays fixed.
-            let mass = MassProperties::new(centre, 1.0, Vector::splat(1.0));
-            a.set_additional_mass_properties(mass, true);
-            a.recompute_mass_properties_from_colliders(&self.world.colliders);
-            a.set_position(pose_at(&query.a, 0.0), true);
-            a.set_linvel(
-                to_parry_vector(query.a.velocity() - query.b.velocity()),
-                true,
-            );
-            a.set_angvel(to_parry_vector(query.a.spin()), true);
-        }
+        self.world.bodies[self.b].set_position(pose_at(&query.b, 0.0), true);
+        let a = &mut self.world.bodies[self.a];
+        let centre = to_parry_vector(query.a.centre());
+        // The inertia is equal about all axes, so that the axis of rotation stays fixed.
+        let mass = MassProperties::new(centre, 1.0, Vector::splat(1.0));
+        a.set_additional_mass_properties(mass, true);
+        a.recompute_mass_properties_from_colliders(&self.world.colliders);
+        a.set_position(pose_at(&query.a, 0.0), true);
+        let velocity = query.a.velocity() - query.b.velocity();
+        a.set_linvel(to_parry_vector(velocity), true);
+        a.set_angvel(to_parry_vector(query.a.spin()), true);
     }
 }
 
@@ -90,12 +85,10 @@ impl Solver for TwoBodySimulation {
         }
         self.set_query(query, tolerance);
         self.world.step();
-        let claim = match self.world.bodies.get(self.a) {
-            Some(a) => match completed_motion_fraction(query, a.position()) {
-                share if share >= MIN_COMPLETE_FRACTION => ContactClaim::NoContact,
-                share => contact_claim_at(share * query.duration, query.duration),
-            },
-            None => ContactClaim::Unresolved { safe_until: 0.0 },
+        let end = self.world.bodies[self.a].position();
+        let claim = match completed_motion_fraction(query, end) {
+            share if share >= MIN_COMPLETE_FRACTION => ContactClaim::NoContact,
+            share => contact_claim_at(share * query.duration, query.duration),
         };
         Reply::new(claim, 1)
     }
