@@ -10,11 +10,12 @@ mod tests;
 
 use super::RivalMotion;
 use super::obb_tree::{ObbTree, trees_intersect};
+use super::patience::WorkLimit;
 use super::resolution::resolution;
 use super::screw::to_screw_motions;
 use super::tree::{OpenedPair, open_pair};
 use crate::method::solver::{ContactClaim, Reply, Solver};
-use boxes::{BoxSeparation, test_box_separation};
+use boxes::motion_spread_unless_separated;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 use clock::{HalvedInterval, MotionEncloser};
@@ -48,24 +49,16 @@ const MAX_RELATIVE_MOTION_SPREAD: f64 = 0.2;
 #[derive(Clone, Debug)]
 pub struct Contact {
     trees: [ObbTree; 2],
-    limits: SearchLimits,
+    work_limit: WorkLimit,
     pair_stack: Vec<NodePair>,
     intersection_stack: Vec<(u32, u32)>,
 }
 
-/// The limits on the work of one query, which let it run for some seconds.
-#[derive(Clone, Copy, Debug)]
-struct SearchLimits {
-    /// The maximum number of pairs of boxes to examine.
-    max_pairs: u64,
-    /// The maximum number of halvings of time. Surfaces that slide past each other at a distance g are only separated
-    /// over intervals in which they move by about g.
-    max_halvings: u64,
-}
-
-const SEARCH_LIMITS: SearchLimits = SearchLimits {
+/// The limits on the work of one query, which let it run for some seconds. A step is a halving of time: surfaces that
+/// slide past each other at a distance g are only separated over intervals in which they move by about g.
+const WORK_LIMIT: WorkLimit = WorkLimit {
+    max_steps: 1 << 22,
     max_pairs: 1 << 24,
-    max_halvings: 1 << 22,
 };
 
 /// A pair of nodes, one of each tree, over an interval of time.
@@ -80,7 +73,7 @@ impl Contact {
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Contact {
             trees: [a, b].map(ObbTree::new),
-            limits: SEARCH_LIMITS,
+            work_limit: WORK_LIMIT,
             pair_stack: Vec::new(),
             intersection_stack: Vec::new(),
         }
@@ -91,9 +84,7 @@ impl Contact {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, tolerance);
         let [a, b] = &self.trees;
-        let start = courses[0]
-            .placement_at(0.0)
-            .relative_to(&courses[1].placement_at(0.0));
+        let start = courses[0].placement_relative_to(&courses[1], 0.0);
         if trees_intersect(a, b, &start, &mut self.intersection_stack) {
             let claim = ContactClaim::Contact { time: 0.0 };
             return Reply::new(claim, 0);
@@ -108,8 +99,8 @@ impl Contact {
         let relative = RelativeMotion::new(first, second);
         let mut search = Search {
             trees: order.map(|k| &self.trees[k]),
-            motion_encloser: MotionEncloser::new(relative, resolution, self.limits.max_halvings),
-            max_pairs: self.limits.max_pairs,
+            motion_encloser: MotionEncloser::new(relative, resolution, self.work_limit.max_steps),
+            max_pairs: self.work_limit.max_pairs,
             stack: &mut self.pair_stack,
             search_end: query.duration,
         };
@@ -184,15 +175,9 @@ impl Search<'_> {
         let NodePair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match test_box_separation(
-            &a.bounds,
-            &b.bounds,
-            self.motion_encloser.placement_enclosure(interval),
-        ) {
-            BoxSeparation::Separated => return FirstTouch::NotInInterval,
-            BoxSeparation::NotSeparated {
-                motion_spread: spread,
-            } => spread,
+        let enclosure = self.motion_encloser.placement_enclosure(interval);
+        let Some(spread) = motion_spread_unless_separated(&a.bounds, &b.bounds, enclosure) else {
+            return FirstTouch::NotInInterval;
         };
         let size = [a, b].map(|node| node.bounds.half_extents.max_element());
         let wide = spread > MAX_RELATIVE_MOTION_SPREAD * greater(size[0], size[1]);

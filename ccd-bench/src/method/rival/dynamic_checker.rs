@@ -214,10 +214,7 @@ impl DynamicChecker {
         precision: RequiredPrecision,
         task: &mut QueryTask,
     ) -> DistanceBound {
-        let placement = task
-            .b
-            .placement_at(time)
-            .relative_to(&task.a.placement_at(time));
+        let placement = task.b.placement_relative_to(&task.a, time);
         let Some(roots) = self.trees.root_pair(&placement) else {
             return DistanceBound::AtLeast(f64::INFINITY);
         };

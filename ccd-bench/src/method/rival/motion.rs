@@ -53,6 +53,12 @@ impl RivalMotion {
             translation: self.start_position + time * self.velocity - rotation * self.centre,
         }
     }
+
+    /// Returns the placement of the body at a time, in the frame of another body.
+    pub fn placement_relative_to(&self, other: &RivalMotion, time: f64) -> Placement {
+        self.placement_at(time)
+            .relative_to(&other.placement_at(time))
+    }
 }
 
 impl Placement {

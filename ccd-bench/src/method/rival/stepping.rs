@@ -35,9 +35,7 @@ impl FixedTimeSteps {
     }
 
     fn bodies_cross(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
-        let placement = courses[0]
-            .placement_at(time)
-            .relative_to(&courses[1].placement_at(time));
+        let placement = courses[0].placement_relative_to(&courses[1], time);
         let [a, b] = &self.trees;
         trees_intersect(a, b, &placement, &mut self.intersection_stack)
     }

@@ -9,21 +9,14 @@ use ccd_core::glam::{DMat3, DVec3};
 /// would separate anything.
 const COSINE_ROUNDING: f64 = 1e-14;
 
-/// The relation of two boxes over an interval of time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum BoxSeparation {
-    /// An axis separates the boxes over the whole interval.
-    Separated,
-    /// No axis is found that separates the boxes over the whole interval.
-    NotSeparated {
-        /// The radius of the enclosure of a corner's position over the interval, as a length.
-        motion_spread: f64,
-    },
-}
-
-/// Tests whether one of the 15 axes separates the boxes over all of the interval. Both sides of
-/// every inequality are enclosed by interval arithmetic \[CONTACT02\].
-pub(super) fn test_box_separation(a: &Obb, b: &Obb, enclosure: &MotionEnclosure) -> BoxSeparation {
+/// Returns the radius of the enclosure of a corner's position over an interval of time; `None` if one of the 15 axes
+/// separates the boxes over all of it. Both sides of every inequality are enclosed by interval arithmetic
+/// \[CONTACT02\].
+pub(super) fn motion_spread_unless_separated(
+    a: &Obb,
+    b: &Obb,
+    enclosure: &MotionEnclosure,
+) -> Option<f64> {
     let into = b.axes.transpose();
     let centre = enclosure.rotation * a.centre + enclosure.offset;
     let t = into * (centre.middle - b.centre);
@@ -35,14 +28,14 @@ pub(super) fn test_box_separation(a: &Obb, b: &Obb, enclosure: &MotionEnclosure)
     let (ha, hb) = (a.half_extents, b.half_extents);
     // The axes of B: the distance of the centres along them against both half widths.
     if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
-        return BoxSeparation::Separated;
+        return None;
     }
     // The axes of A. |Σ t_i c_i| has the middle |Σ t c| and the radius Σ (|t|+r)(|c|+s) − |t||c|.
     let low = cos.abs();
     let along = cos.transpose_mul_vec3(t).abs() + low.transpose_mul_vec3(t.abs());
     let width = high.transpose_mul_vec3(t_high + hb) + ha;
     if (along - width).max_element() > 0.0 {
-        return BoxSeparation::Separated;
+        return None;
     }
     // The axes `b_i × a_j`, for all i at once.
     let separates = |c: DVec3, c_high: DVec3, of_a: DVec3| {
@@ -58,11 +51,9 @@ pub(super) fn test_box_separation(a: &Obb, b: &Obb, enclosure: &MotionEnclosure)
         || separates(cos.y_axis, y, ha.z * x + ha.x * z)
         || separates(cos.z_axis, z, ha.x * y + ha.y * x)
     {
-        return BoxSeparation::Separated;
+        return None;
     }
-    BoxSeparation::NotSeparated {
-        motion_spread: (t_radius + cos_radius * ha).max_element(),
-    }
+    Some((t_radius + cos_radius * ha).max_element())
 }
 
 /// Returns upper bounds of the absolute values of cosines, each of which is known to within a radius.

@@ -1,7 +1,7 @@
 //! Tests against sampled poses that enclosures contain the motions, that separated boxes never meet, and that first
 //! touches of triangles are not late.
 
-use crate::method::rival::contact::boxes::{BoxSeparation, test_box_separation};
+use crate::method::rival::contact::boxes::motion_spread_unless_separated;
 use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
 use crate::method::rival::contact::elementary::{TrianglePair, TriangleWithNormals};
 use crate::method::rival::contact::leaf::{FirstTouch, first_touch};
@@ -153,14 +153,12 @@ fn separated_boxes_never_meet() {
         let meet = sample_times(span, 8)
             .any(|time| boxes_share_grid_point(&a, &b, &relative.placement_at(time)));
         met += usize::from(meet);
-        match test_box_separation(&a, &b, &relative.enclosure_over(span)) {
-            BoxSeparation::Separated => {
+        match motion_spread_unless_separated(&a, &b, &relative.enclosure_over(span)) {
+            None => {
                 assert!(!meet);
                 apart += 1;
             }
-            BoxSeparation::NotSeparated {
-                motion_spread: spread,
-            } => {
+            Some(spread) => {
                 assert!(spread >= 0.0);
                 near += 1;
             }
@@ -195,17 +193,12 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
         centre: DVec3::ZERO,
         half_extents: DVec3::splat(0.5),
     };
-    let spread = 0.0;
     for axis in DVec3::AXES {
-        let ask = |offset: f64| test_box_separation(&cube, &cube, &enclosure(offset * axis));
-        assert_eq!(ask(1.0 + 1e-9), BoxSeparation::Separated);
-        assert_eq!(ask(-1.0 - 1e-9), BoxSeparation::Separated);
-        assert_eq!(
-            ask(1.0 - 1e-9),
-            BoxSeparation::NotSeparated {
-                motion_spread: spread
-            }
-        );
+        let ask =
+            |offset: f64| motion_spread_unless_separated(&cube, &cube, &enclosure(offset * axis));
+        assert_eq!(ask(1.0 + 1e-9), None);
+        assert_eq!(ask(-1.0 - 1e-9), None);
+        assert_eq!(ask(1.0 - 1e-9), Some(0.0));
     }
 }
 

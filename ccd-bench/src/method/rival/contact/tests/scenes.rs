@@ -204,17 +204,17 @@ fn work_is_limited() {
         DVec3::ZERO,
     );
     let fall = query(fall, resting_motion(-0.5 * DVec3::Z));
-    let halvings = SearchLimits {
-        max_halvings: 1000,
-        ..SEARCH_LIMITS
+    let halvings = WorkLimit {
+        max_steps: 1000,
+        ..WORK_LIMIT
     };
-    let pairs = SearchLimits {
+    let pairs = WorkLimit {
         max_pairs: 5,
-        ..SEARCH_LIMITS
+        ..WORK_LIMIT
     };
     for (limits, slab, query, end) in [(halvings, tilted, slide, 1.0), (pairs, slab, fall, 0.625)] {
         let mut contact = Contact::new(&cube, &slab);
-        contact.limits = limits;
+        contact.work_limit = limits;
         let reply = contact.answer(&query, 1e-9);
         let ContactClaim::Unresolved { safe_until } = reply.claim else {
             panic!("{reply:?}")
