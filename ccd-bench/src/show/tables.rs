@@ -9,7 +9,7 @@ use crate::run::measured::{MeasurementCell, Trial};
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
 use rigid_ccd::batch::median;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 /// A table of texts, with a title and named columns.
@@ -110,13 +110,8 @@ pub fn time_ratio_table(
     let title = format!("Time in units of {reference}, tolerance {tolerance:e}");
     let mut table = TextTable::new(&title, ["scene"].iter().chain(others).copied());
     let at = |t: &&Trial| t.tolerance == tolerance;
-    let mut scenes: Vec<&str> = Vec::new();
-    for trial in trials.iter().filter(at) {
-        if !scenes.contains(&trial.scene.as_str()) {
-            scenes.push(&trial.scene);
-        }
-    }
-    for scene in scenes {
+    let scenes = trials.iter().filter(at).map(|trial| trial.scene.as_str());
+    for scene in distinct(scenes) {
         let of = |method: &str| -> HashMap<&str, &Trial> {
             let here = trials.iter().filter(at);
             here.filter(|t| t.scene == scene && t.method == method)
@@ -144,29 +139,21 @@ fn ratio_text(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> St
     if ratios.is_empty() {
         return NO_VALUE.to_owned();
     }
-    let occurs = |verdict: Verdict| {
-        let name = verdict.to_string();
-        other.values().any(|trial| trial.verdict == name)
+    let mark_any = |verdicts: [Verdict; 2], mark: &'static str| {
+        let names = verdicts.map(|verdict| verdict.to_string());
+        let mut verdicts = other.values().map(|trial| &trial.verdict);
+        let occurs = verdicts.any(|verdict| names.contains(verdict));
+        if occurs { mark } else { "" }
     };
-    let given_up = if occurs(Verdict::CutOff) || occurs(Verdict::Unresolved) {
-        "> "
-    } else {
-        ""
-    };
+    let given_up = mark_any([Verdict::CutOff, Verdict::Unresolved], "> ");
     let rows = match ratios.len() {
         few @ ..SMALL_SAMPLE_SIZE => format!(" [{few}]"),
         _ => String::new(),
     };
-    let mark = if occurs(Verdict::Late) || occurs(Verdict::Missed) {
-        " †"
-    } else {
-        ""
-    };
-    let (typical, total) = (
-        format_three_digits(median(&mut ratios)),
-        format_three_digits(theirs / ours),
-    );
-    format!("{given_up}{typical} ({total}){rows}{mark}")
+    let unsafe_mark = mark_any([Verdict::Late, Verdict::Missed], " †");
+    let typical = format_three_digits(median(&mut ratios));
+    let total = format_three_digits(theirs / ours);
+    format!("{given_up}{typical} ({total}){rows}{unsafe_mark}")
 }
 
 fn format_three_digits(value: f64) -> String {
@@ -177,6 +164,12 @@ fn format_three_digits(value: f64) -> String {
     }
 }
 
+/// Returns each name once, in the order of first occurrence.
+fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut seen = HashSet::new();
+    names.filter(|name| seen.insert(*name)).collect()
+}
+
 /// Returns the names of the methods in a table: first those that this program runs, in their usual order, then all
 /// others.
 pub fn methods(cells: &[MeasurementCell]) -> Vec<&str> {
@@ -184,12 +177,7 @@ pub fn methods(cells: &[MeasurementCell]) -> Vec<&str> {
         .iter()
         .map(ToString::to_string)
         .collect();
-    let mut methods: Vec<&str> = Vec::new();
-    for cell in cells {
-        if !methods.contains(&cell.method.as_str()) {
-            methods.push(&cell.method);
-        }
-    }
+    let mut methods = distinct(cells.iter().map(|cell| cell.method.as_str()));
     // Methods that a script runs come last.
     methods.sort_by_key(|name| order.iter().position(|o| o == name).unwrap_or(order.len()));
     methods
