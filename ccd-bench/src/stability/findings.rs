@@ -19,13 +19,8 @@ pub struct Findings<'j> {
     worst_verdicts: HashMap<(&'j str, &'j str), Verdict>,
 }
 
-/// A step of a family to which a method gave a wrong answer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct FailedStep {
-    pub(super) parameter_value: f64,
-    /// The worst verdict on the method's answers at that step.
-    pub(super) verdict: Verdict,
-}
+/// A value of a family's parameter, and the worst verdict on a method's answers at that step.
+pub(super) type StepVerdict = (f64, Verdict);
 
 /// How many steps of a family a method solves, from the easiest, and where it first fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,9 +28,9 @@ pub(super) struct SolvedRange {
     /// The share of the family's steps, from the easiest, before the first wrong answer.
     pub(super) solved_fraction: f64,
     /// The easiest step with a wrong answer; `None` if all answers are right.
-    pub(super) first_failed_step: Option<FailedStep>,
+    pub(super) first_failed_step: Option<StepVerdict>,
     /// The easiest step that has the method's worst verdict in the family; `None` if all answers are right.
-    pub(super) first_worst_step: Option<FailedStep>,
+    pub(super) first_worst_step: Option<StepVerdict>,
 }
 
 impl<'j> Findings<'j> {
@@ -77,20 +72,15 @@ impl<'j> Findings<'j> {
             let step = step_name(family, value);
             Some((value, *self.worst_verdicts.get(&(step.as_str(), method))?))
         };
-        let asked: Vec<(f64, Verdict)> =
-            family.parameter_values.iter().filter_map(answer).collect();
+        let asked: Vec<StepVerdict> = family.parameter_values.iter().filter_map(answer).collect();
         let most = asked.iter().map(|&(_, verdict)| verdict).max()?;
-        let is_right = |asked: &&(f64, Verdict)| asked.1 == Verdict::Right;
+        let is_right = |asked: &&StepVerdict| asked.1 == Verdict::Right;
         let right = asked.iter().take_while(is_right).count();
-        let limit = |&(value, verdict): &(f64, Verdict)| FailedStep {
-            parameter_value: value,
-            verdict,
-        };
         let worst = asked.iter().find(|step| step.1 == most && !is_right(step));
         Some(SolvedRange {
             solved_fraction: right as f64 / family.parameter_values.len() as f64,
-            first_failed_step: asked.get(right).map(limit),
-            first_worst_step: worst.map(limit),
+            first_failed_step: asked.get(right).copied(),
+            first_worst_step: worst.copied(),
         })
     }
 }

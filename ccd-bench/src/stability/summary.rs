@@ -47,8 +47,8 @@ pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
     for family in &findings.families {
         let limit = |method: &String| match findings.solved_range(family, method) {
             None => "not asked".to_owned(),
-            Some(reach) => reach.first_failed_step.map_or(String::new(), |limit| {
-                format!("{:e} {}", limit.parameter_value, limit.verdict)
+            Some(reach) => (reach.first_failed_step).map_or(String::new(), |(value, verdict)| {
+                format!("{value:e} {verdict}")
             }),
         };
         let mut row = vec![family.name.to_owned(), family.parameter.to_owned()];
@@ -64,11 +64,9 @@ pub fn solved_range_heat_map(findings: &Findings<'_>) -> HeatMap {
         let reach = findings.solved_range(family, method)?;
         let worst = reach.first_worst_step;
         Some(HeatCell::solved_range_cell(
-            worst.map_or(Verdict::Right, |limit| limit.verdict),
+            worst.map_or(Verdict::Right, |(_, verdict)| verdict),
             reach.solved_fraction,
-            worst.map_or(String::new(), |limit| {
-                format!("{:e}", limit.parameter_value)
-            }),
+            worst.map_or(String::new(), |(value, _)| format!("{value:e}")),
         ))
     })
 }

@@ -200,12 +200,7 @@ impl ExtentMatrices {
 
 /// Returns, entry by entry, the larger of |m + w| and |m − w|, which bounds |m + s w| for all s from −1 to 1.
 fn larger_of_sum_and_difference(m: DMat3, w: DMat3) -> DMat3 {
-    let entry = |m: DVec3, w: DVec3| m.abs() + w.abs();
-    DMat3::from_cols(
-        entry(m.x_axis, w.x_axis),
-        entry(m.y_axis, w.y_axis),
-        entry(m.z_axis, w.z_axis),
-    )
+    m.abs() + w.abs()
 }
 
 /// The map `p ↦ matrix p + offset` in floats, with a bound of its error.

@@ -42,11 +42,7 @@ pub(super) fn motion_spread_unless_separated(
         let gap = t.cross(c).abs() + cross_radius(t.abs(), c.abs());
         (gap - cross_radius(t_high + hb, c_high) - of_a).max_element() > 0.0
     };
-    let DMat3 {
-        x_axis: x,
-        y_axis: y,
-        z_axis: z,
-    } = high;
+    let [x, y, z] = [high.x_axis, high.y_axis, high.z_axis];
     if separates(cos.x_axis, x, ha.y * z + ha.z * y)
         || separates(cos.y_axis, y, ha.z * x + ha.x * z)
         || separates(cos.z_axis, z, ha.x * y + ha.y * x)

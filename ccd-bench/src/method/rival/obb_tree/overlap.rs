@@ -5,7 +5,7 @@ use crate::method::rival::Placement;
 use crate::method::rival::interval::cross_radius;
 use crate::method::rival::tree::{OpenedPair, open_pair};
 use crate::method::rival::triangles_cross::triangles_cross;
-use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::glam::DVec3;
 
 /// A bound on the rounding of cosines between the axes of two boxes, so that the cross product of parallel axes
 /// separates nothing \[OBBTREE96 §5\].
@@ -76,11 +76,7 @@ impl Obb {
         let separates = |c: DVec3, abs_c: DVec3, of_a: DVec3| {
             (t.cross(c).abs() - cross_radius(hb, abs_c) - of_a).max_element() > 0.0
         };
-        let DMat3 {
-            x_axis: x,
-            y_axis: y,
-            z_axis: z,
-        } = abs;
+        let [x, y, z] = [abs.x_axis, abs.y_axis, abs.z_axis];
         separates(cos.x_axis, x, ha.y * z + ha.z * y)
             || separates(cos.y_axis, y, ha.z * x + ha.x * z)
             || separates(cos.z_axis, z, ha.x * y + ha.y * x)
