@@ -8,14 +8,15 @@ use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
 use crate::path_array::PathArray;
 use crate::robot::PyRobot;
-use crate::settings::{CONTACT_SETTING_NAMES, DISTANCE_SETTING_NAMES, read, read_thread_count};
+use crate::settings::{CONTACT_SETTING_NAMES, read, read_thread_count};
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::answer::Clearance;
+use rigid_ccd::answer::{Clearance, Limit};
 use rigid_ccd::{Error, Pose, Settings};
 use rigid_ccd_robot::{Cell, PathError, PathPoint, RangeSettings, RobotError};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
+use std::time::Duration;
 
 /// A robot among obstacles that rest in the frame of its base.
 ///
@@ -27,7 +28,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 #[pyclass(name = "Cell", module = "rigid_ccd", frozen)]
 pub(crate) struct PyCell {
     robot: Py<PyRobot>,
-    solved: Mutex<SolvedCell>,
+    solved: SolvedCell,
 }
 
 #[pymethods]
@@ -42,7 +43,7 @@ impl PyCell {
         let cell = Cell::new((**links).clone(), pairs.clone());
         PyCell {
             robot: robot.clone().unbind(),
-            solved: Mutex::new(SolvedCell::new(cell)),
+            solved: SolvedCell::new(cell),
         }
     }
 
@@ -119,13 +120,7 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let settings = read(settings, CONTACT_SETTING_NAMES)?;
-        let path = PathArray::read(path, "path")?;
-        let found = py.detach(|| {
-            self.lock()
-                .ask(settings, |solver| solver.is_free(&path.configurations()))
-        });
-        found.map_err(|error| path_error(py, error))
+        Ok(self.ask(py, Ask::IsFree, path, settings)?.is_free())
     }
 
     /// Returns the first contact on a path, or None. Nothing touches before it.
@@ -139,14 +134,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let settings = read(settings, CONTACT_SETTING_NAMES)?;
-        let path = PathArray::read(path, "path")?;
-        let found = py.detach(|| {
-            self.lock().ask(settings, |solver| {
-                PathRow::first_contact(solver, &path.configurations())
-            })
-        });
-        let row = found.map_err(|error| path_error(py, error))?;
+        let row = self.ask(py, Ask::FirstContact, path, settings)?;
         match row.limit {
             Some(limit) => {
                 let until = row
@@ -168,14 +156,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = read(settings, DISTANCE_SETTING_NAMES)?;
-        let path = PathArray::read(path, "path")?;
-        let found = py.detach(|| {
-            self.lock().ask(settings, |solver| {
-                PathRow::closest_approach(solver, &path.configurations())
-            })
-        });
-        let row = found.map_err(|error| path_error(py, error))?;
+        let row = self.ask(py, Ask::ClosestApproach, path, settings)?;
         let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
         class.call1((row.lower, row.upper, row.contact(py)?))
     }
@@ -206,11 +187,17 @@ impl PyCell {
             resolution,
             pose_error,
         };
-        let ranges = py.detach(|| {
-            self.lock().ask(settings, |solver| {
+        let work = |stop: &Arc<_>| {
+            let settings = Settings {
+                stop: Some(Arc::clone(stop)),
+                ..settings
+            };
+            self.solved.ask(settings, |solver| {
                 solver.clearance_ranges(&path.configurations(), how)
             })
-        });
+        };
+        let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+        seen?;
         let class = py.import("rigid_ccd")?.getattr("PathRange")?;
         let at = |point: PathPoint| point.segment as f64 + point.share;
         let ranges = ranges.map_err(|error| path_error(py, error))?;
@@ -265,7 +252,7 @@ impl PyCell {
         let ask = Ask::named(ask)?;
         let settings = read(settings, ask.known_settings())?;
         let threads = read_thread_count(threads)?;
-        let cell = Arc::clone(self.lock().cell());
+        let cell = self.solved.cell();
         let array = PathArray::read(paths, "paths")?;
         let joints = cell.robot().free_joint_names().len();
         array.check_many(joints)?;
@@ -287,7 +274,7 @@ impl PyCell {
     }
 
     fn __repr__(&self) -> String {
-        let cell = Arc::clone(self.lock().cell());
+        let cell = self.solved.cell();
         let obstacles: Vec<&str> = cell.obstacle_names().collect();
         format!(
             "Cell({} obstacles: {})",
@@ -297,15 +284,66 @@ impl PyCell {
     }
 }
 
+/// The time after which a question goes on, from its start, on a thread that Ctrl-C can end. To start one for each question
+/// would cost more than most questions do.
+const SHORT: Duration = Duration::from_millis(5);
+
 impl PyCell {
-    fn lock(&self) -> MutexGuard<'_, SolvedCell> {
-        // A panic leaves a solver that begins anew with each question.
-        self.solved.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Asks a question about a path.
+    fn ask(
+        &self,
+        py: Python<'_>,
+        ask: Ask,
+        path: &Bound<'_, PyAny>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PathRow> {
+        let settings = read(settings, ask.known_settings())?;
+        let path = PathArray::read(path, "path")?;
+        let path = path.configurations();
+        let question = |settings| {
+            let solved = &self.solved;
+            solved.ask(settings, |solver| ask.ask(solver, &path))
+        };
+        let longer = settings
+            .deadline
+            .map(|deadline| deadline.checked_sub(SHORT));
+        let first = Settings {
+            deadline: Some(
+                settings
+                    .deadline
+                    .map_or(SHORT, |deadline| deadline.min(SHORT)),
+            ),
+            ..settings.clone()
+        };
+        let mut found = py.detach(|| question(first));
+        if is_late(&found) && longer != Some(None) {
+            let work = |stop: &Arc<_>| {
+                question(Settings {
+                    deadline: longer.flatten(),
+                    stop: Some(Arc::clone(stop)),
+                    ..settings
+                })
+            };
+            let (again, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+            seen?;
+            found = again;
+        }
+        found.map_err(|error| path_error(py, error))
     }
 
     fn change(&self, change: impl FnOnce(&mut Cell) -> Result<(), RobotError>) -> PyResult<()> {
-        self.lock().change(change).map_err(input_error)
+        self.solved.change(change).map_err(input_error)
     }
+}
+
+/// Returns whether a deadline ended a question.
+fn is_late(found: &Result<PathRow, PathError>) -> bool {
+    let limit = match found {
+        Ok(row) => row.limit,
+        Err(PathError::Query(Error::Unresolved(known))) => Some(known.limit),
+        Err(_) => None,
+    };
+    limit == Some(Limit::Deadline)
 }
 
 fn pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {

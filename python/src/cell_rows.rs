@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use rigid_ccd::Error;
 use rigid_ccd::answer::Limit;
 use rigid_ccd::glam::DVec3;
-use rigid_ccd_robot::{CellSolver, Item, PathContact, PathError, PathOutcome, PathPoint};
+use rigid_ccd_robot::{CellSolver, PathContact, PathError, PathOutcome, PathPoint};
 use std::sync::Arc;
 
 /// A question about many paths.
@@ -54,15 +54,22 @@ impl Ask {
         }
     }
 
-    /// Answers the question; an error becomes a row.
-    pub(crate) fn answer(self, solver: &mut CellSolver<'_>, path: &[&[f64]]) -> PathRow {
-        let row = match self {
-            Ask::IsFree => solver
-                .is_free(path)
-                .map(|is_free| PathRow::with_status(if is_free { "free" } else { "contact" })),
+    /// Answers the question.
+    pub(crate) fn ask(
+        self,
+        solver: &mut CellSolver<'_>,
+        path: &[&[f64]],
+    ) -> Result<PathRow, PathError> {
+        match self {
+            Ask::IsFree => solver.is_free(path).map(PathRow::from_freedom),
             Ask::FirstContact => PathRow::first_contact(solver, path),
             Ask::ClosestApproach => PathRow::closest_approach(solver, path),
-        };
+        }
+    }
+
+    /// Answers the question; an error becomes a row.
+    pub(crate) fn answer(self, solver: &mut CellSolver<'_>, path: &[&[f64]]) -> PathRow {
+        let row = self.ask(solver, path);
         row.unwrap_or_else(|error| match error {
             PathError::Query(Error::Unresolved(known)) => PathRow {
                 limit: Some(known.limit),
@@ -90,10 +97,15 @@ impl PathRow {
         }
     }
 
-    pub(crate) fn first_contact(
-        solver: &mut CellSolver<'_>,
-        path: &[&[f64]],
-    ) -> Result<Self, PathError> {
+    fn from_freedom(is_free: bool) -> Self {
+        PathRow::with_status(if is_free { "free" } else { "contact" })
+    }
+
+    pub(crate) fn is_free(&self) -> bool {
+        self.status == "free"
+    }
+
+    fn first_contact(solver: &mut CellSolver<'_>, path: &[&[f64]]) -> Result<Self, PathError> {
         Ok(match solver.first_contact(path)? {
             PathOutcome::Free => PathRow::with_status("free"),
             PathOutcome::Contact(contact) => PathRow::with_status("contact").with_pair(&contact),
@@ -108,10 +120,7 @@ impl PathRow {
         })
     }
 
-    pub(crate) fn closest_approach(
-        solver: &mut CellSolver<'_>,
-        path: &[&[f64]],
-    ) -> Result<Self, PathError> {
+    fn closest_approach(solver: &mut CellSolver<'_>, path: &[&[f64]]) -> Result<Self, PathError> {
         let found = solver.closest_approach(path)?;
         let status = match found.limit {
             Some(_) => "unresolved",
@@ -134,7 +143,7 @@ impl PathRow {
     fn with_pair(self, contact: &PathContact<'_>) -> Self {
         PathRow {
             at: Some((contact.at.segment, contact.at.share)),
-            between: Some(contact.between.map(|item| name(item).to_owned())),
+            between: Some(contact.between.map(|item| item.name().to_owned())),
             witnesses: Some(contact.witnesses),
             ..self
         }
@@ -150,11 +159,6 @@ impl PathRow {
         let [wa, wb] = witnesses.map(|point| (point.x, point.y, point.z));
         class.call1((at.0, at.1, a, b, wa, wb)).map(Some)
     }
-}
-
-fn name<'a>(item: Item<'a>) -> &'a str {
-    let (Item::Link(name) | Item::Attached(name) | Item::Obstacle(name)) = item;
-    name
 }
 
 /// Returns the answers to a question as a table.

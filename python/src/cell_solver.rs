@@ -3,7 +3,7 @@
 use rigid_ccd::{ParallelSolver, Settings};
 use rigid_ccd_robot::{Cell, CellSolver};
 use std::num::NonZeroUsize;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 self_cell::self_cell!(
     /// A cell, and a solver that borrows it.
@@ -14,46 +14,56 @@ self_cell::self_cell!(
     }
 );
 
-/// A cell that may change between questions, and a solver for it.
+/// A cell that may change between questions, and a solver for it. Changes do not wait for a question.
 pub(crate) struct SolvedCell {
-    cell: Arc<Cell>,
-    /// The solver of the present cell, made for the first question.
-    solver: Option<CellAndSolver>,
+    cell: Mutex<Arc<Cell>>,
+    /// The solver of the last question.
+    solver: Mutex<Option<CellAndSolver>>,
 }
 
 impl SolvedCell {
     pub(crate) fn new(cell: Cell) -> Self {
         SolvedCell {
-            cell: Arc::new(cell),
-            solver: None,
+            cell: Mutex::new(Arc::new(cell)),
+            solver: Mutex::new(None),
         }
     }
 
-    pub(crate) fn cell(&self) -> &Arc<Cell> {
-        &self.cell
+    /// Returns the cell as it is now.
+    pub(crate) fn cell(&self) -> Arc<Cell> {
+        Arc::clone(&lock(&self.cell))
     }
 
-    /// Changes the cell; the solver is made again for the next question.
-    pub(crate) fn change<T>(&mut self, change: impl FnOnce(&mut Cell) -> T) -> T {
-        self.solver = None;
-        change(Arc::make_mut(&mut self.cell))
+    /// Changes the cell for the questions that follow.
+    pub(crate) fn change<T>(&self, change: impl FnOnce(&mut Cell) -> T) -> T {
+        change(Arc::make_mut(&mut lock(&self.cell)))
     }
 
-    /// Asks the solver a question.
+    /// Asks the solver a question about the cell as it is now.
     pub(crate) fn ask<T>(
-        &mut self,
+        &self,
         settings: Settings,
         question: impl FnOnce(&mut CellSolver<'_>) -> T,
     ) -> T {
-        let cell = &self.cell;
-        let solver = self
-            .solver
-            .get_or_insert_with(|| CellAndSolver::new(Arc::clone(cell), |cell| cell.solver()));
-        solver.with_dependent_mut(|_, solver| {
+        let cell = self.cell();
+        let mut kept = lock(&self.solver);
+        let is_current = |kept: &CellAndSolver| Arc::ptr_eq(kept.borrow_owner(), &cell);
+        let mut solver = match kept.take().filter(is_current) {
+            Some(solver) => solver,
+            None => CellAndSolver::new(cell, |cell| cell.solver()),
+        };
+        let answer = solver.with_dependent_mut(|_, solver| {
             solver.set_settings(settings);
             question(solver)
-        })
+        });
+        *kept = Some(solver);
+        answer
     }
+}
+
+/// Locks a value. After a panic a cell is as it was, and there is no solver.
+fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The number of paths that a thread answers at a time.

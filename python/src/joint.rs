@@ -142,8 +142,9 @@ impl PyJoint {
             limits.map(|limits| numbers(limits, "limits")).transpose()?;
         if let Some([low, high]) = limits {
             // Written so that NaN is refused.
-            if !(low <= high) {
-                return Err(input_error(format!("limits: {low} is not at most {high}")));
+            if !(low <= high && low < f64::INFINITY && high > f64::NEG_INFINITY) {
+                let text = format!("limits: no position is between {low} and {high}");
+                return Err(input_error(text));
             }
             joint = joint.with_limits(low..=high);
         }

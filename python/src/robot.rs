@@ -5,15 +5,14 @@ use crate::body::{PyBody, extract_body};
 use crate::errors::{file_error, input_error};
 use crate::joint::PyJoint;
 use crate::link_motion::PyLinkMotion;
-use crate::motion::{pose_matrix, read_pose};
+use crate::motion::{GivenPose, pose_matrix, read_given_pose};
 use crate::pickle::{ConstructorCall, Reduced};
 use crate::table::PyTable;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyMapping, PyType};
-use rigid_ccd::Pose;
+use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd_robot::{
     BodyElements, Joint, Link, LinkBody, LinkMeeting, LinkPairs, MeshModel, Robot, SkipReason, Urdf,
 };
@@ -72,12 +71,20 @@ impl PyRobot {
         {
             link_named(&mut links, name);
         }
+        // What was read is kept for pickle, and not what the caller may change.
+        let read = PyDict::new(py);
         let items = bodies.as_ref().map(|bodies| bodies.items()).transpose()?;
         for item in items.iter().flatten() {
             let (name, held): (String, Bound<'_, PyAny>) = item.extract()?;
-            link_named(&mut links, &name)
-                .bodies
-                .extend(read_held(&held)?);
+            let held = read_held(&held)?;
+            let link = link_named(&mut links, &name);
+            for (body, pose) in &held {
+                link.bodies.push(LinkBody {
+                    body: Arc::new(body.get().body.clone()),
+                    pose: pose.pose("bodies")?,
+                });
+            }
+            read.set_item(name, held)?;
         }
         let robot = Robot::new(links, joints).map_err(input_error)?;
         let mut pairs = LinkPairs::from_robot(&robot);
@@ -88,7 +95,7 @@ impl PyRobot {
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
-            made: ConstructorCall::new(py, None, (given, bodies, may_touch))?,
+            made: ConstructorCall::new(py, None, (given, read, may_touch))?,
         })
     }
 
@@ -264,17 +271,17 @@ fn link_named<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
 }
 
 /// Reads what is fixed to a link: a body, or pairs of a body and its pose.
-fn read_held(held: &Bound<'_, PyAny>) -> PyResult<Vec<LinkBody>> {
-    let link_body = |body: &Bound<'_, PyAny>, pose| {
-        let body = Arc::new(extract_body(body, "bodies")?.clone());
-        Ok(LinkBody { body, pose })
+fn read_held(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
+    let body = |given: &Bound<'_, PyAny>| -> PyResult<Py<PyBody>> {
+        extract_body(given, "bodies")?;
+        Ok(given.clone().cast_into::<PyBody>()?.unbind())
     };
     if held.is_instance_of::<PyBody>() {
-        return Ok(vec![link_body(held, Pose::IDENTITY)?]);
+        return Ok(vec![(body(held)?, GivenPose::IDENTITY)]);
     }
     let pairs = held.try_iter()?.map(|pair| {
-        let (body, pose): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair?.extract()?;
-        link_body(&body, read_pose(&pose, "bodies")?)
+        let (given, pose): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair?.extract()?;
+        Ok((body(&given)?, read_given_pose(&pose, "bodies")?))
     });
     pairs.collect()
 }

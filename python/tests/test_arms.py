@@ -89,8 +89,9 @@ def test_positions_are_checked() -> None:
         chain.motion("tip", [0, 0], [0, 0], duration=0)
     with pytest.raises(InputError, match="there is no link `toe`"):
         chain.motion("upper", [0, 0], [1, 0], seen_from="toe")
-    with pytest.raises(InputError, match="limits"):
-        Joint.revolute("hinge", "base", "upper", limits=(1, 0))
+    for limits in ((1, 0), (math.inf, math.inf), (math.nan, 1)):
+        with pytest.raises(InputError, match="limits: no position is between"):
+            Joint.revolute("hinge", "base", "upper", limits=limits)
     with pytest.raises(InputError):
         Joint.prismatic("slide", "base", "upper", axis=[0, 0, 0])
     with pytest.raises(TypeError):
@@ -123,6 +124,32 @@ def test_a_robot_is_made_of_joints_and_bodies() -> None:
         Robot([fingers[0], fingers[0]])
     with pytest.raises(InputError, match="no link `thumb`"):
         Robot(fingers, tips, [("thumb", "hand")])
+
+
+def test_a_robot_is_copied_as_it_was_made() -> None:
+    pose = np.eye(4)
+    bodies: Any = {"lid": [(BALL, pose)]}
+    robot = Robot([Joint.revolute("hinge", "frame", "lid")], bodies)
+    pose[0, 3], bodies["knob"] = 1, 3
+    again = pickle.loads(pickle.dumps(robot))
+    assert again.link_names == ["frame", "lid"]
+    for one in (robot, again):
+        cell = Cell(one)
+        cell.add("post", BALL, ([1, 0, 0], [1, 0, 0, 0]))
+        assert cell.is_free([[0.0]])
+
+
+def test_mimic_joints_are_rounded_once() -> None:
+    drive = Joint.prismatic("drive", "base", "driver")
+    for multiplier, offset in ((math.nan, 0.0), (1.0, math.inf)):
+        mimic = Joint.prismatic("follower", "base", "ball", axis=[1, 0, 0], mimic=("drive", multiplier, offset))
+        with pytest.raises(InputError, match="joint `follower`: the multiplier or the offset is NaN or infinite"):
+            Robot([drive, mimic])
+    # A million cancels: in exact arithmetic the balls overlap by 5e-11.
+    mimic = Joint.prismatic("follower", "base", "ball", axis=[1, 0, 0], mimic=("drive", 1000000.1, -1e6))
+    cell = Cell(Robot([drive, mimic], {"ball": Body.sphere(0.5)}))
+    cell.add("wall", Body.sphere(0.5), ([1.1000000108069037, 0, 0], [1, 0, 0, 0]))
+    assert not cell.is_free([[1.0000000000000109]], tolerance=1e-13)
 
 
 def test_a_stop_limits_a_hinge() -> None:

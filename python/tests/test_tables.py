@@ -15,9 +15,12 @@ from numpy.typing import NDArray
 
 from rigid_ccd import (
     Body,
+    Cell,
     InputError,
     Interrupted,
+    Joint,
     Motion,
+    Robot,
     Table,
     TableQuery,
     are_free,
@@ -649,6 +652,16 @@ def test_ctrl_c_ends_an_endless_stream(column: str) -> None:
         interrupt(0.5)
         with pytest.raises(KeyboardInterrupt):
             read()
+
+
+def test_ctrl_c_ends_a_question_about_a_path() -> None:
+    # A box slides on a table: at no point of the path it is decided whether it keeps a distance of 0.
+    slider = Joint.prismatic("slider", "table", "box", axis=[1, 0, 0])
+    cell = Cell(Robot([slider], {"box": Body.box(0.1, 0.1, 0.1)}))
+    cell.add("floor", Body.box(5, 5, 0.1), ([0, 0, -0.2], [1, 0, 0, 0]))
+    interrupt(0.3)
+    with pytest.raises(KeyboardInterrupt):
+        cell.clearance_ranges([[0.0], [1.0]], resolution=1e-9)
 
 
 def test_what_ends_the_program_is_no_bad_input() -> None:

@@ -61,6 +61,14 @@ pub enum Item<'c> {
     Obstacle(&'c str),
 }
 
+impl<'c> Item<'c> {
+    /// Returns the name, which is unique in a cell.
+    pub fn name(self) -> &'c str {
+        let (Item::Link(name) | Item::Attached(name) | Item::Obstacle(name)) = self;
+        name
+    }
+}
+
 impl Cell {
     /// Creates a cell without obstacles. Pairs of links that are not checked may touch.
     pub fn new(robot: Robot, pairs: LinkPairs) -> Self {

@@ -12,6 +12,14 @@ pub enum RobotError {
         /// The name that is given twice.
         name: String,
     },
+    /// Two things in a cell are never compared: both are obstacles, or they are the same.
+    #[error("`{a}` and `{b}` are never compared")]
+    NeverCompared {
+        /// The name of the first one.
+        a: String,
+        /// The name of the second one.
+        b: String,
+    },
     /// Nothing in the cell has the given name.
     #[error("there is no link, attached body or obstacle `{name}`")]
     NoSuchItem {
@@ -97,7 +105,7 @@ pub enum RobotError {
         /// The names of the joints with a position of their own, separated by commas.
         names: String,
     },
-    /// A position is outside of its joint's limits, or not finite.
+    /// A position is outside of its joint's limits or not finite, or the rule of a joint that follows another one is not.
     #[error("joint `{joint}`: {error}")]
     InvalidPosition {
         /// The name of the joint whose position is refused.

@@ -7,7 +7,7 @@ pub use chain_between::ChainBetween;
 
 use crate::error::RobotError;
 use rigid_ccd::trajectory::{self, Chain};
-use rigid_ccd::{Body, Pose};
+use rigid_ccd::{Body, InputError, Pose};
 use std::sync::Arc;
 use tree::Tree;
 
@@ -25,6 +25,8 @@ pub struct Robot {
     position_sources: Vec<Option<PositionSource>>,
     /// The numbers of the joints with a position of their own, in the order of a configuration.
     free_joints: Vec<usize>,
+    /// For each link, the link nearest to the base from which only fixed joints lead to it.
+    rigid_roots: Vec<usize>,
 }
 
 /// A link of a robot: a frame, with the bodies that are fixed in it.
@@ -84,6 +86,10 @@ pub(crate) struct PositionSource {
     number: usize,
     multiplier: f64,
     offset: f64,
+    /// The sum of the absolute values of all offsets that add to `offset`.
+    offset_magnitude: f64,
+    /// The number of joints from the joint to the one with a position of its own.
+    follow_count: u32,
 }
 
 impl PositionSource {
@@ -104,7 +110,19 @@ impl PositionSource {
 
     /// Returns the position of the joint in a configuration.
     pub(crate) fn position(&self, configuration: &[f64]) -> f64 {
-        self.multiplier * configuration[self.number] + self.offset
+        let followed = configuration[self.number];
+        if self.offset == 0.0 {
+            self.multiplier * followed
+        } else {
+            // Rounded once, also if product and offset cancel.
+            self.multiplier.mul_add(followed, self.offset)
+        }
+    }
+
+    /// Returns a bound of the numbers of which the position of the joint is computed, more the more often it is rounded.
+    pub(crate) fn magnitude(&self, configuration: &[f64]) -> f64 {
+        let moved = (self.multiplier * configuration[self.number]).abs();
+        (moved + self.offset_magnitude) * f64::from(1 + self.follow_count)
     }
 }
 
@@ -147,7 +165,14 @@ impl Robot {
         }
         let tree = Tree::new(&links, &joints)?;
         let (sources, free_joints) = position_sources_and_free_joints(&joints)?;
+        let mut rigid_roots: Vec<usize> = (0..links.len()).collect();
+        for (link, parent, joint) in tree.joints_from_base() {
+            if sources[joint].is_none() {
+                rigid_roots[link] = rigid_roots[parent];
+            }
+        }
         Ok(Robot {
+            rigid_roots,
             links,
             joints,
             tree,
@@ -224,10 +249,7 @@ impl Robot {
 
     /// Returns whether only fixed joints are between two links, so that neither moves in the frame of the other.
     pub(crate) fn are_rigidly_connected(&self, one: usize, other: usize) -> bool {
-        let steps = self.tree.path_between(one, other);
-        steps
-            .iter()
-            .all(|step| self.position_sources[step.joint].is_none())
+        self.rigid_roots[one] == self.rigid_roots[other]
     }
 
     /// Returns whether a joint connects two links directly.
@@ -290,8 +312,9 @@ fn position_sources_and_free_joints(
             return Ok(None);
         }
         let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
+        let mut offset_magnitude = 0.0;
         // A joint that follows another one more often than there are joints follows itself.
-        for _ in 0..=joints.len() {
+        for follow_count in 0..=joints.len() as u32 {
             match &at.position {
                 Position::Free => {
                     let number = free_joints.iter().position(|&k| joints[k].name == at.name);
@@ -301,6 +324,8 @@ fn position_sources_and_free_joints(
                                 number,
                                 multiplier,
                                 offset,
+                                offset_magnitude,
+                                follow_count,
                             })
                         })
                         .ok_or_else(|| unfollowable_joint_error(joint, &at.name));
@@ -310,7 +335,14 @@ fn position_sources_and_free_joints(
                     multiplier: factor,
                     offset: shift,
                 } => {
+                    if !(factor.is_finite() && shift.is_finite()) {
+                        let quantity = "the multiplier or the offset";
+                        let error = InputError::NotFinite { quantity };
+                        let joint = at.name.clone();
+                        return Err(RobotError::InvalidPosition { joint, error });
+                    }
                     offset += multiplier * shift;
+                    offset_magnitude += f64::abs(multiplier * shift);
                     multiplier *= factor;
                     let found = joints.iter().find(|other| other.name == *followed);
                     at = found.ok_or_else(|| unfollowable_joint_error(joint, followed))?;

@@ -20,7 +20,7 @@ impl Cell {
     /// links, and bodies attached to the link, are not affected.
     ///
     /// # Errors
-    /// [`RobotError::NoSuchLink`], and [`RobotError::Input`] for a distance that is negative or not finite.
+    /// [`RobotError::NoSuchLink`], and [`RobotError::Input`] for a distance that is not from 0 to 1e12.
     pub fn set_padding(&mut self, link: &str, distance: f64) -> Result<(), RobotError> {
         self.robot.link_number(link)?;
         check_distance("padding", distance)?;
@@ -33,8 +33,8 @@ impl Cell {
     /// Sets the distance at which a pair counts as touching, instead of the margin and the padding.
     ///
     /// # Errors
-    /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], and
-    /// [`RobotError::Input`] for a distance that is negative or not finite.
+    /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], [`RobotError::NeverCompared`], and
+    /// [`RobotError::Input`] for a distance that is not from 0 to 1e12.
     pub fn set_clearance(&mut self, pair: [Item<'_>; 2], distance: f64) -> Result<(), RobotError> {
         for item in pair {
             match item {
@@ -44,6 +44,11 @@ impl Cell {
             };
         }
         check_distance("clearance", distance)?;
+        let [a, b] = pair;
+        if a == b || matches!(pair, [Item::Obstacle(_), Item::Obstacle(_)]) {
+            let [a, b] = [a, b].map(|item| item.name().to_owned());
+            return Err(RobotError::NeverCompared { a, b });
+        }
         let [one, other] = pair.map(|item| self.bodies_of(item));
         for &a in &one {
             for &b in &other {
@@ -115,14 +120,14 @@ fn ordered(a: usize, b: usize) -> [usize; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// Refuses a distance that is negative or not finite.
+/// Refuses a distance that no query takes as its margin.
 fn check_distance(quantity: &'static str, distance: f64) -> Result<(), InputError> {
-    if (0.0..=f64::MAX).contains(&distance) {
+    if (0.0..=1e12).contains(&distance) {
         return Ok(());
     }
     Err(InputError::OutOfRange {
         quantity,
         value: distance,
-        allowed: "at least 0 and finite",
+        allowed: "at least 0 and at most 1e12",
     })
 }

@@ -53,6 +53,9 @@ pub(crate) struct Part {
     pub(crate) half_extents: DVec3,
     /// The radius of the ball about `centre` around the grown hull.
     pub(crate) ball_radius: f64,
+    /// A bound of the numbers of which the corners were computed: the body's position, and its largest coordinates. Both
+    /// may be far larger than the distance of the corners from the frame's origin.
+    pub(crate) reach: f64,
 }
 
 impl PlacedBody {
@@ -141,6 +144,8 @@ impl Part {
         for &point in &points {
             (min, max) = (min.min(point), max.max(point));
         }
+        let lengths = hull.corners.iter().map(|corner| corner.length());
+        let largest = lengths.fold(0.0, greater);
         let centre = 0.5 * (min + max);
         let farthest = points
             .iter()
@@ -158,6 +163,7 @@ impl Part {
             centre,
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
             ball_radius: farthest + radius,
+            reach: placed.pose.translation().length() + largest + radius,
         }
     }
 
@@ -182,11 +188,6 @@ impl Part {
         rotation.x_axis.abs() * extents.x
             + rotation.y_axis.abs() * extents.y
             + rotation.z_axis.abs() * extents.z
-    }
-
-    /// Returns the largest distance of a point of the body from the frame's origin.
-    pub(crate) fn reach(&self) -> f64 {
-        self.centre.length() + self.ball_radius
     }
 }
 

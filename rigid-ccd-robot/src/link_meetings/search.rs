@@ -112,7 +112,9 @@ impl<'c> PairSearch<'c> {
         let point = Body::sphere(TOUCHING_DISTANCE)?;
         let parts = cell.parts()[..cell.robot_part_count()].iter();
         let own = parts.filter(|part| links.contains(&cell.link_of(part.owner)));
-        let reach = own.map(|part| part.reach()).fold(0.0, greater);
+        let reach = own
+            .map(|part| part.centre.length() + part.ball_radius)
+            .fold(0.0, greater);
         for k in 0..=HINGE_POINTS {
             let along = reach * (2.0 * f64::from(k) / f64::from(HINGE_POINTS) - 1.0);
             let parent = self.placement.frames[joint.parent];

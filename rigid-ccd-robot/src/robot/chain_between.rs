@@ -49,7 +49,7 @@ impl ChainBetween {
     }
 
     /// Returns the positions of the chain's joints in a configuration of the robot. The position of a joint that
-    /// follows another joint is rounded twice.
+    /// follows another joint is rounded once, and its factor and offset once for each further joint in between.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].

@@ -63,9 +63,14 @@ impl CellSolver<'_> {
     /// # Guarantee
     /// In a range that is kept all pairs that are checked stay apart by more than their distance, at all configurations. At
     /// each configuration of a range that is violated some pair is nearer than its distance; at a distance of 0 it overlaps.
-    /// Unverified are at most about twice the resolution around each border, where a distance is kept by less than the
-    /// tolerance, and, of bodies that are not convex, overlaps at a distance of 0. When time runs out the rest of the path is
-    /// unverified.
+    /// Unverified remain about twice the resolution around each border, stretches where the distance is kept or violated by
+    /// less than the tolerance or than the error of poses, violations by less than what bodies
+    /// [exceed](rigid_ccd::Body::excess) their shapes by, and overlaps of bodies that are not convex at a distance of 0. When
+    /// time runs out the rest of the path is unverified.
+    ///
+    /// # Complexity
+    /// A few searches for each halving around a border. What stays unverified is examined in steps of the resolution, each of
+    /// which takes microseconds to milliseconds.
     ///
     /// # Errors
     /// [`PathError`].
@@ -139,7 +144,10 @@ impl CellSolver<'_> {
             Clearance::Kept
         } else if is_in_time && self.search.is_violated(&stretch)? {
             Clearance::Violated
-        } else if is_in_time && stretch.to - stretch.from > resolution {
+        } else if is_in_time
+            && stretch.to - stretch.from > resolution
+            && self.search.placement.moves()
+        {
             for half in stretch.halves() {
                 self.examine(half, resolution, found)?;
             }

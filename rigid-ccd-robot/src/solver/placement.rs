@@ -34,7 +34,7 @@ impl Placement {
 
     /// Prepares for the stretches of a path.
     pub(crate) fn begin(&mut self, cell: &Cell, path: &Waypoints) {
-        self.rounding = point_error(cell.kinematics(), cell.parts(), path.largest());
+        self.rounding = point_error(cell.kinematics(), cell.parts(), path.magnitudes());
     }
 
     /// Computes the frames in the middle of a stretch, and the bounds of displacements.
@@ -45,6 +45,11 @@ impl Placement {
         self.update_displacements(cell);
     }
 
+    /// Returns whether a joint moves in the stretch that is placed.
+    pub(crate) fn moves(&self) -> bool {
+        self.deviations.iter().any(|&deviation| deviation != 0.0)
+    }
+
     /// Computes the frames at a configuration, and the bounds of displacements for other ones: the position of each moving
     /// joint differs there by at most its `deviation`.
     pub(crate) fn place_box(
@@ -53,15 +58,16 @@ impl Placement {
         configuration: &[f64],
         deviation: impl Fn(PositionSource) -> f64,
     ) {
-        let joints = cell.kinematics().joints().iter();
+        let joints = || cell.kinematics().joints().iter();
         self.positions.clear();
         self.deviations.clear();
-        for joint in joints {
+        for joint in joints() {
             self.positions.push(joint.source.position(configuration));
             self.deviations.push(deviation(joint.source));
         }
-        let largest = self.positions.iter().zip(&self.deviations);
-        let largest = largest.map(|(position, deviation)| position.abs() + deviation);
+        let largest = joints().zip(&self.deviations);
+        let largest =
+            largest.map(|(joint, deviation)| joint.source.magnitude(configuration) + deviation);
         self.rounding = point_error(cell.kinematics(), cell.parts(), largest);
         let positions = self.positions.iter().copied();
         cell.kinematics().place(positions, &mut self.frames);

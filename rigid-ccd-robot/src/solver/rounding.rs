@@ -13,13 +13,13 @@ const U: f64 = 0.5 * f64::EPSILON;
 /// are rounded by 2. That is less than 64. The direction in which the corners of a hull are searched is rotated once more.
 const ROTATION_PER_JOINT: f64 = 64.0;
 
-/// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. A
-/// joint that follows another one has a factor and an offset more. The difference to a position in the middle of a
+/// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. For a
+/// joint that follows another one the units are those of its factor and its offset. The difference to a position in the middle of a
 /// stretch has the errors of both.
 const POSITION: f64 = 16.0;
 
 /// Returns a bound of the distance between points of all parts, as computed with frames along an edge, and the points
-/// themselves. The positions of the moving joints are at most `positions`.
+/// themselves. The positions of the moving joints are computed from numbers of at most `positions`.
 pub(crate) fn point_error(
     kinematics: &Kinematics,
     parts: &[Part],
@@ -34,7 +34,7 @@ pub(crate) fn point_error(
             angles += position;
         }
     }
-    let reach = parts.iter().map(Part::reach).fold(0.0, greater);
+    let reach = parts.iter().map(|part| part.reach).fold(0.0, greater);
     let turn = ROTATION_PER_JOINT * (kinematics.joint_count + 2) as f64 + POSITION * angles;
     U * (turn + POSITION) * (arms + reach)
 }

@@ -7,9 +7,10 @@ use super::measure::{first_axis, vertex};
 use super::part_pairs::PartPair;
 use super::search::Search;
 use super::stretch::Stretch;
-use ccd_core::order::greater;
+use ccd_core::fan_triangles;
+use ccd_core::order::{greater, lesser};
 use ccd_distance_gjk::{RequiredBounds, bound_distance};
-use rigid_ccd::glam::{DMat3, DVec3};
+use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Settings};
 
 impl Search<'_> {
@@ -79,41 +80,86 @@ impl Search<'_> {
             };
             bound_distance(vertex, axis, until).upper < distance
         } else {
-            contains_ball(|direction| vertex(direction).point, axis, -distance)
+            contains_ball(|direction| vertex(direction).point, -distance)
         }
     }
 }
 
+/// The largest number of points of a convex set that are looked at.
+const MAX_POINTS: usize = 40;
+
 /// Returns whether a convex set certainly contains the ball of a radius about the origin. `support` returns the point of the
 /// set with the least height along a direction.
 ///
-/// Points in six directions, two along each of three axes, are the corners of an octahedron. If all its faces turn the same
-/// side to the origin, it surrounds the origin, and is in the set.
-fn contains_ball(support: impl Fn(DVec3) -> DVec3, axis: DVec3, radius: f64) -> bool {
-    let Some(x) = axis.try_normalize() else {
-        return false;
-    };
-    let axes = DMat3::from_cols(x, x.any_orthonormal_vector(), DVec3::ZERO);
-    let axes = [axes.x_axis, axes.y_axis, axes.x_axis.cross(axes.y_axis)];
-    let corners = axes.map(|axis| [support(axis), support(-axis)]);
-    let size = corners
-        .as_flattened()
-        .iter()
-        .fold(0.0, |size, corner| greater(size, corner.length()));
-    // A face's normal and its height are products of two and three lengths, with fewer than 256 rounding errors together.
-    let rounding = 256.0 * f64::EPSILON * size.powi(3);
-    (0..8_u32).all(|face| {
-        let [p, q, r] = [0, 1, 2].map(|k| corners[k][(face >> k & 1) as usize]);
-        // Each exchange of a corner for the opposite one turns the face over.
-        let side = if face.count_ones() % 2 == 0 {
-            -1.0
-        } else {
-            1.0
+/// The hull of some points of the set grows: a point is added beyond the facet that cuts off most of the ball, until no
+/// facet does, or none of the set is beyond.
+fn contains_ball(support: impl Fn(DVec3) -> DVec3, radius: f64) -> bool {
+    let mut points = Vec::new();
+    for direction in first_directions() {
+        let point = support(direction);
+        // Written so that NaN proves nothing.
+        if !(-point.dot(direction) > radius) {
+            return false;
+        }
+        points.push(point);
+    }
+    while points.len() <= MAX_POINTS {
+        let Some((normal, height)) = lowest_facet(&points) else {
+            return false;
         };
-        let normal = (q - p).cross(r - p) * side;
-        // Written so that NaN, and a face without area, prove nothing.
-        normal.dot(p) > radius * normal.length() + rounding
-    })
+        if height > radius {
+            return true;
+        }
+        let beyond = support(-normal);
+        if points.contains(&beyond) || !(beyond.dot(normal) > height) {
+            return false;
+        }
+        points.push(beyond);
+    }
+    false
+}
+
+/// Returns unit vectors to the faces and to the corners of a cube: a set with a volume has four corners along them that are
+/// in no plane, but for rare cases.
+fn first_directions() -> impl Iterator<Item = DVec3> {
+    let signs = || [-1.0, 0.0, 1.0];
+    let all = signs().into_iter().flat_map(move |x| {
+        signs()
+            .into_iter()
+            .flat_map(move |y| signs().map(|z| DVec3::new(x, y, z)))
+    });
+    let is_face_or_corner = |v: &DVec3| [1.0, 3.0].contains(&v.length_squared());
+    all.filter(is_face_or_corner).map(DVec3::normalize)
+}
+
+/// Returns the outer unit normal of the facet of the hull of points that is nearest to the origin, or farthest on the wrong
+/// side, with a lower bound of its height over the origin; `None` for points without a volume.
+fn lowest_facet(points: &[DVec3]) -> Option<(DVec3, f64)> {
+    let hull = ccd_decomp::convex_hull(points).ok()?;
+    if hull.facets.iter().count() < 4 {
+        return None;
+    }
+    let lengths = hull.points.iter().map(|point| point.length());
+    let size = lengths.fold(0.0, greater);
+    let mut lowest = (DVec3::ZERO, f64::INFINITY);
+    for facet in hull.facets.iter() {
+        let at = |corner: u32| hull.points[corner as usize];
+        let triangles = fan_triangles(facet).map(|corners| corners.map(at));
+        let normal: DVec3 = triangles.map(|[p, q, r]| (q - p).cross(r - p)).sum();
+        let heights = facet.iter().map(|&corner| normal.dot(at(corner)));
+        let height = heights.fold(f64::INFINITY, lesser);
+        // A normal and a height are products of two and three lengths; each triangle has fewer than 128 rounding errors.
+        let rounding = 128.0 * f64::EPSILON * facet.len() as f64 * size.powi(3);
+        let length = normal.length();
+        let height = (height - rounding) / length;
+        if !height.is_finite() {
+            return None;
+        }
+        if height < lowest.1 {
+            lowest = (normal / length, height);
+        }
+    }
+    Some(lowest)
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ pub(crate) struct Waypoints {
     /// The number of configurations.
     count: usize,
     positions: Vec<f64>,
+    /// For each joint, a bound of the numbers of which its positions are computed.
+    magnitudes: Vec<f64>,
 }
 
 impl Waypoints {
@@ -19,10 +21,14 @@ impl Waypoints {
         self.joint_count = kinematics.joints().len();
         self.count = path.len();
         self.positions.clear();
+        self.magnitudes.clear();
+        self.magnitudes.resize(self.joint_count, 0.0);
         for configuration in path {
-            let joints = kinematics.joints().iter();
-            self.positions
-                .extend(joints.map(|joint| joint.source.position(configuration.as_ref())));
+            let configuration = configuration.as_ref();
+            for (joint, magnitude) in kinematics.joints().iter().zip(&mut self.magnitudes) {
+                self.positions.push(joint.source.position(configuration));
+                *magnitude = greater(*magnitude, joint.source.magnitude(configuration));
+            }
         }
     }
 
@@ -31,12 +37,9 @@ impl Waypoints {
         self.count.saturating_sub(1)
     }
 
-    /// Returns the largest absolute position of each joint, as an upper bound also between configurations.
-    pub(crate) fn largest(&self) -> impl Iterator<Item = f64> {
-        (0..self.joint_count).map(|joint| {
-            let all = self.positions.iter().skip(joint).step_by(self.joint_count);
-            all.map(|position| position.abs()).fold(0.0, greater)
-        })
+    /// Returns for each joint a bound of the numbers of which its positions are computed, also between configurations.
+    pub(crate) fn magnitudes(&self) -> impl Iterator<Item = f64> {
+        self.magnitudes.iter().copied()
     }
 
     /// Computes the positions of all joints at a point of the path.

@@ -2,7 +2,7 @@
 
 use super::contains_ball;
 use crate::test_robots::random_vector;
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::lesser;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::glam::DVec3;
@@ -19,45 +19,38 @@ fn lowest(points: &[DVec3], direction: DVec3) -> DVec3 {
 }
 
 /// Tests random sets of points about the origin: no height is above that of a ball which their hull contains, and balls are
-/// found that are not much smaller than the largest one.
+/// found unless they are about as large as the largest one.
 #[test]
 fn a_ball_is_found_only_in_the_hull() {
     let mut random = Pcg64::seed_from_u64(31);
-    let (mut found, mut largest_share) = (0, 0.0);
+    let (mut found, mut missed) = (0, 0);
     for _ in 0..2000 {
         let centre = random_vector(&mut random, 0.6);
         let points: Vec<DVec3> = (0..random.random_range(4..30))
             .map(|_| centre + random_vector(&mut random, 1.0))
             .collect();
         let radius = random.random_range(0.0..0.5);
-        let axis = random_vector(&mut random, 1.0);
-        if !contains_ball(|direction| lowest(&points, direction), axis, radius) {
-            continue;
-        }
-        found += 1;
+        let is_found = contains_ball(|direction| lowest(&points, direction), radius);
         let mut depth = f64::INFINITY;
         for _ in 0..500 {
             let direction = random_vector(&mut random, 1.0).normalize();
             depth = lesser(depth, -lowest(&points, direction).dot(direction));
         }
-        assert!(radius <= depth, "{radius} in {points:?}");
-        largest_share = greater(largest_share, radius / depth);
+        if is_found {
+            found += 1;
+            assert!(radius <= depth, "{radius} in {points:?}");
+        }
+        // Sampled directions show a depth that is a little too large.
+        missed += usize::from(!is_found && radius < 0.8 * depth);
     }
-    assert!(
-        found > 100 && largest_share > 0.7,
-        "{found} {largest_share}"
-    );
+    assert!(found > 300 && 20 * missed < found, "{found} {missed}");
 }
 
 /// Tests sets without a volume, and points that are not numbers.
 #[test]
 fn a_flat_set_contains_no_ball() {
     let flat = [[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]].map(DVec3::from);
-    assert!(!contains_ball(
-        |direction| lowest(&flat, direction),
-        DVec3::X,
-        0.0
-    ));
-    assert!(!contains_ball(|_| DVec3::NAN, DVec3::X, 0.0));
-    assert!(!contains_ball(|_| DVec3::ONE, DVec3::ZERO, 0.0));
+    assert!(!contains_ball(|direction| lowest(&flat, direction), 0.0));
+    assert!(!contains_ball(|_| DVec3::NAN, 0.0));
+    assert!(!contains_ball(|_| DVec3::ONE, 0.0));
 }
