@@ -7,6 +7,7 @@ use crate::solver::tests::{
 use crate::{Cell, Joint, Link, LinkPairs, Position, Robot};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+use rigid_ccd::glam::DQuat;
 use rigid_ccd::{Body, Pose, Settings, trajectory};
 use std::f64::consts::PI;
 use std::time::Duration;
@@ -161,6 +162,48 @@ fn a_stop_of_a_hinge_limits_it() {
             assert!(from <= *border && *border <= to, "{border} in {range:?}");
             assert!(to - from <= 2.001 * PI / 4096.0, "{range:?}");
         }
+    }
+}
+
+/// Tests that overlaps of thin bodies, and of bodies with the same centre, are violations without a margin.
+#[test]
+fn deep_overlaps_are_violated() {
+    let turned = DQuat::from_rotation_z(0.3);
+    let rod = Body::cuboid([1.0, 0.05, 0.05]).unwrap();
+    let slides = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let turns = hinge_at([0.0; 3]);
+    let post = Body::cuboid([0.05, 1.0, 0.05]).unwrap();
+    let (shaft, hub) = (Body::cylinder(0.1, 1.0), Body::cylinder(0.5, 0.3));
+    for (moves, held, pose, obstacle, at) in [
+        (
+            slides,
+            rod,
+            Pose::new([0.0; 3], turned),
+            post,
+            [0.3, -0.2, 0.0],
+        ),
+        (
+            turns,
+            shaft.unwrap(),
+            Ok(Pose::IDENTITY),
+            hub.unwrap(),
+            [0.0; 3],
+        ),
+    ] {
+        let link = Link::named("part").with_body(held, pose.unwrap());
+        let moves = joint("joint", ["frame", "part"], moves, Position::Free);
+        let robot = Robot::new(vec![Link::named("frame"), link], vec![moves]).unwrap();
+        let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+        cell.add_obstacle("obstacle", obstacle, Pose::at(at).unwrap())
+            .unwrap();
+        let mut solver = cell.solver();
+        let ranges = solver
+            .clearance_ranges(&[[-0.5], [0.5]], RangeSettings::DEFAULT)
+            .unwrap();
+        assert!(
+            ranges[0].clearance == Clearance::Violated && ranges.len() == 1,
+            "{ranges:?}"
+        );
     }
 }
 

@@ -3,6 +3,7 @@
 use super::*;
 use crate::cell::part::PlacedBody;
 use rigid_ccd::body::{Facet, FacetOrigin, Polytope};
+use rigid_ccd::glam::DQuat;
 
 /// Tests that names are unique, and that wrong configurations are refused.
 #[test]
@@ -102,4 +103,65 @@ fn wrong_facets_open_no_hole() {
     let falls = rigid_ccd::Motion::new(start, [0.0, 0.0, -2.6], [0.0; 3]).unwrap();
     let cube = (&*placed.body, rigid_ccd::Motion::STILL);
     assert!(!Solver::new().is_free((&large, falls), cube, 1.0).unwrap());
+}
+
+/// Tests two overlaps by about 1e-10 that rounding hides: of a mesh far from its origin, which its pose brings back, and of a
+/// ball whose joint has a factor and an offset that cancel.
+#[test]
+fn numbers_that_cancel_are_rounded_as_what_they_are() {
+    let far = [
+        [-801931.4252534474, -1324358.995628145, -248361.62209524855],
+        [-801930.7452534473, -1324360.235628145, -248361.62209524855],
+        [-801932.6652534474, -1324359.675628145, -248360.62209524855],
+        [-801932.6652534474, -1324359.675628145, -248362.62209524855],
+    ];
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let pieces = Pieces::triangles(&far.map(DVec3::from), &faces, &[0, 1, 2, 3]).unwrap();
+    let mesh = Body::new(&pieces, Volume::Solid).unwrap();
+    let back = [-1495925.4348739847, 399033.64946742874, 248361.62209524855];
+    let back = Pose::new(back, DQuat::from_xyzw(0.0, 0.0, 0.8, 0.6)).unwrap();
+    let slides = |name: &str, position| Joint {
+        name: name.into(),
+        parent: "base".into(),
+        child: format!("{name} link"),
+        joint: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+        position,
+    };
+    let ball = || Body::sphere(0.5).unwrap();
+    let follows = Position::Follows {
+        joint: "x".into(),
+        multiplier: 1000000.1,
+        offset: -1e6,
+    };
+    for (body, pose, joints, obstacle, at) in [
+        (
+            mesh,
+            back,
+            vec![slides("x", Position::Free)],
+            [-0.5000000000043645, 4.718003765447065e-12, 0.0],
+            0.0,
+        ),
+        (
+            ball(),
+            Pose::IDENTITY,
+            vec![slides("x", Position::Free), slides("y", follows)],
+            [1.1000000108069037, 0.0, 0.0],
+            1.0000000000000109,
+        ),
+    ] {
+        let mut links = vec![Link::named("base")];
+        links.extend(joints.iter().map(|joint| Link::named(&joint.child)));
+        let last = links.pop().unwrap().with_body(body, pose);
+        links.push(last);
+        let robot = Robot::new(links, joints).unwrap();
+        let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+        cell.add_obstacle("obstacle", ball(), Pose::at(obstacle).unwrap())
+            .unwrap();
+        let settings = Settings {
+            tolerance: 1e-14,
+            ..Settings::DEFAULT
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        assert!(!solver.is_free(&[[at]]).unwrap());
+    }
 }
