@@ -1,5 +1,7 @@
 //! Queries: two moving bodies, a duration and settings.
 
+pub(crate) mod span;
+
 use crate::answer::Contact;
 use crate::body::Body;
 use crate::body::excess::ExcessSum;

@@ -3,6 +3,7 @@
 use super::nearest::lists::SearchBuffers;
 use crate::distance::common_normals::CommonNormals;
 use crate::distance::overlap::ExpandingPolytope;
+use crate::query::span::Span;
 use crate::shortcuts::screw::ProfileCache;
 
 /// The scratch memory of a solver, created when first needed.
@@ -19,4 +20,15 @@ pub(crate) struct ScratchMemory {
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.
     pub(crate) profile_cache: ProfileCache,
+    /// Lists for searches along trajectories, of which one may run within another.
+    pub(crate) spare_stretch_lists: Vec<StretchLists>,
+}
+
+/// The lists of a search along trajectories.
+#[derive(Debug, Default)]
+pub(crate) struct StretchLists {
+    /// The stretches of time that wait to be searched.
+    pub(crate) waiting_spans: Vec<Span>,
+    /// The work spent on each part of the query.
+    pub(crate) work_by_part: Vec<u64>,
 }

@@ -3,14 +3,16 @@
 mod found;
 
 use super::drive::{Question, search_stretches};
-use super::motions::{Span, StretchMotions};
+use super::motions::StretchMotions;
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::scratch::Scratch;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::query::Query;
+use crate::query::span::Span;
 use crate::questions::closest::required::RequiredClearance;
 use crate::questions::closest::{FartherThanCutoff, meet_after_start};
 use crate::questions::depth_first::DepthFirst;
@@ -74,6 +76,10 @@ struct ClosestApproachSearch<'s, O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
+    fn scratch(&mut self) -> &mut Scratch {
+        &mut self.schedule.scratch
+    }
+
     /// Tries to prove a lower bound of the least distance over the whole query, if the next such attempt is due.
     fn before_stretch(
         &mut self,

@@ -2,15 +2,17 @@
 
 use super::drive::{Question, search_stretches};
 use super::lengths::{choose_next_length, measure_suitable_length};
-use super::motions::{Span, StretchMotions};
+use super::motions::StretchMotions;
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Contact, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::EngineSchedule;
+use crate::engine::scratch::Scratch;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::query::Query;
+use crate::query::span::Span;
 use crate::questions::any::touching_as_contact;
 use std::ops::ControlFlow;
 
@@ -60,6 +62,10 @@ struct ContactSearch<'s, S> {
 }
 
 impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, S> {
+    fn scratch(&mut self) -> &mut Scratch {
+        self.schedule.scratch()
+    }
+
     fn takes_accelerations(&self) -> bool {
         self.schedule.handles_accelerations()
     }

@@ -1,16 +1,21 @@
 //! The loop that all searches along trajectories share.
 
-use super::motions::{Span, StretchMotions};
+use super::motions::StretchMotions;
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::scratch::Scratch;
 use crate::error::InputError;
 use crate::problem::Problem;
 use crate::query::Query;
+use crate::query::span::Span;
 use std::ops::ControlFlow;
 
 /// A question about bodies on trajectories, which is answered by searching one stretch of time after the other.
 pub(super) trait Question<O: DistanceOracle> {
+    /// Returns the scratch memory that is kept between queries.
+    fn scratch(&mut self) -> &mut Scratch;
+
     /// Returns whether the search handles accelerations within a stretch. Otherwise they count as deviations.
     fn takes_accelerations(&self) -> bool {
         true
@@ -67,7 +72,25 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
     query: &Query<'_>,
     oracle: &mut O,
 ) -> Result<Answer, InputError> {
-    let stretches = &mut WaitingStretches::new(query);
+    let spare = &mut question
+        .scratch()
+        .get_or_insert_default()
+        .spare_stretch_lists;
+    let mut stretches = WaitingStretches::new(query, spare.pop().unwrap_or_default());
+    let answer = search_waiting(question, &mut stretches, oracle);
+    let spare = &mut question
+        .scratch()
+        .get_or_insert_default()
+        .spare_stretch_lists;
+    spare.push(stretches.into_memory());
+    answer
+}
+
+fn search_waiting<O: DistanceOracle, Q: Question<O>>(
+    question: &mut Q,
+    stretches: &mut WaitingStretches<'_, '_>,
+    oracle: &mut O,
+) -> Result<Answer, InputError> {
     loop {
         question.before_stretch(stretches, oracle)?;
         let Some(span) = stretches.next() else {
@@ -87,7 +110,7 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
         {
             continue;
         }
-        let problem = motions.problem(query, &terms)?;
+        let problem = motions.problem(stretches.query(), &terms)?;
         if let ControlFlow::Break(answer) =
             question.search_stretch(stretches, &motions, &problem, oracle)?
         {

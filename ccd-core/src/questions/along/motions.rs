@@ -8,38 +8,11 @@ use crate::math::vector::length;
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::problem::Problem;
 use crate::query::Query;
+use crate::query::span::Span;
 use crate::rounding::RETIMED_POSE_ERROR_F64;
 use crate::settings::{QuerySettings, StartPolicy};
 use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, MIN_TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
-
-/// A stretch of time within a query.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
-    pub(super) from: f64,
-    pub(super) end: f64,
-    /// The index of the part of the query, between two corners, that contains the stretch.
-    pub(super) part_index: usize,
-}
-
-impl Span {
-    /// Returns the stretch of length 0 at the start of this stretch.
-    pub(super) fn start_span(self) -> Self {
-        Span {
-            end: self.from,
-            ..self
-        }
-    }
-
-    pub(super) fn length(&self) -> f64 {
-        self.end - self.from
-    }
-
-    /// Returns the time in the middle of the stretch.
-    pub(super) fn middle_time(&self) -> f64 {
-        self.from + 0.5 * self.length()
-    }
-}
 
 /// The approximate motions of both bodies in a stretch of time, with their deviations.
 #[derive(Debug)]

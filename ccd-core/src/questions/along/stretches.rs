@@ -1,14 +1,15 @@
 //! The waiting stretches of time of a search along trajectories, and the budget left for them.
 
-use super::motions::{Span, StretchMotions};
+use super::motions::StretchMotions;
 use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::run_metered;
-use crate::engine::scratch::Scratch;
+use crate::engine::scratch::{Scratch, StretchLists};
 use crate::engine::start::search_contact_at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
+use crate::query::span::Span;
 use crate::query::{MovingBody, Query};
 use crate::settings::QuerySettings;
 use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_CUT_SHARE};
@@ -29,24 +30,40 @@ pub(super) struct WaitingStretches<'j, 'a> {
 }
 
 impl<'j, 'a> WaitingStretches<'j, 'a> {
-    /// Creates the stack with the whole duration of the query as the only stretch.
-    pub(super) fn new(query: &'j Query<'a>) -> Self {
+    /// Creates the stack with the whole duration of the query as the only stretch, in memory of an earlier query.
+    pub(super) fn new(query: &'j Query<'a>, memory: StretchLists) -> Self {
+        let StretchLists {
+            mut waiting_spans,
+            mut work_by_part,
+        } = memory;
+        waiting_spans.clear();
+        waiting_spans.push(Span {
+            from: 0.0,
+            end: query.duration,
+            part_index: 0,
+        });
+        work_by_part.clear();
+        work_by_part.push(0);
         WaitingStretches {
             query,
-            waiting_spans: vec![Span {
-                from: 0.0,
-                end: query.duration,
-                part_index: 0,
-            }],
+            waiting_spans,
             stats: Stats::default(),
             spent_work: WorkByPart {
-                work_by_part: vec![0],
+                work_by_part,
                 current_part_index: 0,
                 work_at_part_start: 0,
             },
             was_start_examined: false,
             last_proven_stretch: None,
             started_at: query.settings.deadline.map(|_| Instant::now()),
+        }
+    }
+
+    /// Returns the memory for a later query.
+    pub(super) fn into_memory(self) -> StretchLists {
+        StretchLists {
+            waiting_spans: self.waiting_spans,
+            work_by_part: self.spent_work.work_by_part,
         }
     }
 
