@@ -4,11 +4,10 @@ use crate::arrays::flat_numbers;
 use crate::errors::{input_error, warn};
 use crate::motion::pose_matrix;
 use crate::pickle::Reduced;
-use crate::robot::PyRobot;
 use pyo3::prelude::*;
 use rigid_ccd::Remark;
 use rigid_ccd::trajectory::{JointKind, Link, Trajectory};
-use rigid_ccd_robot::ChainBetween;
+use rigid_ccd_robot::{ChainBetween, Robot};
 
 /// The motion of a link of a `Robot` while all joints move at constant rates; `Robot.motion` makes it.
 ///
@@ -16,7 +15,8 @@ use rigid_ccd_robot::ChainBetween;
 /// the tolerance of where they are said to be.
 #[pyclass(name = "LinkMotion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyLinkMotion {
-    robot: Py<PyRobot>,
+    /// The object of Python whose method `motion` made the motion.
+    robot: Py<PyAny>,
     given: GivenMotion,
     chain: ChainBetween,
     /// The positions of the chain's joints at both ends.
@@ -58,13 +58,13 @@ impl PyLinkMotion {
 impl PyLinkMotion {
     /// Makes the motion of a link, or an error if positions are missing or outside their joints' limits.
     pub(crate) fn new(
-        robot: &Bound<'_, PyRobot>,
+        robot: &Bound<'_, PyAny>,
+        links: &Robot,
         link: String,
         [start, end]: [&Bound<'_, PyAny>; 2],
         duration: f64,
         seen_from: Option<String>,
     ) -> PyResult<Self> {
-        let links = &robot.get().robot;
         let to = links.link_number(&link).map_err(input_error)?;
         let from = seen_from
             .as_ref()

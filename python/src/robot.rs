@@ -215,7 +215,14 @@ impl PyRobot {
         duration: f64,
         seen_from: Option<String>,
     ) -> PyResult<PyLinkMotion> {
-        PyLinkMotion::new(slf, link, [start, end], duration, seen_from)
+        PyLinkMotion::new(
+            slf,
+            &slf.get().robot,
+            link,
+            [start, end],
+            duration,
+            seen_from,
+        )
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {

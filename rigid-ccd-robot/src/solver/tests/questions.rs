@@ -147,6 +147,31 @@ fn a_cut_edge_is_the_same_edge() {
     assert!(free > 20 && contacts > 10, "{free} {contacts}");
 }
 
+/// Tests that questions about paths allocate nothing once a solver has answered the like of them.
+#[test]
+fn a_solver_keeps_its_memory() {
+    let mut random = Pcg64::seed_from_u64(14);
+    let (mut free, mut engine) = (0, 0);
+    for _ in 0..20 {
+        let cell = random_cell(&mut random);
+        let mut solver = cell.solver();
+        let path = random_path(&mut random, cell.robot());
+        let ask = |solver: &mut CellSolver<'_>| {
+            let is_free = solver.is_free(&path).unwrap();
+            let first = solver.first_contact(&path).unwrap();
+            assert_eq!(is_free, first == PathOutcome::Free);
+            is_free
+        };
+        free += usize::from(ask(&mut solver));
+        engine += usize::from(solver.search.open_pairs.start() < f64::INFINITY);
+        let allocated = allocation_counter::measure(|| {
+            ask(&mut solver);
+        });
+        assert_eq!(allocated.count_total, 0, "{allocated:?}");
+    }
+    assert!(free > 2 && free < 18 && engine > 2, "{free} {engine}");
+}
+
 /// Tests that a path without time is unresolved, and free before the point that is named.
 #[test]
 fn a_deadline_leaves_a_free_start() {
