@@ -111,8 +111,8 @@ pub enum Outcome {
 pub struct Stats {
     /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
     pub iterations: u64,
-    /// The approximate number of heights of points that were computed, by the oracle or for bounds of how long a gap
-    /// lasts.
+    /// The approximate number of times that a point was projected onto a direction, by the oracle or for bounds of how
+    /// long a gap lasts.
     pub point_evaluations: u64,
     /// The number of calls of the oracle.
     pub oracle_calls: u64,

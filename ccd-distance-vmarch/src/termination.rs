@@ -7,7 +7,7 @@ use crate::feature::{Certainty, Crossing, Pair, WhichPolytope};
 pub(crate) enum MarchEnd {
     /// The march reached the nearest features.
     Nearest(Pair, Certainty),
-    /// The march found a common point of A's and B's features; `WhichPolytope` is the polytope of the edge.
+    /// The march found a common point of an edge of one polytope, which is named, and of a feature of the other one.
     CommonPoint(Pair, WhichPolytope, Crossing),
     /// The march returned to this pair.
     Cycle(Pair),

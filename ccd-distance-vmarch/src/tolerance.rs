@@ -56,8 +56,9 @@ pub(crate) const MAX_STEPS_PER_FEATURE: usize = 4;
 /// The largest number of pairs of a cycle that are examined for the nearest pair. Cycles are two to six pairs long.
 pub(crate) const MAX_CYCLE_PAIRS: usize = 64;
 
-/// The largest number of moves to nearer features around a tie before the march resumes. Each move gets nearer by more
-/// than rounding; one or two were enough in a million pairs. It also limits the marches of one call.
+/// The largest number of times that a pair of features as near as its neighbours is replaced by a nearer one, before
+/// the march resumes. Each move gets nearer by more than rounding; one or two were enough in a million pairs. It also
+/// limits the marches of one call.
 pub(crate) const MAX_TIE_MOVES: usize = 8;
 
 /// The largest number of restarts of a march after a cycle or a similar end, before the oracle gives up. A restart

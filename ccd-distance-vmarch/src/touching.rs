@@ -1,4 +1,4 @@
-//! Finds separating axes for pieces with a common point, which may only touch each other.
+//! Finds separating axes for pieces that have a common point, but possibly only touch there.
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, WhichPolytope};

@@ -94,7 +94,7 @@ impl PyJoint {
         })
     }
 
-    /// The name of the joint.
+    /// The name of the joint, which no other joint of a robot has.
     #[getter]
     fn name(&self) -> &str {
         &self.joint.name

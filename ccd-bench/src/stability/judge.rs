@@ -5,8 +5,8 @@ use crate::method::guarded::QueryOutcome;
 use crate::run::contest::{self, Judgement};
 use crate::truth::{Referee, Truth};
 
-/// Judges a method's answer within the tolerance of the step, or within a larger tolerance that the method states. The
-/// referee measures distances; it is not asked for the answer.
+/// Judges a method's answer within the tolerance of one step of a family, or within a larger one that the method
+/// states. The referee measures distances; it is not asked for the answer.
 pub fn judge(
     step: &FamilyStep,
     case: &ExactCase,

@@ -199,7 +199,7 @@ impl<'a> NearSurface<'a> {
         corners.into_iter().chain(placed).for_each(look);
     }
 
-    /// Returns the middle of a piece's points.
+    /// Returns the mean of a piece's points, in A's frame.
     pub(super) fn mean_of_points(&self, piece: u32) -> DVec3 {
         self.body_to_a.point(self.body.mean_of_points(piece))
     }

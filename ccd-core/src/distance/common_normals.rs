@@ -30,7 +30,7 @@ impl CommonNormals {
         self.offsets.push(-offset);
     }
 
-    /// Adds a vector from B's point to a point of B's surface around it.
+    /// Adds a constraint: the vector from B's point to another point of B's surface.
     pub(crate) fn add_offset_of_b(&mut self, offset: DVec3) {
         self.offsets.push(offset);
     }

@@ -9,7 +9,7 @@ use crate::math::order::greater;
 pub(crate) struct Queue<T> {
     items: Vec<T>,
     vacant_slots: Vec<u32>,
-    /// The least key in the queue.
+    /// The key of the next item; `VACANT_KEY` if the queue is empty.
     least_key: Key,
     /// A tournament tree: the keys of the items, then the least of every four keys of the level before, up to a single
     /// four. The steps are the same for every change, so that no branch is mispredicted. In a heap, each step down has

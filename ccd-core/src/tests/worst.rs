@@ -188,7 +188,7 @@ impl RandomCase {
         }
     }
 
-    /// Reads a number that differs from `x` by a relative amount of any magnitude, from 0 to about 1.
+    /// Takes a number near `x` from the tape: the relative difference has any magnitude from 0 to about 1.
     pub(crate) fn number_near(&mut self, x: f64) -> f64 {
         x + x * self.any_number(-54..=0)
     }

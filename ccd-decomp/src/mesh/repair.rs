@@ -40,8 +40,8 @@ impl Repairs {
         self == &Repairs::default()
     }
 
-    /// Returns all repairs except the faces without area. Rebuilding the mesh from its triangles finds these faces
-    /// again, but not the other repairs.
+    /// Returns the repairs without the number of faces that have no area. Rebuilding the mesh from its triangles finds
+    /// these faces again, but not the other repairs.
     pub(crate) fn without_zero_area_tally(&self) -> Self {
         Repairs {
             zero_area_faces: Tally::default(),

@@ -116,8 +116,8 @@ fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
     side(triangle, point) == Ordering::Equal && Projection::new(triangle).is_none_or(within)
 }
 
-/// Adds the planes through the hub and the edge `p q`, in either orientation, that have the triangle's third corner
-/// `rest` on or behind them.
+/// Of the two oriented planes through the hub and the edge `p q`, adds those that do not have the corner `rest` in
+/// front.
 fn add_plane_through_edge(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {

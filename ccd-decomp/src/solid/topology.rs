@@ -81,7 +81,7 @@ impl Topology {
         (topology, turned)
     }
 
-    /// Returns whether the mesh bounds a solid: it is closed, and the nesting of its shells is clear.
+    /// Returns whether the mesh bounds a solid: it is closed, and its shells are nested unambiguously.
     pub fn is_solid(&self) -> bool {
         self.is_closed() && self.unclear_shells.is_empty()
     }

@@ -26,7 +26,7 @@ fn descriptions_are_parsed(#[case] text: &str, #[case] expected: BodySource) {
     assert_eq!(text.parse(), Ok(expected));
 }
 
-/// Returns the description of a mesh file, its part, and adjustments given as text.
+/// Returns the source that names a mesh file, an optional part of it, and adjustments given as text.
 fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
     let mut words = adjusted.split('@').skip(1);
     let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_adjustment_word);
@@ -224,7 +224,8 @@ fn primitives_are_single_solid_pieces() {
     }
 }
 
-/// Tests that the reported excess of a cylinder or cone is at most the maximum excess, and at least half of it.
+/// Tests that the reported excess of a polytope over its cylinder or cone is at most the allowed one, and at least half
+/// of it.
 #[rstest]
 #[case("cylinder:2,1", 2.0 / 4096.0)]
 #[case("cone:2,1,1e-5", 1e-5)]

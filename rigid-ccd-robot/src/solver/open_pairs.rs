@@ -21,7 +21,7 @@ pub(crate) struct OpenPair {
 pub(crate) struct OpenPairs(Vec<OpenPair>);
 
 impl OpenPair {
-    /// Creates a pair that is open at one point of the path.
+    /// Creates a pair that is undecided at one point of the path.
     pub(crate) fn at(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
         OpenPair {
             pair,

@@ -37,7 +37,8 @@ pub(crate) struct PartPairs<'c> {
 }
 
 impl PartPair {
-    /// Creates a pair of two of the robot's own parts, which the nearest frame above both sees move.
+    /// Creates a pair of two of the robot's own parts, whose displacements are measured in the nearest frame that holds
+    /// both.
     pub(crate) fn of_robot(cell: &Cell, displacements: &Displacements, parts: [usize; 2]) -> Self {
         let kinematics = cell.kinematics();
         let frame = kinematics.common_frame(parts.map(|part| cell.parts()[part].frame));

@@ -46,7 +46,7 @@ impl Bodies {
         })
     }
 
-    /// Builds the engine's query of a case on these bodies.
+    /// Builds the engine's query from a case, with these bodies as its shapes.
     ///
     /// # Errors
     /// The reason why the engine refuses the query.

@@ -183,7 +183,7 @@ fn far_rod(offset: f64) -> Scene {
     )
 }
 
-/// Returns T20: T4 scaled to a very small or very large size.
+/// Returns case T20: the rod and the wall of case T4 at a very small or very large scale.
 fn scaled_rod(scale: f64) -> Scene {
     let [mut rod, mut wall] = upright_rod_and_wall(PI, 1.25, Pose::IDENTITY);
     rod.shape = rod.shape.scaled(scale);

@@ -1,4 +1,5 @@
-//! Splits one node of a pair: its children are bounded against the other node, at the poses at the pair's clock.
+//! Splits one node of a pair: bounds its children against the other node, with both bodies placed at the time of the
+//! pair's clock.
 
 use super::bounds::{EightPairBounds, bound_eight_pairs};
 use super::common::NodeContext;

@@ -13,7 +13,7 @@ pub(crate) struct ExpansionBudget {
     limit: u64,
 }
 
-/// Returns the cost of an expansion to the given numbers of vertices and face corners.
+/// Returns what so many vertices and face corners take from the allowance of a file.
 pub(crate) fn expansion_cost(vertices: u64, corners: u64) -> u64 {
     vertices
         .saturating_mul(VERTEX_EXPANSION_COST)

@@ -19,8 +19,8 @@ fn motion(tape: &mut RandomCase) -> Option<Motion> {
     Motion::about(start, velocity, spin, centre).ok()
 }
 
-/// Sums over both bodies: the exact rate of approach and its exact derivative, and the terms of the engine's bounds of
-/// them.
+/// The exact rate of approach and its derivative, and the terms of the engine's bounds on both, summed over both
+/// bodies.
 struct ApproachRateTerms {
     rate: DoubleDouble,
     second_derivative: DoubleDouble,

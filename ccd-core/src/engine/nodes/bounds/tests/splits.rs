@@ -87,7 +87,7 @@ fn exceeds_beyond_rounding(one: f64, other: f64) -> Option<bool> {
     ((one - other).abs() > near).then_some(one > other)
 }
 
-/// For each option, the number of pairs for which it was not chosen, and for which it was chosen.
+/// How often each decision of the bounds was no, and how often yes.
 #[derive(Debug, Default)]
 struct ChoiceCounts {
     similar_size_revisit_counts: [usize; 2],
