@@ -19,7 +19,8 @@ pub enum LinkMeeting {
     /// The links never touch: that is proven for all configurations.
     Never,
     /// The links touch in every configuration, to within two nanometres: no joint moves one against the other, or both hold a
-    /// point on the axis of the one joint between them.
+    /// point on the axis of the one joint between them, or two of their bodies are convex and overlap in all boxes of
+    /// configurations.
     Always,
     /// The links touch in one configuration, and are apart in another.
     Sometimes {

@@ -14,7 +14,7 @@ mod rounding;
 mod search;
 mod stretch;
 mod time_limit;
-mod violation;
+pub(crate) mod violation;
 mod waypoints;
 
 pub use clearance_ranges::{ClearanceRange, RangeSettings};

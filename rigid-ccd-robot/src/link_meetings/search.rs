@@ -6,6 +6,7 @@ use crate::cell::Cell;
 use crate::solver::measure::{Measured, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
 use crate::solver::placement::Placement;
+use crate::solver::violation::are_convex_parts_nearer;
 use crate::tuning::HINGE_POINTS;
 use ccd_core::order::greater;
 use rigid_ccd::{Body, Error, Pose, Solver};
@@ -23,6 +24,8 @@ pub(super) struct PairSearch<'c> {
 struct Look {
     /// Whether the links are apart over the whole box.
     is_free: bool,
+    /// Whether they overlap over the whole box.
+    overlaps: bool,
     /// Whether they touch in the middle; `None` if rounding hides it.
     touches: Option<bool>,
 }
@@ -63,7 +66,7 @@ impl<'c> PairSearch<'c> {
         let mut pairs = self.part_pairs(links);
         for _ in 0..max_boxes {
             let Some(Waiting(joint_box)) = waiting.pop() else {
-                return Ok(LinkMeeting::Never);
+                break;
             };
             let look = self.look(&joint_box, &mut pairs)?;
             match look.touches {
@@ -80,16 +83,20 @@ impl<'c> PairSearch<'c> {
             }
             if look.is_free {
                 share += joint_box.share;
+            } else if look.overlaps {
+                // Nothing is left to examine in the box.
             } else if let Some(halves) = joint_box.halves(&weights) {
                 waiting.extend(halves.map(Waiting));
             } else {
                 return Ok(undecided(share, touching, apart));
             }
         }
-        if waiting.is_empty() {
-            return Ok(LinkMeeting::Never);
-        }
-        Ok(undecided(share, touching, apart))
+        // Of boxes that are all decided, none is free if one overlaps: both would have witnesses.
+        Ok(match touching {
+            None if waiting.is_empty() => LinkMeeting::Never,
+            Some(_) if waiting.is_empty() => LinkMeeting::Always,
+            touching => undecided(share, touching, apart),
+        })
     }
 
     /// Returns whether one joint that turns is between two links, with a point on its axis that both links hold. That point
@@ -146,6 +153,7 @@ impl<'c> PairSearch<'c> {
         self.placement.place_box(self.cell, &middle, deviation);
         let mut look = Look {
             is_free: true,
+            overlaps: false,
             touches: Some(false),
         };
         for pair in pairs {
@@ -173,6 +181,10 @@ impl<'c> PairSearch<'c> {
             }
             if look.touches == Some(true) {
                 look.is_free = false;
+                let (cell, placement) = (self.cell, &self.placement);
+                let depth = pair.displacement(placement) + rounding;
+                look.overlaps = pair.is_convex(cell.parts())
+                    && are_convex_parts_nearer(cell, placement, pair, -depth);
                 break;
             }
         }

@@ -64,6 +64,12 @@ impl PartPair {
         a + b
     }
 
+    /// Returns whether both parts are the bodies themselves.
+    pub(crate) fn is_convex(&self, parts: &[Part]) -> bool {
+        let mut both = [self.a, self.b].into_iter();
+        both.all(|part| parts[part as usize].is_convex)
+    }
+
     /// Returns the numbers of both bodies.
     pub(crate) fn owners(&self, parts: &[Part]) -> [usize; 2] {
         [self.a, self.b].map(|part| parts[part as usize].owner)

@@ -200,10 +200,10 @@ impl<'c> Search<'c> {
             let thresholds = self.thresholds(&pair);
             match measure(self.cell, &self.placement, &mut pair, thresholds, !is_last) {
                 Measured::Free => continue,
-                Measured::Near if !self.is_convex(&pair) => self.suspects.push(pair),
+                Measured::Near if !pair.is_convex(self.cell.parts()) => self.suspects.push(pair),
                 Measured::Near => self.keep_contact(&pair, stretch.middle())?,
                 Measured::Open(upper) if self.is_nearest(upper) => {
-                    if self.is_convex(&pair) {
+                    if pair.is_convex(self.cell.parts()) {
                         self.keep_nearest(&pair, stretch.middle(), upper);
                     } else {
                         self.suspects.push(pair);
@@ -273,13 +273,6 @@ impl<'c> Search<'c> {
             }
             sort_by_share(&mut self.candidates[first..]);
         }
-    }
-
-    pub(super) fn is_convex(&self, pair: &PartPair) -> bool {
-        let parts = self.cell.parts();
-        [pair.a, pair.b]
-            .iter()
-            .all(|&part| parts[part as usize].is_convex)
     }
 
     /// Returns whether a distance is of interest and the least so far.

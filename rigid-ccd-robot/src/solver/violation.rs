@@ -5,8 +5,10 @@
 use super::Question;
 use super::measure::{first_axis, vertex};
 use super::part_pairs::PartPair;
+use super::placement::Placement;
 use super::search::Search;
 use super::stretch::Stretch;
+use crate::cell::Cell;
 use ccd_core::fan_triangles;
 use ccd_core::order::{greater, lesser};
 use ccd_distance_gjk::{RequiredBounds, bound_distance};
@@ -44,8 +46,9 @@ impl Search<'_> {
         // The margin is grown once already.
         let distance =
             pair.margin - 2.0 * self.pairs.growth() - displacement - 4.0 * self.placement.rounding;
-        if self.is_convex(pair) {
-            return Ok(self.are_convex_parts_nearer(pair, distance));
+        if pair.is_convex(self.cell.parts()) {
+            let (cell, placement) = (self.cell, &self.placement);
+            return Ok(are_convex_parts_nearer(cell, placement, pair, distance));
         }
         // Written so that NaN proves nothing.
         if !(distance > 0.0) {
@@ -60,28 +63,33 @@ impl Search<'_> {
         });
         Ok(self.solver.distance(a, b)?.outcome.upper() < distance)
     }
+}
 
-    /// Returns whether two convex parts are nearer than a distance in the middle of the stretch. If it is negative, they have
-    /// to overlap by so much in each direction.
-    fn are_convex_parts_nearer(&self, pair: &PartPair, distance: f64) -> bool {
-        let parts = [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]);
-        let frames = parts.map(|part| self.placement.frames[part.frame]);
-        let [a, b] = parts;
-        // The distance of the points, by whose hulls parts are described, for the shapes that the parts enclose.
-        let distance = distance + a.radius + b.radius - a.excess - b.excess;
-        let centres = [frames[0].point(a.centre), frames[1].point(b.centre)];
-        let is_obstacle = pair.b as usize >= self.cell.robot_part_count();
-        let axis = first_axis(b, centres, is_obstacle);
-        let vertex = |direction: DVec3| vertex(parts, &frames, direction);
-        if distance > 0.0 {
-            let until = RequiredBounds {
-                lower: distance,
-                upper: 0.5 * distance,
-            };
-            bound_distance(vertex, axis, until).upper < distance
-        } else {
-            contains_ball(|direction| vertex(direction).point, -distance)
-        }
+/// Returns whether two convex parts are nearer than a distance in the middle of the stretch. If it is negative, they have
+/// to overlap by so much in each direction.
+pub(crate) fn are_convex_parts_nearer(
+    cell: &Cell,
+    placement: &Placement,
+    pair: &PartPair,
+    distance: f64,
+) -> bool {
+    let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
+    let frames = parts.map(|part| placement.frames[part.frame]);
+    let [a, b] = parts;
+    // The distance of the points, by whose hulls parts are described, for the shapes that the parts enclose.
+    let distance = distance + a.radius + b.radius - a.excess - b.excess;
+    let centres = [frames[0].point(a.centre), frames[1].point(b.centre)];
+    let is_obstacle = pair.b as usize >= cell.robot_part_count();
+    let axis = first_axis(b, centres, is_obstacle);
+    let vertex = |direction: DVec3| vertex(parts, &frames, direction);
+    if distance > 0.0 {
+        let until = RequiredBounds {
+            lower: distance,
+            upper: 0.5 * distance,
+        };
+        bound_distance(vertex, axis, until).upper < distance
+    } else {
+        contains_ball(|direction| vertex(direction).point, -distance)
     }
 }
 
