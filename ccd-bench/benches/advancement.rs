@@ -13,7 +13,7 @@ use ccd_bench::method::guarded::MethodPrograms;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, ProjectSolver};
 use ccd_bench::run::contest::{MeasurementLimits, PreparedScene, Session};
-use ccd_bench::scene::{ModelCache, PieceKind, listings};
+use ccd_bench::scene::{ModelCache, PieceKind, scene_descriptions};
 use ccd_core::Settings;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
@@ -39,8 +39,8 @@ const NAIVE_SCHEDULE_SCENE: &str = "knot216";
 
 fn benchmark_queries(criterion: &mut Criterion) {
     let mut models = ModelCache::default();
-    let listings = listings().expect("the scenes' data");
-    for listing in listings
+    let scene_descriptions = scene_descriptions().expect("the scenes' data");
+    for listing in scene_descriptions
         .iter()
         .filter(|l| SCENE_NAMES.contains(&l.name.as_str()))
     {

@@ -138,7 +138,7 @@ impl PoseSequence {
             let claim = oracle.separation(&pair, &mut cache).expect("no give-up");
             let on_a = claim.a.position(pair.a.points).expect("a point of A");
             let on_b = claim.b.position(pair.b.points).expect("a point of B");
-            on_a.distance(pose.point(on_b))
+            on_a.distance(pose.transform_point(on_b))
         };
         self.poses.iter().map(distance).collect()
     }

@@ -9,12 +9,12 @@ pub mod wire;
 
 use crate::method::peer::PeerKind;
 use crate::method::rival::{C2a, Contact, DynamicChecker, FixedTimeSteps};
-use crate::method::script::ScriptKind;
+use crate::method::script::ScriptMethod;
 use crate::method::solver::{ContactClaim, Reply, Solver};
 use crate::names::name_of;
 use crate::scene::PieceKind;
 use ccd_core::Answer;
-use ccd_core::{InputError, Instructions, Outcome, Settings};
+use ccd_core::{InputError, Outcome, Settings, VectorInstructions};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
 use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, Question, ScheduleKind, Solve, SolverKind};
@@ -31,7 +31,7 @@ pub enum Method {
     /// A peer library that this program calls directly.
     Peer(PeerKind),
     /// A peer library that a script runs, since it has no Rust interface.
-    Script(ScriptKind),
+    Script(ScriptMethod),
 }
 
 /// The published methods that are built here.
@@ -76,7 +76,10 @@ impl Method {
             (kind(best, OracleKind::Direct), PieceKind::Patches),
         ];
         let ours = ours.map(|(kind, pieces)| Method::ThisProject(kind, pieces));
-        let (rivals, peers) = (all_kinds(Method::Rival), all_kinds(Method::Peer));
+        let (rivals, peers) = (
+            methods_of_all_kinds(Method::Rival),
+            methods_of_all_kinds(Method::Peer),
+        );
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
@@ -99,7 +102,7 @@ impl Method {
 
     /// Returns all methods that a script runs.
     pub fn script_methods() -> impl Iterator<Item = Method> {
-        all_kinds(Method::Script)
+        methods_of_all_kinds(Method::Script)
     }
 
     /// Returns the method with the given name; `None` if there is none.
@@ -115,7 +118,7 @@ impl Method {
             Method::ThisProject(..) => !self.is_default_with_other_pieces(),
             Method::Rival(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
-            Method::Script(kind) => kind != ScriptKind::CoalDistance,
+            Method::Script(kind) => kind != ScriptMethod::CoalDistance,
         }
     }
 
@@ -132,7 +135,9 @@ impl Method {
     }
 }
 
-fn all_kinds<K: ValueEnum + 'static>(method: fn(K) -> Method) -> impl Iterator<Item = Method> {
+fn methods_of_all_kinds<K: ValueEnum + 'static>(
+    method: fn(K) -> Method,
+) -> impl Iterator<Item = Method> {
     K::value_variants().iter().cloned().map(method)
 }
 
@@ -178,7 +183,7 @@ impl<'s> ProjectSolver<'s> {
         ProjectSolver {
             bodies,
             kind,
-            solver: kind.solver(Instructions::Best),
+            solver: kind.solver(VectorInstructions::Best),
             margin,
         }
     }

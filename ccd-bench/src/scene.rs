@@ -5,7 +5,7 @@ pub mod model;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use listing::{SceneListing, listings};
+pub use listing::{SceneDescription, scene_descriptions};
 
 use crate::scene::model::Model;
 use anyhow::{Context, Result};

@@ -129,7 +129,7 @@ pub struct Stats {
 
 /// Whether two bodies stay at least a required distance apart over the whole duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Clearance {
+pub enum ClearanceVerdict {
     /// The bodies are certainly at least the required distance apart at all times.
     Kept,
     /// The bodies are certainly nearer than the required distance at some time.
@@ -215,19 +215,19 @@ impl Outcome {
         match *self {
             Outcome::Overlapping { .. } => Some(0.0),
             Outcome::Interval { first, .. } => Some(first.time),
-            _ => self.nearest().map(|(time, _)| time),
+            _ => self.nearest_contact().map(|(time, _)| time),
         }
     }
 
     /// Returns the time of the contact or of the measured distance, and the nearest pieces at that time.
-    pub fn nearest(&self) -> Option<(f64, Contact)> {
+    pub fn nearest_contact(&self) -> Option<(f64, Contact)> {
         match *self {
             Outcome::Contact { time, contact } | Outcome::LeastDistance { time, contact, .. } => {
                 Some((time, contact))
             }
             Outcome::Touching { contact } => Some((0.0, contact)),
             Outcome::Interval { first, .. } => first.contact().map(|contact| (first.time, contact)),
-            Outcome::Unresolved(known) => known.nearest,
+            Outcome::Unresolved(known) => known.nearest_contact,
             Outcome::Free { .. } | Outcome::Overlapping { .. } => None,
         }
     }
@@ -244,14 +244,14 @@ impl Outcome {
     /// tell.
     ///
     /// Bodies that may touch keep no clearance, not even a clearance of 0.
-    pub fn clearance(&self, required: f64) -> Clearance {
+    pub fn clearance_verdict(&self, required: f64) -> ClearanceVerdict {
         let (lower, upper) = (self.lower(), self.upper());
         if lower >= required && lower > 0.0 {
-            Clearance::Kept
+            ClearanceVerdict::Kept
         } else if upper < required || upper <= 0.0 {
-            Clearance::Violated
+            ClearanceVerdict::Violated
         } else {
-            Clearance::Unverified
+            ClearanceVerdict::Unverified
         }
     }
 
@@ -309,8 +309,8 @@ impl Outcome {
                 ..
             } => *contact = map(*contact, 0.0),
             Outcome::Unresolved(known) => {
-                let nearest = known.nearest;
-                known.nearest = nearest.map(|(time, contact)| (time, map(contact, time)));
+                let nearest = known.nearest_contact;
+                known.nearest_contact = nearest.map(|(time, contact)| (time, map(contact, time)));
                 *known = known.with_measured_upper_bound();
             }
             // The contacts of an interval are those of two first contacts, which have already been mapped.

@@ -1,6 +1,7 @@
 //! A rigid body: convex pieces, a tree over them, and whether they bound a solid.
 
 mod adjacency;
+mod cache_table;
 pub(crate) mod excess;
 pub(crate) mod facets;
 pub(crate) mod facing;
@@ -15,7 +16,6 @@ pub(crate) mod polytope;
 mod primitive;
 pub(crate) mod round;
 pub(crate) mod shell;
-mod side_table;
 pub(crate) mod support;
 mod surroundings;
 mod threads;
@@ -37,7 +37,7 @@ use pieces::Pieces;
 use shell::{ExtremePoints, part_extreme_points};
 use std::any::Any;
 #[cfg(not(feature = "hull-tree"))]
-use support::Support;
+use support::SupportMap;
 use threads::{join, parallel_for_each};
 use tree::point_query::polytopes_with_box_at;
 use tree::{Tree, TreeLayout};
@@ -306,8 +306,8 @@ impl Body {
 
 /// Builds the search structure for extremal points of a piece with many points.
 #[cfg(not(feature = "hull-tree"))]
-fn build_support_map(piece: &Piece<'_>) -> Support {
-    Support::from_points(piece.points)
+fn build_support_map(piece: &Piece<'_>) -> SupportMap {
+    SupportMap::from_points(piece.points)
 }
 
 /// Returns six times the volume bounded by a closed surface of triangles; negative if their normals point inward.

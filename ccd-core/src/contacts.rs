@@ -46,7 +46,7 @@ impl Problem<'_> {
     /// [`Query::contacts_at`](crate::Query::contacts_at).
     pub(crate) fn contacts_at(&self, clock: f64) -> Result<Vec<Contact>, ContactsError> {
         let frames = [self.a.path.frame(clock), self.b.path.frame(clock)];
-        let b_to_a = frames[0].from_frame(&frames[1]);
+        let b_to_a = frames[0].transform_from(&frames[1]);
         let mut skins = [
             NearSurface::new(self.a.body, Frame::IDENTITY),
             NearSurface::new(self.b.body, b_to_a),
@@ -57,7 +57,7 @@ impl Problem<'_> {
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_face_pairs(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
         for skin in &mut skins {
-            skin.find_hidden_edges_and_corners(self.rounding);
+            skin.find_internal_features(self.rounding);
         }
         let [a, b] = &skins;
         let mut manifold = ContactManifold::new(self, [a, b]);

@@ -111,7 +111,7 @@ pub enum InputError {
     /// A hierarchy is not a tree with one root in which every piece occurs exactly once.
     BadHierarchy {
         /// The index of the piece or node at which the check fails.
-        at: usize,
+        index: usize,
     },
     /// There are more pieces than indices of 32 bits can number.
     TooManyPieces {
@@ -196,7 +196,7 @@ impl fmt::Display for InputError {
                     "face {face} of piece {piece} has a corner that is NaN or infinite"
                 )
             }
-            Self::BadHierarchy { at } => {
+            Self::BadHierarchy { index: at } => {
                 write!(f, "the hierarchy misses, repeats or loops at {at}")
             }
             Self::TooManyPieces { pieces } => write!(f, "{pieces} pieces are too many"),

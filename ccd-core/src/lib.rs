@@ -103,7 +103,7 @@ mod touching_plane;
 pub mod tuning;
 
 pub use answer::{
-    Answer, Clearance, Contact, Hit, HitKind, Limit, Outcome, Overlap, Separation, Stats,
+    Answer, ClearanceVerdict, Contact, Hit, HitKind, Limit, Outcome, Overlap, Separation, Stats,
     Unresolved,
 };
 pub use body::facets::{Facets, fan_triangles};
@@ -118,7 +118,9 @@ pub use body::piece::Piece;
 pub use body::pieces::Pieces;
 pub use body::polytope::{Face, Facet, FacetOrigin, Polytope};
 pub use body::round::{Enclosure, SolidOfRevolution};
-pub use body::support::{Support, SupportScan, SupportTable, SupportTree, TABLE_DIRECTION_COUNT};
+pub use body::support::{
+    SupportMap, SupportScan, SupportTable, SupportTree, TABLE_DIRECTION_COUNT,
+};
 pub use body::{Body, Volume};
 pub use contacts::ContactsError;
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUpReason, OrElse, PiecePair};
@@ -137,5 +139,5 @@ pub use motion::trajectory::{
 };
 pub use query::{Movement, MovingBody, Query};
 pub use schedule::Schedule;
-pub use settings::{Instructions, Settings, StartPolicy};
+pub use settings::{Settings, StartPolicy, VectorInstructions};
 pub use swept_box::SweptBox;

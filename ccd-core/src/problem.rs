@@ -317,7 +317,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Converts a point from the world's coordinates to the problem's.
-    pub(crate) fn to_local_point(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn to_problem_point(&self, point: DVec3) -> DVec3 {
         point - self.origin
     }
 

@@ -78,10 +78,10 @@ impl<'a> From<&'a dyn Trajectory> for Movement<'a> {
 }
 
 impl Trajectory for Movement<'_> {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         match self {
-            Movement::Motion(motion) => motion.stretch(from, to),
-            Movement::Trajectory(trajectory) => trajectory.stretch(from, to),
+            Movement::Motion(motion) => motion.stretch_between(from, to),
+            Movement::Trajectory(trajectory) => trajectory.stretch_between(from, to),
         }
     }
 
@@ -266,7 +266,7 @@ impl<'a> Query<'a> {
             return problem.contacts_at(problem.clock(time));
         }
         let still = |moving: &MovingBody<'a>| {
-            let stretch = moving.movement.stretch(time, time)?;
+            let stretch = moving.movement.stretch_between(time, time)?;
             Ok::<_, InputError>((moving.body, Motion::still(stretch.motion.start())))
         };
         let bodies = [still(&self.a)?, still(&self.b)?];

@@ -209,7 +209,7 @@ pub fn turning_axis_rounding(turns: f64) -> f64 {
 /// The decrease of a pair's distance from which on the pair counts as approaching, in units of the distance's rounding.
 /// It is for pairs that are in contact at the start, and is measured from the distance at the start. Four units cover
 /// the rounding of both distances, and the rounding that a rate of zero accumulates over the whole duration.
-pub const APPROACH_DECREASE: f64 = 4.0;
+pub const MIN_APPROACH: f64 = 4.0;
 
 /// The height along a direction up to which the corners around a point count as level with the point, in units of the
 /// distance's rounding. One unit is for the point, and one for the corners.

@@ -48,7 +48,7 @@ pub struct Settings {
     /// machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
     /// The vector instructions that are used; answers are the same with any, to the last bit.
-    pub vector_instructions: Instructions,
+    pub vector_instructions: VectorInstructions,
     /// The shortcuts that the search uses; answers have the same guarantee with any of them.
     pub shortcuts: Shortcuts,
     /// A flag that another thread sets to stop the query; `None` if nothing stops it. Soon after it is set, a query
@@ -73,7 +73,7 @@ impl Settings {
         start: StartPolicy::Report,
         budget: limits::DEFAULT_BUDGET,
         deadline: None,
-        vector_instructions: Instructions::Best,
+        vector_instructions: VectorInstructions::Best,
         shortcuts: Shortcuts::ALL,
         stop: None,
     };
@@ -154,7 +154,7 @@ impl QuerySettings<'_> {
 ///
 /// On x86 these are AVX2 or SSE2. Other targets have one set each, NEON for instance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Instructions {
+pub enum VectorInstructions {
     /// The best instructions of the machine, detected at run time.
     #[default]
     Best,

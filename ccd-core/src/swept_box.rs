@@ -88,8 +88,12 @@ fn swept_box_of_stretches(
             .corner(from, to)
             .filter(|&at| at > from && at < to);
         for end in corner.into_iter().chain([to]) {
-            let part =
-                swept_box_of_stretch(body, &trajectory.stretch(from, end)?, end - from, terms)?;
+            let part = swept_box_of_stretch(
+                body,
+                &trajectory.stretch_between(from, end)?,
+                end - from,
+                terms,
+            )?;
             whole = Some(whole.map_or(part, |whole| SweptBox {
                 min: componentwise_min(whole.min, part.min),
                 max: componentwise_max(whole.max, part.max),
@@ -156,9 +160,9 @@ fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().body_box();
     let frame = path.frame(0.0);
-    let centre = frame.point(whole.centre);
+    let centre = frame.transform_point(whole.centre);
     let reach = DVec3::AXES.map(|axis| {
-        let along = frame.inverse_vector(axis);
+        let along = frame.inverse_transform_vector(axis);
         let half = (whole.axes.transpose() * along)
             .abs()
             .dot(whole.half_extents)

@@ -21,12 +21,12 @@ pub const MAX_DISTANCE_CHANGE_SHARE: f64 = 0.25;
 
 /// The largest share of the duration that the searched periods of repeating motions may take together. If they take
 /// more, the whole duration is searched at once.
-pub const MAX_SEARCHED_SHARE: f64 = 0.5;
+pub const MAX_SEARCHED_DURATION_SHARE: f64 = 0.5;
 
 /// The share of the gap along a fixed plane that rotation must use up for a plane that turns with the body to be tried.
 /// Measured: pieces as small as those of common meshes stay far below, large ones that turn past small ones are far
 /// above.
-pub const ROTATION_GAP_SHARE: f64 = 0.5;
+pub const MIN_ROTATION_GAP_SHARE: f64 = 0.5;
 
 /// The number of alternating projections between the boxes of two bodies, which approximate the nearest points of the
 /// boxes. Any axis is sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections prove 19, 20, 22,
@@ -49,7 +49,7 @@ pub const MAX_FOLLOW_MEASUREMENTS: usize = 16;
 /// The largest deviation of bodies from the motions that approximate their trajectories at which a contact is accepted,
 /// as a share of the tolerance. Four times that share is lost. Half of the tolerance is for the gap that the motions
 /// keep, and the other half for the contact that they show; each half loses the deviations twice.
-pub const DEVIATION_SHARE: f64 = 0.125;
+pub const MAX_DEVIATION_SHARE: f64 = 0.125;
 
 /// The least tolerance of a search with approximate motions, in units of their deviations from the trajectories.
 pub const MIN_TOLERANCE_PER_DEVIATION: f64 = 1.0 / 16.0;
@@ -66,11 +66,11 @@ pub const MIN_UNMEASURED_LENGTH_SHARE: f64 = 0.125;
 
 /// The estimated length below which a stretch of time is cut to that length before it is searched, as a share of the
 /// stretch.
-pub const MAX_CUT_SHARE: f64 = 0.75;
+pub const MAX_CUT_LENGTH_SHARE: f64 = 0.75;
 
 /// The least length of a part that is cut off a stretch of time, as a share of the stretch. This takes fewer cuts than
 /// many halves, but the length is an estimate.
-pub const MIN_CUT_SHARE: f64 = 1.0 / 1024.0;
+pub const MIN_CUT_LENGTH_SHARE: f64 = 1.0 / 1024.0;
 
 /// The largest number of parts of a query that have a budget of their own. The parts are between the corners of its
 /// trajectories. If there are more, some share one: a trajectory of a user may have any number of corners.
@@ -91,7 +91,7 @@ pub const MIN_NEWTON_GROWTH: f64 = 1.0 / 64.0;
 
 /// The slack above which a pair of pieces in contact at the start is advanced further, in units of the distance's
 /// rounding. The slack is the excess of the gap over the required gap. It is a part of
-/// [`APPROACH_DECREASE`](crate::rounding::APPROACH_DECREASE). Below it is the rounding of heights: each visit would find
+/// [`MIN_APPROACH`](crate::rounding::MIN_APPROACH). Below it is the rounding of heights: each visit would find
 /// some of it again, and a slowly approaching pair would be visited a million times before it is in contact.
 pub const MIN_RESTING_SLACK: f64 = 1.0 / 16.0;
 

@@ -55,7 +55,7 @@ pub(crate) struct BoundsTree {
 impl BoundsTree {
     /// Builds the tree in O(n log n).
     pub(crate) fn new(bounds: Vec<Bounds>) -> Self {
-        let boxes: Vec<Aabb> = bounds.iter().map(aabb).collect();
+        let boxes: Vec<Aabb> = bounds.iter().map(to_parry_aabb).collect();
         let bvh = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
         BoundsTree { bounds, bvh }
     }
@@ -72,18 +72,18 @@ impl BoundsTree {
         bounds: &Bounds,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        let aabb = aabb(bounds);
+        let aabb = to_parry_aabb(bounds);
         let mut near = self.bvh.intersect_aabb(&aabb);
         near.all(|index| !self.get(index).meets(bounds) || holds(index))
     }
 }
 
-fn aabb(bounds: &Bounds) -> Aabb {
-    Aabb::new(to_parry(bounds.lo), to_parry(bounds.hi))
+fn to_parry_aabb(bounds: &Bounds) -> Aabb {
+    Aabb::new(to_parry_vector(bounds.lo), to_parry_vector(bounds.hi))
 }
 
 /// Converts a vector to one of the version of `glam` that `parry3d` uses.
-pub(crate) fn to_parry(p: DVec3) -> Vector {
+pub(crate) fn to_parry_vector(p: DVec3) -> Vector {
     Vector::new(p.x, p.y, p.z)
 }
 

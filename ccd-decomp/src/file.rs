@@ -14,12 +14,12 @@ use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
 /// The file extension of a stored body, without the dot.
-pub const STORED_EXTENSION: &str = "ccd";
+pub const STORED_BODY_EXTENSION: &str = "ccd";
 
 /// Returns whether a path has the file extension of a stored body.
 pub(crate) fn has_stored_body_extension(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
-    extension.eq_ignore_ascii_case(STORED_EXTENSION)
+    extension.eq_ignore_ascii_case(STORED_BODY_EXTENSION)
 }
 
 /// The fields of a model in the order in which they are stored; remarks follow if there are any. A hull tree is stored

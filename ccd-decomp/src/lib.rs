@@ -87,7 +87,7 @@ mod work;
 #[path = "../../ccd-core/src/tests/worst.rs"]
 mod worst;
 
-pub use file::STORED_EXTENSION;
+pub use file::STORED_BODY_EXTENSION;
 pub use file::error::{StoreError, StoreFault};
 pub use file::obj::{write_obj, write_obj_pieces};
 pub use hull::{HullError, hull as convex_hull};

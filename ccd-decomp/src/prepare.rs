@@ -13,7 +13,7 @@ use crate::pieces::patches::{PatchOrder, decompose};
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::tolerance::AUTO_WORK_BUDGET;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::Volume;
 use error::PrepareError;
 use model::{Model, PreparedBody};
@@ -105,7 +105,9 @@ impl PiecesChoice {
         let mesh = turned.as_ref().unwrap_or(mesh);
         let requested = |pieces| (pieces, PieceReason::Requested);
         let (pieces, reason) = match detail {
-            Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK_BUDGET)),
+            Detail::Auto => {
+                choose::choose_pieces(mesh, &topology, &WorkBudget::with_steps(AUTO_WORK_BUDGET))
+            }
             Detail::Triangles | Detail::Surface => requested(PiecesOfOneKind::Triangles),
             Detail::Patches(order) => requested(PiecesOfOneKind::Patches(decompose(mesh, order)?)),
             Detail::Hull => {

@@ -14,7 +14,7 @@ mod planes;
 pub(crate) mod region;
 
 use crate::bounds::BoundsTree;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use box_tree::BoxTree;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -49,7 +49,7 @@ impl TriangleBoxes {
     pub(crate) fn all_near_faces_satisfy(
         &self,
         region: &Region,
-        work: &Work,
+        work: &WorkBudget,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let tree = &self.tree_outside_fans;

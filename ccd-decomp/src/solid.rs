@@ -17,7 +17,7 @@ pub(crate) mod topology;
 
 use crate::mesh::TriangleMesh;
 use crate::tally::Tally;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use crossings::crossings;
 use error::{Crossing, DecomposeError};
 use manifold::Manifold;
@@ -33,7 +33,7 @@ use topology::Topology;
 /// [`DecomposeError`] if the mesh bounds no solid.
 pub(crate) fn solid_surface(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
     let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh))?;
-    check_solid(&manifold, &Work::unbounded())?;
+    check_solid(&manifold, &WorkBudget::unbounded())?;
     Ok(manifold)
 }
 
@@ -42,7 +42,10 @@ pub(crate) fn solid_surface(mesh: &TriangleMesh) -> Result<Manifold<'_>, Decompo
 ///
 /// # Errors
 /// [`DecomposeError`]; [`WorkBudgetExceeded`](DecomposeError::WorkBudgetExceeded) if the work does not suffice.
-pub(crate) fn check_solid(manifold: &Manifold<'_>, work: &Work) -> Result<(), DecomposeError> {
+pub(crate) fn check_solid(
+    manifold: &Manifold<'_>,
+    work: &WorkBudget,
+) -> Result<(), DecomposeError> {
     if star_centre(manifold).is_some() {
         return Ok(());
     }

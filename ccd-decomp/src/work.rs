@@ -4,19 +4,19 @@ use std::cell::Cell;
 
 /// A budget of remaining steps. A step costs about as much as an exact predicate.
 #[derive(Debug)]
-pub(crate) struct Work {
+pub(crate) struct WorkBudget {
     remaining_steps: Cell<u64>,
 }
 
-impl Work {
+impl WorkBudget {
     /// Creates a budget without a limit, which only counts steps.
     pub(crate) fn unbounded() -> Self {
-        Work::with_steps(u64::MAX)
+        WorkBudget::with_steps(u64::MAX)
     }
 
     /// Creates a budget that is exhausted after `steps` steps.
     pub(crate) fn with_steps(steps: u64) -> Self {
-        Work {
+        WorkBudget {
             remaining_steps: Cell::new(steps),
         }
     }

@@ -11,7 +11,7 @@ use axis::best_separating_axis;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Claim, ConvexCombination, DistanceOracle, GiveUpReason, Instructions, Piece, PiecePair,
+    Claim, ConvexCombination, DistanceOracle, GiveUpReason, Piece, PiecePair, VectorInstructions,
     vectorize,
 };
 use nearest::{Corners, NearestPoints, nearest_points, support_gap};
@@ -53,7 +53,7 @@ pub struct ClosedForm {
 
 impl ClosedForm {
     /// Creates the oracle for a choice of vector instructions. All choices give the same claims, to the last bit.
-    pub fn new(instructions: Instructions) -> Self {
+    pub fn new(instructions: VectorInstructions) -> Self {
         ClosedForm {
             level: instructions.simd_level(),
         }
@@ -63,7 +63,7 @@ impl ClosedForm {
 impl Default for ClosedForm {
     /// Creates the oracle with the best vector instructions of the machine.
     fn default() -> Self {
-        ClosedForm::new(Instructions::Best)
+        ClosedForm::new(VectorInstructions::Best)
     }
 }
 
@@ -115,7 +115,7 @@ fn best_axis_and_points(
 #[inline]
 fn corners_in_local_frame(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);
-    let first = pair.b_to_a.point(b[0]) - a[0];
+    let first = pair.b_to_a.transform_point(b[0]) - a[0];
     let turn = pair.b_to_a.rotation;
     Some((
         [DVec3::ZERO, a[1] - a[0], a[2] - a[0]],

@@ -42,7 +42,7 @@ impl Axis {
 /// Returns the support gap `min_B n·y − max_A n·x` along a unit vector.
 pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
     let highest = placed.a.0.vertices.iter().map(|v| n.dot(v.point));
-    let own = placed.b.to_a.inverse_vector(n);
+    let own = placed.b.to_a.inverse_transform_vector(n);
     let lowest = placed.b.shape().vertices.iter().map(|v| own.dot(v.point));
     lowest.fold(f64::INFINITY, lesser) + n.dot(placed.b.to_a.translation)
         - highest.fold(f64::NEG_INFINITY, greater)
@@ -53,7 +53,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal_vertex(n)).point;
     let shape = placed.b.shape();
-    let own = -placed.b.to_a.inverse_vector(n);
+    let own = -placed.b.to_a.inverse_transform_vector(n);
     let lowest = placed.b.vertex(shape.extremal_vertex(own));
     // The axis of a zero direction separates nothing.
     let known = n != DVec3::ZERO;
@@ -90,7 +90,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
     let around_a = FeatureDirections::new(&placed.a, pair.a, offset);
     let around_b = FeatureDirections::new(&placed.b, pair.b, offset);
     for around in [&around_a, &around_b] {
-        around.across.iter().copied().for_each(&mut offer);
+        around.perpendiculars.iter().copied().for_each(&mut offer);
         for &edge in &around.edges {
             offer(perpendicular_part(offset, edge));
             offer(edge);
@@ -111,23 +111,23 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
 struct FeatureDirections {
     edges: Vec<DVec3>,
     /// The normals of the faces, then the directions perpendicular to an edge, in the plane of each face.
-    across: Vec<DVec3>,
+    perpendiculars: Vec<DVec3>,
 }
 
 impl FeatureDirections {
     fn new<P: PlacedPolytope>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
         let shape: &Polytope = polytope.shape();
         let mut edges = shape.edges_at(feature);
-        let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(offset).abs();
+        let slope = |e: u32| polytope.vector(shape.edge(e).direction).dot(offset).abs();
         edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
         edges.truncate(MAX_AXIS_EDGES);
         let faces = shape.faces_at(feature, &edges);
         let normals = faces.iter().map(|&f| shape.face(f).normal);
         let within = edges.iter().flat_map(|&e| shape.edge(e).inward_directions);
-        let along = edges.iter().map(|&e| shape.edge(e).along);
+        let along = edges.iter().map(|&e| shape.edge(e).direction);
         let turned = |local| polytope.vector(local);
         FeatureDirections {
-            across: normals.chain(within).map(turned).collect(),
+            perpendiculars: normals.chain(within).map(turned).collect(),
             edges: along.map(turned).collect(),
         }
     }

@@ -82,15 +82,18 @@ impl NearestParameters {
 /// second one is computed from it, so the distance of the points is off by rounding only.
 #[inline(always)]
 pub(crate) fn nearest_parameters(one: &Line, other: &Line) -> NearestParameters {
-    let across = one.along.cross(other.along);
+    let across = one.direction.cross(other.direction);
     let between = other.start - one.start;
     let square = across.length_squared();
     let s = if square > MAX_PARALLEL_SINE * MAX_PARALLEL_SINE {
-        clamp(between.cross(other.along).dot(across) / square, one.length)
+        clamp(
+            between.cross(other.direction).dot(across) / square,
+            one.length,
+        )
     } else {
         clip::parameter_of_overlap_middle(one, other)
     };
-    let free = (one.point_at(s) - other.start).dot(other.along);
+    let free = (one.point_at(s) - other.start).dot(other.direction);
     let t = clamp(free, other.length);
     // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {

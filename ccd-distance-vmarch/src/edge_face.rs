@@ -31,7 +31,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
         return step_to_nearest_side(e, &line, y, f);
     };
     // The same product, to the bit, as the slope of the corner's edges in `vertex_face`.
-    let slope = line.along.dot(normal);
+    let slope = line.direction.dot(normal);
     let base = normal.dot(line.start - y.point(side.start));
     let rounding = scale.rounding();
     let falls = slope < 0.0;

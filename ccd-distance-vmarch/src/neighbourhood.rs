@@ -35,15 +35,15 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
             keep_if_nearer(distance, on_a, vertex_or_edge_at(&placed.b, f, t));
         }
     }
-    offer_vertices(&placed.a, &a.vertices, &placed.b, &b, &mut keep_if_nearer);
-    offer_vertices(&placed.b, &b.vertices, &placed.a, &a, |distance, v, w| {
+    visit_vertex_pairs(&placed.a, &a.vertices, &placed.b, &b, &mut keep_if_nearer);
+    visit_vertex_pairs(&placed.b, &b.vertices, &placed.a, &a, |distance, v, w| {
         keep_if_nearer(distance, w, v);
     });
     best.1
 }
 
 /// Offers each pair of a vertex of X with an edge or face around a feature of Y, and their distance.
-fn offer_vertices<X: PlacedPolytope, Y: PlacedPolytope>(
+fn visit_vertex_pairs<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     vertices: &[u32],
     y: &Y,

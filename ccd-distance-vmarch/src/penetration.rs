@@ -4,7 +4,7 @@ use crate::double_double::six_times_volume;
 use crate::feature::{Crossing, WeightedCorners};
 use crate::placed::PlacedPolytope;
 use crate::tolerance::MAX_EDGE_FACE_PAIRS;
-use ccd_core::exact::side;
+use ccd_core::exact::side_of_plane;
 use ccd_core::glam::DVec3;
 
 /// Returns the point at which an edge passes through a face, or ends on it.
@@ -100,13 +100,13 @@ pub(crate) fn search_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
 
 /// Returns whether a segment and a triangle have a common point; false if they are coplanar.
 fn segment_crosses_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
-    let (first, last) = (side(triangle, start), side(triangle, end));
+    let (first, last) = (side_of_plane(triangle, start), side_of_plane(triangle, end));
     let beside = first == last && first.is_ne();
     if beside || (first.is_eq() && last.is_eq()) {
         return false;
     }
     let [a, b, c] = triangle;
-    let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side([start, p, q], end));
+    let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side_of_plane([start, p, q], end));
     turns.iter().all(|&turn| turn.is_ge()) || turns.iter().all(|&turn| turn.is_le())
 }
 
@@ -128,8 +128,8 @@ fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 
 fn barycentric_coordinates(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
     // Every face of the tetrahedron, seen from outside.
     let faces = [[apex, c, b], [apex, a, c], [apex, b, a], [a, b, c]];
-    let behind = faces.iter().all(|face| side(*face, point).is_le());
-    let solid = side([a, b, c], apex).is_lt();
+    let behind = faces.iter().all(|face| side_of_plane(*face, point).is_le());
+    let solid = side_of_plane([a, b, c], apex).is_lt();
     if !(behind && solid) {
         return None;
     }

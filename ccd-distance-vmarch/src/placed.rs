@@ -28,7 +28,7 @@ pub(crate) trait PlacedPolytope {
         let edge = self.shape().edge(e);
         Line {
             start: self.point(edge.start),
-            along: self.vector(edge.along),
+            direction: self.vector(edge.direction),
             length: edge.length,
         }
     }
@@ -72,13 +72,13 @@ pub(crate) struct RoundingScale {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     pub(crate) start: DVec3,
-    pub(crate) along: DVec3,
+    pub(crate) direction: DVec3,
     pub(crate) length: f64,
 }
 
 impl<'a> PlacedPair<'a> {
     pub(crate) fn new(a: &'a Polytope, b: &'a Polytope, b_to_a: &Frame) -> Self {
-        let translation = b_to_a.point(b.origin) - a.origin;
+        let translation = b_to_a.transform_point(b.origin) - a.origin;
         PlacedPair {
             a: PlacedA(a),
             b: PlacedB {
@@ -106,13 +106,13 @@ impl RoundingScale {
 impl Line {
     #[inline(always)]
     pub(crate) fn point_at(&self, parameter: f64) -> DVec3 {
-        self.start + self.along * parameter
+        self.start + self.direction * parameter
     }
 
     /// Returns the parameter of the edge's point that is nearest to a given point.
     #[inline(always)]
     pub(crate) fn nearest_parameter(&self, point: DVec3) -> f64 {
-        clamp((point - self.start).dot(self.along), self.length)
+        clamp((point - self.start).dot(self.direction), self.length)
     }
 }
 
@@ -147,7 +147,7 @@ impl PlacedPolytope for PlacedB<'_> {
 
     #[inline(always)]
     fn point(&self, local: DVec3) -> DVec3 {
-        self.to_a.point(local)
+        self.to_a.transform_point(local)
     }
 
     #[inline(always)]

@@ -48,7 +48,7 @@ pub(crate) struct Polytope {
 pub(crate) struct Vertex {
     pub(crate) point: DVec3,
     /// The index of the corner in the piece's points.
-    pub(crate) number: u32,
+    pub(crate) point_index: u32,
     first_outgoing_edge: u32,
     end_outgoing_edge: u32,
 }
@@ -57,10 +57,10 @@ pub(crate) struct Vertex {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutgoingEdge {
     /// The unit vector away from the vertex along the edge.
-    pub(crate) along: DVec3,
+    pub(crate) direction: DVec3,
     pub(crate) edge: u32,
     /// The vertex at the other end.
-    pub(crate) to: u32,
+    pub(crate) end_vertex: u32,
 }
 
 /// An edge between two faces, or the only edge of a polytope without faces.
@@ -68,7 +68,7 @@ pub(crate) struct OutgoingEdge {
 pub(crate) struct Edge {
     pub(crate) start: DVec3,
     /// The unit vector from the start to the end.
-    pub(crate) along: DVec3,
+    pub(crate) direction: DVec3,
     pub(crate) length: f64,
     /// The unit vectors from the edge into the two faces that meet here, which are the normals of the face-edge planes.
     /// Zero for a missing face.

@@ -94,7 +94,7 @@ fn extremal_vertex_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
 }
 
 fn extremal_vertex_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
-    let own = placed.b.to_a.inverse_vector(axis);
+    let own = placed.b.to_a.inverse_transform_vector(axis);
     Feature::Vertex(placed.b.shape().extremal_vertex(-own))
 }
 

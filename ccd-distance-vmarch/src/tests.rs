@@ -60,7 +60,7 @@ impl Tally {
             }
         };
         self.claim_count += 1;
-        let place = |p: DVec3| scene.b_to_a.point(p);
+        let place = |p: DVec3| scene.b_to_a.transform_point(p);
         let on_a = claim
             .a
             .position(&scene.a.shape.points)
@@ -117,7 +117,7 @@ fn move_to_next_pose(scene: &mut Scene<'_>, rng: &mut Pcg64) {
     let step = lesser(random_magnitude(rng, -16.0, -2.0), 0.01 * scene.gap);
     scene.gap -= 8.0 * step;
     let turn = DQuat::from_scaled_axis(step * random_direction(rng));
-    let about = scene.b_to_a.point(scene.b.shape.points[0]);
+    let about = scene.b_to_a.transform_point(scene.b.shape.points[0]);
     let frame = &mut scene.b_to_a;
     frame.rotation = ccd_core::glam::DMat3::from_quat(turn) * frame.rotation;
     frame.translation = about + turn * (frame.translation - about) + step * random_direction(rng);

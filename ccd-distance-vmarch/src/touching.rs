@@ -73,7 +73,7 @@ fn features<X: PlacedPolytope, Y: PlacedPolytope>(
     if let (Feature::Edge(e), Feature::Face(f)) = (of_x, of_y) {
         let normal = y.vector(y.shape().face(f).normal);
         let line = x.line(e);
-        let rise = normal.dot(line.along).abs() * line.length;
+        let rise = normal.dot(line.direction).abs() * line.length;
         return (rise <= scale.rounding()).then_some((of_x, of_y));
     }
     Some((of_x, of_y))
@@ -82,6 +82,6 @@ fn features<X: PlacedPolytope, Y: PlacedPolytope>(
 /// Returns the edge between two vertices, if there is one.
 fn edge_between(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
     let mut spokes = shape.outgoing_edges_of(v).iter();
-    let spoke = spokes.find(|spoke| spoke.to == w)?;
+    let spoke = spokes.find(|spoke| spoke.end_vertex == w)?;
     Some(Feature::Edge(spoke.edge))
 }

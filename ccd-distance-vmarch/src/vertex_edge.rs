@@ -26,11 +26,11 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     let edge = y.shape().edge(e);
     let line = y.line(e);
     let from_start = corner - line.start;
-    let parameter = from_start.dot(line.along);
+    let parameter = from_start.dot(line.direction);
     if parameter < 0.0 {
         return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[0]));
     }
-    if (corner - y.vertex(edge.ends[1])).dot(line.along) > 0.0 {
+    if (corner - y.vertex(edge.ends[1])).dot(line.direction) > 0.0 {
         return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
     }
     let offset = line.point_at(parameter) - corner;
@@ -100,14 +100,14 @@ fn steepest_edge_towards<X: PlacedPolytope>(
     };
     let rounding = scale.rounding();
     for spoke in x.shape().outgoing_edges_of(v) {
-        let along = x.vector(spoke.along);
+        let along = x.vector(spoke.direction);
         let slope = along.dot(offset);
         // Written so that NaN is a tie.
         if slope < -rounding {
             continue;
         }
-        let across = slope - along.dot(line.along) * offset.dot(line.along);
-        let sine = along.cross(line.along).length();
+        let across = slope - along.dot(line.direction) * offset.dot(line.direction);
+        let sine = along.cross(line.direction).length();
         let slack = rounding * sine + PRODUCT_ERROR * offset.length();
         if across - slack > out.scaled_decrease_rate {
             out.edge = spoke.edge;

@@ -110,7 +110,7 @@ fn vertex_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
     Witness {
         points: [point, foot],
         claim: Claim {
-            axis: perpendicular_part(offset, line.along),
+            axis: perpendicular_part(offset, line.direction),
             a: corner(x, v),
             b: combination_on_edge(y, e, parameter),
         },
@@ -135,7 +135,7 @@ fn edge_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
         points,
         claim: Claim {
             // The part along the edges, which would cost their length, is removed.
-            axis: perpendicular_part(perpendicular_part(axis, one.along), other.along),
+            axis: perpendicular_part(perpendicular_part(axis, one.direction), other.direction),
             a: combination_on_edge(x, e, s),
             b: combination_on_edge(y, f, t),
         },
@@ -185,14 +185,14 @@ fn combination<const N: usize>(
 ) -> ConvexCombination {
     let mut out = ConvexCombination::EMPTY;
     for (v, weight) in corners.vertices.into_iter().zip(corners.weights) {
-        out.push(shape.vertex(v).number, weight);
+        out.push(shape.vertex(v).point_index, weight);
     }
     out
 }
 
 #[inline]
 fn corner<P: PlacedPolytope>(polytope: &P, v: u32) -> ConvexCombination {
-    ConvexCombination::point(polytope.shape().vertex(v).number)
+    ConvexCombination::point(polytope.shape().vertex(v).point_index)
 }
 
 #[inline]
@@ -203,7 +203,7 @@ fn combination_on_edge<P: PlacedPolytope>(
 ) -> ConvexCombination {
     let shape = polytope.shape();
     let edge = shape.edge(e);
-    let numbers = edge.ends.map(|v| shape.vertex(v).number);
+    let numbers = edge.ends.map(|v| shape.vertex(v).point_index);
     ConvexCombination::segment(numbers, parameter / edge.length)
 }
 
@@ -244,13 +244,13 @@ fn clamped_foot_weights(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f
     let (end, apex) = ((start + 1) % 3, (start + 2) % 3);
     let base = Line {
         start: triangle[start],
-        along: triangle[end] - triangle[start],
+        direction: triangle[end] - triangle[start],
         length: square(start),
     };
-    let upward = normal.cross(base.along);
+    let upward = normal.cross(base.direction);
     let [to_point, to_apex] = [point, triangle[apex]].map(|p| p - base.start);
     let of_apex = clamp(to_point.dot(upward) / to_apex.dot(upward), 1.0);
-    let along = (to_point - of_apex * to_apex).dot(base.along) / base.length;
+    let along = (to_point - of_apex * to_apex).dot(base.direction) / base.length;
     let of_end = clamp(along, 1.0 - of_apex);
     let mut weights = [0.0; 3];
     weights[apex] = of_apex;

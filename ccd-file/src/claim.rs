@@ -20,7 +20,7 @@ pub struct Claim {
     /// The open file, which is locked as long as it is open.
     temp_file: TempFile,
     /// The length in bytes of what an earlier process left in the file.
-    left_length: u64,
+    initial_length: u64,
 }
 
 /// The maximum number of attempts to lock the file; one fails if another process renames the file before it is locked.
@@ -63,7 +63,7 @@ impl Claim {
                 };
                 return Ok(Claim {
                     temp_file,
-                    left_length,
+                    initial_length: left_length,
                 });
             }
         }
@@ -71,8 +71,8 @@ impl Claim {
     }
 
     /// Returns the length in bytes of what an earlier process left in the file.
-    pub fn left_length(&self) -> u64 {
-        self.left_length
+    pub fn initial_length(&self) -> u64 {
+        self.initial_length
     }
 
     /// Returns the temporary path under which the file is written.

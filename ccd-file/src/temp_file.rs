@@ -20,9 +20,9 @@ pub(crate) struct TempFile {
 impl TempFile {
     /// Creates an empty file in the target's folder, under a name that no other thread or process uses.
     pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
-        static COUNT: AtomicU64 = AtomicU64::new(0);
+        static NEXT_FILE_NUMBER: AtomicU64 = AtomicU64::new(0);
         loop {
-            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            let count = NEXT_FILE_NUMBER.fetch_add(1, Ordering::Relaxed);
             let path = sibling(&target, &format!(".{}-{count}.part", std::process::id()));
             match File::create_new(&path) {
                 // Left behind by a process with the same id.

@@ -90,7 +90,7 @@ fn a_claimed_file_is_given_to_one() {
     drop(kept);
     drop(claim(target.clone()).unwrap());
     let mut again = claim(target.clone()).unwrap();
-    assert_eq!(again.left_length(), 9);
+    assert_eq!(again.initial_length(), 9);
     again.truncate(4).unwrap();
     again.file().write_all(b"over").unwrap();
     again.place().unwrap();
@@ -146,7 +146,7 @@ fn threads_have_a_claimed_file_one_after_the_other() {
                         Err(error) if error.kind() == io::ErrorKind::ResourceBusy => continue,
                         Err(error) => panic!("{error}"),
                     };
-                    assert_eq!(claim.left_length(), 0);
+                    assert_eq!(claim.initial_length(), 0);
                     for _ in 0..10 {
                         claim.file().write_all(&[b'0' + number as u8]).unwrap();
                     }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | write a page of its own | [`Page::write`] |
 //! | put the views on another page | [`VIEW_HTML`], [`VIEW_CSS`], [`view_scripts`] and [`views_json`] |
-//! | say what is shown | [`Group`] of [`View`]s: [`ShownBody`], [`ShownContact`], [`GapCurve`] |
+//! | say what is shown | [`AnimationGroup`] of [`Animation`]s: [`ShownBody`], [`ShownContact`], [`GapCurve`] |
 //!
 //! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL.
 //! Meshes are drawn in single precision, relative to their centres. Texts and numbers are shown as given.
@@ -39,4 +39,4 @@ pub use page::{
     script_elements, view_scripts, views_json,
 };
 pub use shown_motion::{Keyframe, ShownMotion};
-pub use view::{GapCurve, GapSample, Group, ShownBody, ShownContact, View};
+pub use view::{Animation, AnimationGroup, GapCurve, GapSample, ShownBody, ShownContact};

@@ -1,6 +1,6 @@
 //! Writes views as a page of one file, or as parts of another page.
 
-use crate::{Group, Meshes};
+use crate::{AnimationGroup, Meshes};
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
@@ -20,7 +20,7 @@ pub struct Page<'a> {
     /// The meshes of all bodies on the page.
     pub meshes: Meshes,
     /// The groups of views, among which the page's reader chooses. Several groups get a list to choose from.
-    pub groups: Vec<Group>,
+    pub groups: Vec<AnimationGroup>,
 }
 
 /// The error of a page that cannot be written.
@@ -106,11 +106,11 @@ pub fn script_elements(scripts: &[&str]) -> String {
 ///
 /// # Errors
 /// The value cannot be serialised.
-pub fn views_json(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Error> {
+pub fn views_json(meshes: &Meshes, groups: &[AnimationGroup]) -> Result<String, serde_json::Error> {
     #[derive(Serialize)]
     struct ViewsData<'a> {
         meshes: &'a Meshes,
-        groups: &'a [Group],
+        groups: &'a [AnimationGroup],
     }
     json(&ViewsData { meshes, groups })
 }

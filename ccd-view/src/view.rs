@@ -6,16 +6,16 @@ use serde::Serialize;
 
 /// A named group of views, which the page lists together.
 #[derive(Clone, Debug, Serialize)]
-pub struct Group {
+pub struct AnimationGroup {
     /// The name of the group in the page's list of groups.
     pub name: String,
     /// The views of the group, shown one at a time.
-    pub views: Vec<View>,
+    pub views: Vec<Animation>,
 }
 
 /// The content that the page shows at once: one query, or one scene.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct View {
+pub struct Animation {
     /// The name of the view in its group's list.
     pub name: String,
     /// The result of the query or the scene, in words.
@@ -89,14 +89,14 @@ pub struct ShownContact {
     pub highlight_b: Vec<DVec3>,
 }
 
-impl View {
+impl Animation {
     /// Creates a view of motions from time 0 to `duration`, without bodies.
     pub fn new(name: &str, verdict: &str, duration: f64) -> Self {
-        View {
+        Animation {
             name: name.to_owned(),
             verdict: verdict.to_owned(),
             duration,
-            ..View::default()
+            ..Animation::default()
         }
     }
 }

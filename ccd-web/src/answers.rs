@@ -26,7 +26,7 @@ pub(crate) fn random_throw_results() -> Result<Value, WebError> {
             velocity: [0, 1, 2].map(|k| speed * (aim[k] - place[k])),
             spin,
         };
-        let (one, other) = (Part::named(part)?, Part::named(target)?);
+        let (one, other) = (Part::from_name(part)?, Part::from_name(target)?);
         let found = throw.first_contact(&one, &other)?;
         let seen = throw.steps(&one, &other, STEPS)?;
         let numbers = [throw.place, throw.velocity, throw.spin].concat();

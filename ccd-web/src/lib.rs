@@ -3,7 +3,7 @@
 //!
 //! | to … | use |
 //! |---|---|
-//! | make a part | [`Part::named`], [`Part::from_file`] |
+//! | make a part | [`Part::from_name`], [`Part::from_file`] |
 //! | throw it at another one | [`Throw`], then [`Throw::first_contact`] |
 //! | look at some instants of the same throw | [`Throw::steps`] |
 //!

@@ -62,7 +62,7 @@ impl Part {
     ///
     /// # Errors
     /// [`WebError::UnknownPart`].
-    pub fn named(name: &str) -> Result<Self, WebError> {
+    pub fn from_name(name: &str) -> Result<Self, WebError> {
         match name {
             "bullet" => Part::capsule(0.025, 0.035),
             "coin" => Part::cuboid([0.1, 0.1, 0.006]),

@@ -33,7 +33,9 @@ pub(crate) fn distance<'py>(
     found: &Outcome,
     clearance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let nearest = found.nearest().map(|(_, contact)| contact.separation);
+    let nearest = found
+        .nearest_contact()
+        .map(|(_, contact)| contact.separation);
     let compared = clearance.map(|_| Status::of(Question::Distance, found, clearance).name());
     static DISTANCE_CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     DISTANCE_CLASS

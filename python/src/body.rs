@@ -8,7 +8,7 @@ use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Volume};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
-    Adjustments, Axis, Detail, MeshSource, Model, STORED_EXTENSION, SourceError, StoreFault,
+    Adjustments, Axis, Detail, MeshSource, Model, STORED_BODY_EXTENSION, SourceError, StoreFault,
     TriangleMesh, Unit, prepare,
 };
 use rigid_ccd::{Body, Remark};
@@ -37,7 +37,7 @@ pub(crate) struct PyBody {
     pub(crate) body: Body,
     /// The largest side of the bounding box, in the body's unit of length.
     size: f64,
-    made: PickleData,
+    pickle_data: PickleData,
     #[pyo3(get)]
     /// A description of the body in words: its shape and lengths, or the pieces made of its mesh with remarks about it.
     report: String,
@@ -290,7 +290,7 @@ impl PyBody {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        match &slf.get().made {
+        match &slf.get().pickle_data {
             PickleData::Shape(recipe) => recipe.reduce_tuple(slf.get_type()),
             PickleData::Mesh(model) => {
                 let (py, mut bytes) = (slf.py(), Vec::new());
@@ -315,20 +315,20 @@ impl PyBody {
 }
 
 impl PyBody {
-    fn from_parts(body: Body, made: PickleData, report: String) -> Self {
+    fn from_parts(body: Body, pickle_data: PickleData, report: String) -> Self {
         let size = Remark::size(&body);
         PyBody {
             body,
             size,
-            made,
+            pickle_data,
             report,
         }
     }
 
     fn from_model(model: Model) -> PyResult<Self> {
         let (body, report) = (model.body().map_err(input_error)?, model.report.to_string());
-        let made = PickleData::Mesh(Box::new(model));
-        Ok(PyBody::from_parts(body, made, report))
+        let pickle_data = PickleData::Mesh(Box::new(model));
+        Ok(PyBody::from_parts(body, pickle_data, report))
     }
 
     fn from_shape(
@@ -359,7 +359,7 @@ impl PyBody {
     }
 
     fn model(&self) -> PyResult<Cow<'_, Model>> {
-        match &self.made {
+        match &self.pickle_data {
             PickleData::Mesh(model) => Ok(Cow::Borrowed(model)),
             PickleData::Shape(_) => Ok(Cow::Owned(
                 Model::from_body(&self.body).map_err(input_error)?,
@@ -371,7 +371,7 @@ impl PyBody {
 /// Returns whether a file is a prepared body, judged by its extension.
 fn is_prepared_body(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
-    extension.eq_ignore_ascii_case(STORED_EXTENSION)
+    extension.eq_ignore_ascii_case(STORED_BODY_EXTENSION)
 }
 
 fn parse_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {

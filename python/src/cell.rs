@@ -1,8 +1,8 @@
 //! The Python class `Cell`.
 
 use crate::body::extract_body;
-use crate::cell_rows::{self, Ask, PathRow};
-use crate::cell_solver::{SolvedCell, answer_all};
+use crate::cell_rows::{self, PathQuestion, PathRow};
+use crate::cell_solver::{CellWithCachedSolver, answer_all};
 use crate::errors::{Unresolved, input_error, input_error_from, unresolved_error, with_attribute};
 use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
@@ -12,7 +12,7 @@ use crate::settings::{CONTACT_SETTING_NAMES, read, read_thread_count};
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::answer::{Clearance, Limit};
+use rigid_ccd::answer::{ClearanceVerdict, Limit};
 use rigid_ccd::{Error, Pose, Settings};
 use rigid_ccd_robot::{Cell, PathError, PathPoint, RangeSettings, RobotError};
 use std::sync::Arc;
@@ -28,7 +28,7 @@ use std::time::Duration;
 #[pyclass(name = "Cell", module = "rigid_ccd", frozen)]
 pub(crate) struct PyCell {
     robot: Py<PyRobot>,
-    solved: SolvedCell,
+    cell_with_solver: CellWithCachedSolver,
 }
 
 #[pymethods]
@@ -43,7 +43,7 @@ impl PyCell {
         let cell = Cell::new((**links).clone(), pairs.clone());
         PyCell {
             robot: robot.clone().unbind(),
-            solved: SolvedCell::new(cell),
+            cell_with_solver: CellWithCachedSolver::new(cell),
         }
     }
 
@@ -120,7 +120,9 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        Ok(self.ask(py, Ask::IsFree, path, settings)?.is_free())
+        Ok(self
+            .ask(py, PathQuestion::IsFree, path, settings)?
+            .is_free())
     }
 
     /// Returns the first contact on a path, or None. Nothing touches before it.
@@ -134,7 +136,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let row = self.ask(py, Ask::FirstContact, path, settings)?;
+        let row = self.ask(py, PathQuestion::FirstContact, path, settings)?;
         match row.limit {
             Some(limit) => {
                 let until = row
@@ -156,7 +158,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let row = self.ask(py, Ask::ClosestApproach, path, settings)?;
+        let row = self.ask(py, PathQuestion::ClosestApproach, path, settings)?;
         let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
         class.call1((row.lower, row.upper, row.contact(py)?))
     }
@@ -192,7 +194,7 @@ impl PyCell {
                 stop: Some(Arc::clone(stop)),
                 ..settings
             };
-            self.solved.ask(settings, |solver| {
+            self.cell_with_solver.ask(settings, |solver| {
                 solver.clearance_ranges(&path.configurations(), how)
             })
         };
@@ -203,9 +205,9 @@ impl PyCell {
         let ranges = ranges.map_err(|error| path_error(py, error))?;
         let ranges = ranges.iter().map(|range| {
             let clearance = match range.clearance {
-                Clearance::Kept => "kept",
-                Clearance::Violated => "violated",
-                Clearance::Unverified => "unverified",
+                ClearanceVerdict::Kept => "kept",
+                ClearanceVerdict::Violated => "violated",
+                ClearanceVerdict::Unverified => "unverified",
             };
             class.call1((at(range.from), at(range.to), clearance))
         });
@@ -249,13 +251,13 @@ impl PyCell {
         threads: Option<i64>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let ask = Ask::named(ask)?;
+        let ask = PathQuestion::from_name(ask)?;
         let settings = read(settings, ask.known_settings())?;
         let threads = read_thread_count(threads)?;
-        let cell = self.solved.cell();
+        let cell = self.cell_with_solver.cell();
         let array = PathArray::read(paths, "paths")?;
         let joints = cell.robot().free_joint_names().len();
-        array.check_many(joints)?;
+        array.check_shape_of_paths(joints)?;
         let work = |stop: &Arc<_>| {
             let settings = Settings {
                 stop: Some(Arc::clone(stop)),
@@ -274,7 +276,7 @@ impl PyCell {
     }
 
     fn __repr__(&self) -> String {
-        let cell = self.solved.cell();
+        let cell = self.cell_with_solver.cell();
         let obstacles: Vec<&str> = cell.obstacle_names().collect();
         format!(
             "Cell({} obstacles: {})",
@@ -286,14 +288,14 @@ impl PyCell {
 
 /// The time after which a question goes on, from its start, on a thread that Ctrl-C can end. To start one for each question
 /// would cost more than most questions do.
-const SHORT: Duration = Duration::from_millis(5);
+const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
 
 impl PyCell {
     /// Asks a question about a path.
     fn ask(
         &self,
         py: Python<'_>,
-        ask: Ask,
+        ask: PathQuestion,
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PathRow> {
@@ -301,22 +303,24 @@ impl PyCell {
         let path = PathArray::read(path, "path")?;
         let path = path.configurations();
         let question = |settings| {
-            let solved = &self.solved;
-            solved.ask(settings, |solver| ask.ask(solver, &path))
+            let solver = &self.cell_with_solver;
+            solver.ask(settings, |solver| ask.ask(solver, &path))
         };
         let longer = settings
             .deadline
-            .map(|deadline| deadline.checked_sub(SHORT));
+            .map(|deadline| deadline.checked_sub(FIRST_ATTEMPT_TIME_LIMIT));
         let first = Settings {
             deadline: Some(
                 settings
                     .deadline
-                    .map_or(SHORT, |deadline| deadline.min(SHORT)),
+                    .map_or(FIRST_ATTEMPT_TIME_LIMIT, |deadline| {
+                        deadline.min(FIRST_ATTEMPT_TIME_LIMIT)
+                    }),
             ),
             ..settings.clone()
         };
         let mut found = py.detach(|| question(first));
-        if is_late(&found) && longer != Some(None) {
+        if ended_by_deadline(&found) && longer != Some(None) {
             let work = |stop: &Arc<_>| {
                 question(Settings {
                     deadline: longer.flatten(),
@@ -332,12 +336,12 @@ impl PyCell {
     }
 
     fn change(&self, change: impl FnOnce(&mut Cell) -> Result<(), RobotError>) -> PyResult<()> {
-        self.solved.change(change).map_err(input_error)
+        self.cell_with_solver.change(change).map_err(input_error)
     }
 }
 
 /// Returns whether a deadline ended a question.
-fn is_late(found: &Result<PathRow, PathError>) -> bool {
+fn ended_by_deadline(found: &Result<PathRow, PathError>) -> bool {
     let limit = match found {
         Ok(row) => row.limit,
         Err(PathError::Query(Error::Unresolved(known))) => Some(known.limit),

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// A question about many paths.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ask {
+pub(crate) enum PathQuestion {
     IsFree,
     FirstContact,
     ClosestApproach,
@@ -35,12 +35,12 @@ pub(crate) struct PathRow {
     error: Option<String>,
 }
 
-impl Ask {
-    pub(crate) fn named(name: &str) -> PyResult<Self> {
+impl PathQuestion {
+    pub(crate) fn from_name(name: &str) -> PyResult<Self> {
         match name {
-            "is-free" => Ok(Ask::IsFree),
-            "first-contact" => Ok(Ask::FirstContact),
-            "closest-approach" => Ok(Ask::ClosestApproach),
+            "is-free" => Ok(PathQuestion::IsFree),
+            "first-contact" => Ok(PathQuestion::FirstContact),
+            "closest-approach" => Ok(PathQuestion::ClosestApproach),
             _ => Err(input_error(format!(
                 "ask: '{name}' is not is-free, first-contact or closest-approach"
             ))),
@@ -49,8 +49,8 @@ impl Ask {
 
     pub(crate) fn known_settings(self) -> &'static [&'static str] {
         match self {
-            Ask::IsFree | Ask::FirstContact => CONTACT_SETTING_NAMES,
-            Ask::ClosestApproach => DISTANCE_SETTING_NAMES,
+            PathQuestion::IsFree | PathQuestion::FirstContact => CONTACT_SETTING_NAMES,
+            PathQuestion::ClosestApproach => DISTANCE_SETTING_NAMES,
         }
     }
 
@@ -61,9 +61,9 @@ impl Ask {
         path: &[&[f64]],
     ) -> Result<PathRow, PathError> {
         match self {
-            Ask::IsFree => solver.is_free(path).map(PathRow::from_freedom),
-            Ask::FirstContact => PathRow::first_contact(solver, path),
-            Ask::ClosestApproach => PathRow::closest_approach(solver, path),
+            PathQuestion::IsFree => solver.is_free(path).map(PathRow::from_is_free),
+            PathQuestion::FirstContact => PathRow::first_contact(solver, path),
+            PathQuestion::ClosestApproach => PathRow::closest_approach(solver, path),
         }
     }
 
@@ -97,7 +97,7 @@ impl PathRow {
         }
     }
 
-    fn from_freedom(is_free: bool) -> Self {
+    fn from_is_free(is_free: bool) -> Self {
         PathRow::with_status(if is_free { "free" } else { "contact" })
     }
 
@@ -162,10 +162,10 @@ impl PathRow {
 }
 
 /// Returns the answers to a question as a table.
-pub(crate) fn table(rows: &[PathRow], ask: Ask) -> Result<RecordBatch, ArrowError> {
+pub(crate) fn table(rows: &[PathRow], ask: PathQuestion) -> Result<RecordBatch, ArrowError> {
     let status: StringArray = rows.iter().map(|row| Some(row.status)).collect();
     let mut columns: Vec<(&str, ArrayRef)> = vec![("status", Arc::new(status))];
-    if ask != Ask::IsFree {
+    if ask != PathQuestion::IsFree {
         let segments: UInt64Array = rows
             .iter()
             .map(|row| row.at.map(|(segment, _)| segment as u64))
@@ -180,12 +180,12 @@ pub(crate) fn table(rows: &[PathRow], ask: Ask) -> Result<RecordBatch, ArrowErro
             columns.push((column, Arc::new(names)));
         }
     }
-    if ask == Ask::ClosestApproach {
+    if ask == PathQuestion::ClosestApproach {
         let known = |number: f64| (!number.is_nan()).then_some(number);
         columns.push(("lower", numbers(rows, |row| known(row.lower))));
         columns.push(("upper", numbers(rows, |row| known(row.upper))));
     }
-    if ask != Ask::IsFree {
+    if ask != PathQuestion::IsFree {
         let witnesses = ["wa_x", "wa_y", "wa_z", "wb_x", "wb_y", "wb_z"];
         for (k, column) in witnesses.into_iter().enumerate() {
             let coordinate = |row: &PathRow| row.witnesses.map(|points| points[k / 3][k % 3]);

@@ -15,15 +15,15 @@ self_cell::self_cell!(
 );
 
 /// A cell that may change between questions, and a solver for it. Changes do not wait for a question.
-pub(crate) struct SolvedCell {
+pub(crate) struct CellWithCachedSolver {
     cell: Mutex<Arc<Cell>>,
     /// The solver of the last question.
     solver: Mutex<Option<CellAndSolver>>,
 }
 
-impl SolvedCell {
+impl CellWithCachedSolver {
     pub(crate) fn new(cell: Cell) -> Self {
-        SolvedCell {
+        CellWithCachedSolver {
             cell: Mutex::new(Arc::new(cell)),
             solver: Mutex::new(None),
         }

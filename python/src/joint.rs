@@ -7,7 +7,7 @@ use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use rigid_ccd::trajectory;
-use rigid_ccd_robot::{Joint, Position};
+use rigid_ccd_robot::{Joint, PositionRule};
 
 /// A joint of a `Robot`, as in URDF: `Joint.revolute`, `Joint.prismatic` or `Joint.fixed`. It holds the link `child` on the
 /// link `parent`.
@@ -15,7 +15,7 @@ use rigid_ccd_robot::{Joint, Position};
 pub(crate) struct PyJoint {
     pub(crate) joint: Joint,
     kind: &'static str,
-    made: ConstructorCall,
+    constructor_call: ConstructorCall,
 }
 
 /// A joint that follows another one: its name, the multiplier and the offset.
@@ -53,7 +53,7 @@ impl PyJoint {
         mimic: Option<Mimic>,
     ) -> PyResult<Self> {
         let moving = (origin, axis, limits, mimic);
-        PyJoint::moving(class.py(), "revolute", [name, parent, child], moving)
+        PyJoint::moving_joint(class.py(), "revolute", [name, parent, child], moving)
     }
 
     /// Makes a joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
@@ -71,7 +71,7 @@ impl PyJoint {
         mimic: Option<Mimic>,
     ) -> PyResult<Self> {
         let moving = (origin, axis, limits, mimic);
-        PyJoint::moving(class.py(), "prismatic", [name, parent, child], moving)
+        PyJoint::moving_joint(class.py(), "prismatic", [name, parent, child], moving)
     }
 
     /// Makes a joint without a degree of freedom, which has no position.
@@ -90,7 +90,11 @@ impl PyJoint {
         Ok(PyJoint {
             joint: named_joint(names, joint, None),
             kind: "fixed",
-            made: ConstructorCall::new(class.py(), Some("fixed"), (name, parent, child, origin))?,
+            constructor_call: ConstructorCall::new(
+                class.py(),
+                Some("fixed"),
+                (name, parent, child, origin),
+            )?,
         })
     }
 
@@ -108,7 +112,7 @@ impl PyJoint {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        slf.get().made.reduce_tuple(slf.get_type())
+        slf.get().constructor_call.reduce_tuple(slf.get_type())
     }
 
     fn __repr__(&self) -> String {
@@ -124,7 +128,7 @@ impl PyJoint {
 
 impl PyJoint {
     /// Makes a joint that turns or slides; `kind` is the name of its constructor.
-    fn moving(
+    fn moving_joint(
         py: Python<'_>,
         kind: &'static str,
         names: [&str; 3],
@@ -153,7 +157,7 @@ impl PyJoint {
         Ok(PyJoint {
             joint: named_joint(names, joint, mimic),
             kind,
-            made: ConstructorCall::new(py, Some(kind), arguments)?,
+            constructor_call: ConstructorCall::new(py, Some(kind), arguments)?,
         })
     }
 }
@@ -167,12 +171,12 @@ fn read_origin(origin: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
 fn named_joint(names: [&str; 3], joint: trajectory::Joint, mimic: Option<Mimic>) -> Joint {
     let [name, parent, child] = names.map(str::to_owned);
     let position = match mimic {
-        Some((joint, multiplier, offset)) => Position::Follows {
+        Some((joint, multiplier, offset)) => PositionRule::Follows {
             joint,
             multiplier,
             offset,
         },
-        None => Position::Free,
+        None => PositionRule::Free,
     };
     Joint {
         name,

@@ -17,7 +17,7 @@ use rigid_ccd_robot::{ChainBetween, Robot};
 pub(crate) struct PyLinkMotion {
     /// The object of Python whose method `motion` made the motion.
     robot: Py<PyAny>,
-    given: GivenMotion,
+    motion_arguments: GivenMotion,
     chain: ChainBetween,
     /// The positions of the chain's joints at both ends.
     ends: [Vec<f64>; 2],
@@ -38,16 +38,19 @@ impl PyLinkMotion {
     /// The time at which the joints reach their positions in `end`.
     #[getter]
     pub(crate) fn duration(&self) -> f64 {
-        self.given.3
+        self.motion_arguments.3
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let make = slf.get().robot.bind(slf.py()).getattr("motion")?;
-        Ok((make, slf.get().given.clone().into_pyobject(slf.py())?))
+        Ok((
+            make,
+            slf.get().motion_arguments.clone().into_pyobject(slf.py())?,
+        ))
     }
 
     fn __repr__(&self) -> String {
-        let GivenMotion(link, start, end, duration, seen_from) = &self.given;
+        let GivenMotion(link, start, end, duration, seen_from) = &self.motion_arguments;
         let seen = seen_from
             .as_ref()
             .map_or_else(String::new, |link| format!(", seen_from='{link}'"));
@@ -85,7 +88,7 @@ impl PyLinkMotion {
         warn(robot.py(), remarks.next(), 1)?;
         let motion = PyLinkMotion {
             robot: robot.clone().unbind(),
-            given: GivenMotion(link, start, end, duration, seen_from),
+            motion_arguments: GivenMotion(link, start, end, duration, seen_from),
             ends,
             chain,
         };

@@ -27,7 +27,7 @@ const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
-    made: ConstructorCall,
+    constructor_call: ConstructorCall,
 }
 
 #[pymethods]
@@ -82,7 +82,7 @@ impl PyMotion {
         let parts = (start, end, duration, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
-            made: ConstructorCall::new(class.py(), Some("between"), parts)?,
+            constructor_call: ConstructorCall::new(class.py(), Some("between"), parts)?,
         })
     }
 
@@ -92,7 +92,7 @@ impl PyMotion {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        slf.get().made.reduce_tuple(slf.get_type())
+        slf.get().constructor_call.reduce_tuple(slf.get_type())
     }
 
     fn __repr__(&self) -> String {
@@ -121,7 +121,7 @@ impl PyMotion {
         let parts = (place, wxyz(turned), velocity, spin, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
-            made: ConstructorCall::new(py, None, parts)?,
+            constructor_call: ConstructorCall::new(py, None, parts)?,
         })
     }
 }

@@ -30,7 +30,7 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 #[pyclass(name = "Path", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
     pub(crate) poses: Poses,
-    made: ConstructorCall,
+    constructor_call: ConstructorCall,
 }
 
 #[pymethods]
@@ -69,12 +69,12 @@ impl PyPath {
         }
         Ok(PyPath {
             poses,
-            made: ConstructorCall::new(py, None, (times, given, center, spins))?,
+            constructor_call: ConstructorCall::new(py, None, (times, given, center, spins))?,
         })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        slf.get().made.reduce_tuple(slf.get_type())
+        slf.get().constructor_call.reduce_tuple(slf.get_type())
     }
 
     /// The time of the last pose of the path.

@@ -38,7 +38,7 @@ impl PathArray {
     }
 
     /// Refuses an array of another shape than (paths, configurations, `joints`).
-    pub(crate) fn check_many(&self, joints: usize) -> PyResult<()> {
+    pub(crate) fn check_shape_of_paths(&self, joints: usize) -> PyResult<()> {
         if self.shape.len() == 3 && self.joints() == joints {
             return Ok(());
         }

@@ -14,7 +14,8 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd_robot::{
-    BodyElements, Joint, Link, LinkBody, LinkMeeting, LinkPairs, MeshModel, Robot, SkipReason, Urdf,
+    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshModel, Robot, SkipReason,
+    Urdf,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -42,7 +43,7 @@ use std::sync::Arc;
 pub(crate) struct PyRobot {
     pub(crate) robot: Arc<Robot>,
     pub(crate) pairs: LinkPairs,
-    made: ConstructorCall,
+    constructor_call: ConstructorCall,
 }
 
 #[pymethods]
@@ -69,15 +70,15 @@ impl PyRobot {
             .iter()
             .flat_map(|joint| [&joint.parent, &joint.child])
         {
-            link_named(&mut links, name);
+            find_or_add_link(&mut links, name);
         }
         // What was read is kept for pickle, and not what the caller may change.
         let read = PyDict::new(py);
         let items = bodies.as_ref().map(|bodies| bodies.items()).transpose()?;
         for item in items.iter().flatten() {
             let (name, held): (String, Bound<'_, PyAny>) = item.extract()?;
-            let held = read_held(&held)?;
-            let link = link_named(&mut links, &name);
+            let held = read_link_bodies(&held)?;
+            let link = find_or_add_link(&mut links, &name);
             for (body, pose) in &held {
                 link.bodies.push(LinkBody {
                     body: Arc::new(body.get().body.clone()),
@@ -95,7 +96,7 @@ impl PyRobot {
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
-            made: ConstructorCall::new(py, None, (given, read, may_touch))?,
+            constructor_call: ConstructorCall::new(py, None, (given, read, may_touch))?,
         })
     }
 
@@ -122,16 +123,22 @@ impl PyRobot {
         meshes: &str,
     ) -> PyResult<Self> {
         let arguments = (&path, &srdf, &packages, geometry, meshes);
-        let made = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
+        let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
         let geometry = match geometry {
             "collision" => BodyElements::Collision,
             "visual" => BodyElements::Visual,
-            _ => return Err(unknown("geometry", geometry, "collision or visual")),
+            _ => {
+                return Err(unknown_name_error(
+                    "geometry",
+                    geometry,
+                    "collision or visual",
+                ));
+            }
         };
         let meshes = match meshes {
             "exact" => MeshModel::Exact,
             "hull" => MeshModel::OuterHull,
-            _ => return Err(unknown("meshes", meshes, "exact or hull")),
+            _ => return Err(unknown_name_error("meshes", meshes, "exact or hull")),
         };
         let mut urdf = Urdf::at(path)
             .with_body_elements(geometry)
@@ -146,7 +153,7 @@ impl PyRobot {
             Ok(PyRobot {
                 pairs: pairs.map_err(input_error)?,
                 robot: Arc::new(robot),
-                made,
+                constructor_call,
             })
         })
     }
@@ -226,7 +233,7 @@ impl PyRobot {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        slf.get().made.reduce_tuple(slf.get_type())
+        slf.get().constructor_call.reduce_tuple(slf.get_type())
     }
 
     /// Decides for each pair of links with bodies whether they never touch, always, or sometimes, within the limits of all
@@ -248,13 +255,13 @@ impl PyRobot {
         srdf: Option<PathBuf>,
         name: &str,
     ) -> PyResult<PyTable> {
-        let meetings = py.detach(|| self.robot.link_meetings(max_boxes));
+        let meetings = py.detach(|| self.robot.classify_link_contacts(max_boxes));
         let meetings = meetings.map_err(input_error)?;
         if let Some(path) = srdf {
             let text = self.robot.srdf(name, &meetings);
             std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
         }
-        let batch = meeting_table(&self.robot, &meetings).map_err(input_error)?;
+        let batch = link_contact_table(&self.robot, &meetings).map_err(input_error)?;
         Ok(PyTable { batch })
     }
 
@@ -268,7 +275,7 @@ impl PyRobot {
 }
 
 /// Returns the link that has a name, which is new if there is none.
-fn link_named<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
+fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
     let number = links.iter().position(|link| link.name == name);
     let number = number.unwrap_or_else(|| {
         links.push(Link::named(name));
@@ -278,7 +285,7 @@ fn link_named<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
 }
 
 /// Reads what is fixed to a link: a body, or pairs of a body and its pose.
-fn read_held(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
+fn read_link_bodies(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
     let body = |given: &Bound<'_, PyAny>| -> PyResult<Py<PyBody>> {
         extract_body(given, "bodies")?;
         Ok(given.clone().cast_into::<PyBody>()?.unbind())
@@ -293,9 +300,9 @@ fn read_held(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> 
     pairs.collect()
 }
 
-fn meeting_table(
+fn link_contact_table(
     robot: &Robot,
-    meetings: &[([usize; 2], LinkMeeting)],
+    meetings: &[([usize; 2], LinkContactClass)],
 ) -> Result<RecordBatch, ArrowError> {
     let names = |side: usize| -> ArrayRef {
         let links = meetings.iter().map(|(links, _)| links[side]);
@@ -304,14 +311,14 @@ fn meeting_table(
     };
     let evidence = meetings.iter().map(|(_, meeting)| {
         Some(match meeting {
-            LinkMeeting::Never => "never",
-            LinkMeeting::Always => "always",
-            LinkMeeting::Sometimes { .. } => "sometimes",
-            LinkMeeting::Undecided { .. } => "undecided",
+            LinkContactClass::Never => "never",
+            LinkContactClass::Always => "always",
+            LinkContactClass::Sometimes { .. } => "sometimes",
+            LinkContactClass::Undecided { .. } => "undecided",
         })
     });
     let apart = meetings.iter().map(|(_, meeting)| match meeting {
-        LinkMeeting::Undecided {
+        LinkContactClass::Undecided {
             proven_apart_share, ..
         } => Some(*proven_apart_share),
         _ => None,
@@ -329,6 +336,6 @@ fn meeting_table(
     RecordBatch::try_from_iter_with_nullable(columns)
 }
 
-fn unknown(what: &str, given: &str, known: &str) -> PyErr {
+fn unknown_name_error(what: &str, given: &str, known: &str) -> PyErr {
     input_error(format!("{what}: '{given}' is not {known}"))
 }

@@ -70,7 +70,7 @@ impl Cast {
                 self.with_plane_scene(plane, 1, body, shifted, then)
             }
             [PreparedShape::HalfSpace(_), PreparedShape::HalfSpace(_)] => {
-                Err(CastError::HalfSpaces)
+                Err(CastError::BothHalfSpaces)
             }
         }
     }
@@ -234,7 +234,7 @@ impl MotionFromStart {
             motion,
             deviation_bound: stray,
             ..
-        } = motion.stretch(start, start)?;
+        } = motion.stretch_between(start, start)?;
         let velocity = motion.velocity() - along;
         Ok(MotionFromStart {
             motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,

@@ -38,7 +38,7 @@ pub enum CastError {
     },
     /// Both shapes are half-spaces, which have no nearest points in general.
     #[error("both shapes are half-spaces")]
-    HalfSpaces,
+    BothHalfSpaces,
     /// The interval to be recorded ends before it starts.
     #[error("the interval holds no time: its end is before its start")]
     EmptyInterval,
@@ -52,7 +52,7 @@ impl CastError {
     pub(crate) fn motions_or_error<T>(
         made: [Result<T, InputError>; 2],
     ) -> Result<[T; 2], CastError> {
-        both(made, |motion_number, error| CastError::Motion {
+        both_or_error(made, |motion_number, error| CastError::Motion {
             motion_number,
             error,
         })
@@ -62,14 +62,14 @@ impl CastError {
     pub(crate) fn shapes_or_error<T>(
         made: [Result<T, ShapeError>; 2],
     ) -> Result<[T; 2], CastError> {
-        both(made, |shape_number, error| CastError::Shape {
+        both_or_error(made, |shape_number, error| CastError::Shape {
             shape_number,
             error,
         })
     }
 }
 
-fn both<T, E>(
+fn both_or_error<T, E>(
     [a, b]: [Result<T, E>; 2],
     named: fn(u8, E) -> CastError,
 ) -> Result<[T; 2], CastError> {
@@ -110,7 +110,7 @@ pub enum ShapeError {
     },
     /// The shape is a cylinder or a cone, which the [options](crate::Excess::NotAllowed) refuse.
     #[error("it is a cylinder or a cone, for which the options allow no polytope about it")]
-    RoundShapeRefused,
+    SolidOfRevolutionRefused,
     /// An oriented mesh that should be a solid is not closed.
     #[error(
         "the mesh is oriented, but has an edge without a neighbour, from vertex {from} to {to}"

@@ -70,9 +70,7 @@ impl ShapeGeometry {
     }
 
     /// Returns the geometry with a polytope in place of its cylinder or cone, or unchanged if it has neither.
-    pub(crate) fn with_round_shape_as_polytope(
-        &self,
-    ) -> Result<Cow<'_, ShapeGeometry>, ShapeError> {
+    pub(crate) fn with_enclosing_polytope(&self) -> Result<Cow<'_, ShapeGeometry>, ShapeError> {
         let Some((round, radius, excess)) = &self.grown_solid_of_revolution else {
             return Ok(Cow::Borrowed(self));
         };
@@ -176,7 +174,7 @@ impl ShapeGeometry {
         inner: &ShapeGeometry,
         number: u32,
     ) -> Result<(), ShapeError> {
-        let inner = inner.with_round_shape_as_polytope()?;
+        let inner = inner.with_enclosing_polytope()?;
         let place = |point: &DVec3| pose.transform_point(*point);
         let reach = (inner.points()).fold(0.0, |most, point| greater(most, length(*point)));
         let moved = if *pose == Pose::IDENTITY {
@@ -350,7 +348,7 @@ fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosur
     let asked = match excess {
         Excess::RadiusFraction => round.default_excess(),
         Excess::Length(length) => length,
-        Excess::NotAllowed => return Err(ShapeError::RoundShapeRefused),
+        Excess::NotAllowed => return Err(ShapeError::SolidOfRevolutionRefused),
     };
     // Written so that NaN is refused.
     if !(asked >= 0.0) {

@@ -43,7 +43,7 @@ impl HalfSpace {
         within: f64,
         wanted: f64,
     ) -> QueryDuration {
-        let needed = self.time_when_decided(plane, body, within);
+        let needed = self.sufficient_duration(plane, body, within);
         let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
         let horizon = QueryDuration::for_duration([plane, body], needed);
         // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
@@ -59,7 +59,7 @@ impl HalfSpace {
 
     /// Returns a time after which the body stays inside or outside of the half-space or repeats its motion; `None` if
     /// there is no such time.
-    fn time_when_decided(
+    fn sufficient_duration(
         &self,
         plane: MotionWithExtent,
         body: MotionWithExtent,

@@ -50,7 +50,7 @@ pub(crate) fn first_contact_unless_parting(
                 tasks.push([of_a, of_b]);
             }
             CastStatus::Inside => return Ok(Some(overlap)),
-            CastStatus::Near | CastStatus::Contact | CastStatus::Limit => {
+            CastStatus::WithinTargetAtStart | CastStatus::Contact | CastStatus::Limit => {
                 if first.is_none_or(|first| found.time < first.time) {
                     let numbers =
                         [0, 1].map(|k| scene.bodies[k].sub_shape_index(found.sub_shape_indices[k]));

@@ -27,7 +27,7 @@ pub struct BodyOfShape {
 impl BodyOfShape {
     /// Makes the body from the geometry of a shape.
     pub(crate) fn new(form: &ShapeGeometry) -> Result<Self, ShapeError> {
-        let form = form.with_round_shape_as_polytope()?;
+        let form = form.with_enclosing_polytope()?;
         let (body, numbers) = form.body()?;
         let together = if form.slack > 0.0 {
             (form.slack + form.excess).next_up()

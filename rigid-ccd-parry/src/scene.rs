@@ -47,7 +47,7 @@ pub(crate) enum CastStatus {
     /// One body is inside the other at the start.
     Inside,
     /// The distance at the start is below the target distance.
-    Near,
+    WithinTargetAtStart,
     /// A limit of work or time was reached, with no contact before.
     Limit,
 }
@@ -81,7 +81,7 @@ impl Scene<'_> {
             Outcome::Touching { contact } => {
                 let within = self.target > 0.0 && contact.separation.upper <= self.target;
                 let ending = if within {
-                    CastStatus::Near
+                    CastStatus::WithinTargetAtStart
                 } else {
                     CastStatus::Contact
                 };
@@ -149,7 +149,7 @@ impl Scene<'_> {
                 overlap: Overlap::Pieces(contact),
                 ..
             }) => Some(contact),
-            Ok(found) => found.nearest().map(|(_, contact)| contact),
+            Ok(found) => found.nearest_contact().map(|(_, contact)| contact),
             Err(_) => None,
         };
         match contact {

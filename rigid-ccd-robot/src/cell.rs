@@ -27,14 +27,14 @@ pub struct Cell {
     parts: Vec<Part>,
     robot_part_count: usize,
     /// Where the robot holds each of its bodies, in the order of the bodies.
-    held: Vec<Held>,
+    robot_bodies: Vec<RobotBody>,
     obstacle_names: Vec<String>,
     margins: Margins,
 }
 
 /// Where a robot holds a body.
 #[derive(Clone, Debug)]
-struct Held {
+struct RobotBody {
     /// The number of the link.
     link: usize,
     /// The pose of the body in the link's frame.
@@ -81,12 +81,12 @@ impl Cell {
             bodies: Vec::new(),
             parts: Vec::new(),
             robot_part_count: 0,
-            held: Vec::new(),
+            robot_bodies: Vec::new(),
             obstacle_names: Vec::new(),
         };
         for link in 0..cell.robot.links().len() {
             for body in cell.robot.links()[link].bodies.clone() {
-                cell.hold(body.body, Held::by_link(link, body.pose));
+                cell.add_robot_body(body.body, RobotBody::of_link(link, body.pose));
             }
         }
         cell
@@ -115,7 +115,7 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchObstacle`].
     pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
-        let number = self.held.len() + self.obstacle_number(name)?;
+        let number = self.robot_bodies.len() + self.obstacle_number(name)?;
         self.bodies[number].pose = pose;
         let moved = self.bodies[number].parts(number);
         let first = self.parts.partition_point(|part| part.owner < number);
@@ -130,7 +130,7 @@ impl Cell {
     pub fn remove_obstacle(&mut self, name: &str) -> Result<(), RobotError> {
         let obstacle = self.obstacle_number(name)?;
         self.obstacle_names.remove(obstacle);
-        self.remove(self.held.len() + obstacle);
+        self.remove(self.robot_bodies.len() + obstacle);
         Ok(())
     }
 
@@ -152,12 +152,12 @@ impl Cell {
         let name = name.into();
         self.check_new_name(&name)?;
         let attachment = Some(Attachment { name, may_touch });
-        let held = Held {
+        let held = RobotBody {
             link,
             pose,
             attachment,
         };
-        self.hold(body.into(), held);
+        self.add_robot_body(body.into(), held);
         Ok(())
     }
 
@@ -167,7 +167,7 @@ impl Cell {
     /// [`RobotError::NoSuchAttachedBody`].
     pub fn detach(&mut self, name: &str) -> Result<(), RobotError> {
         let number = self.attached_number(name)?;
-        self.held.remove(number);
+        self.robot_bodies.remove(number);
         let parts = self.parts.iter().filter(|part| part.owner == number);
         self.robot_part_count -= parts.count();
         self.remove(number);
@@ -186,7 +186,10 @@ impl Cell {
 
     /// Returns the names of the bodies that are attached to links, in the order in which they were attached.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
-        let attachments = self.held.iter().filter_map(|held| held.attachment.as_ref());
+        let attachments = self
+            .robot_bodies
+            .iter()
+            .filter_map(|held| held.attachment.as_ref());
         attachments.map(|attachment| attachment.name.as_str())
     }
 
@@ -217,7 +220,7 @@ impl Cell {
 
     /// Returns the number of bodies that the robot holds.
     pub(crate) fn robot_body_count(&self) -> usize {
-        self.held.len()
+        self.robot_bodies.len()
     }
 
     /// Returns the convex parts of all bodies, in the order of the bodies.
@@ -231,19 +234,19 @@ impl Cell {
 
     /// Returns the number of the link that holds one of the robot's bodies.
     pub(crate) fn link_of(&self, body: usize) -> usize {
-        self.held[body].link
+        self.robot_bodies[body].link
     }
 
     /// Returns the pose of one of the robot's bodies in its link.
     pub(crate) fn pose_in_link(&self, body: usize) -> Pose {
-        self.held[body].pose
+        self.robot_bodies[body].pose
     }
 
     /// Returns the name of what a body belongs to.
     pub(crate) fn item(&self, body: usize) -> Item<'_> {
-        match self.held.get(body) {
-            None => Item::Obstacle(&self.obstacle_names[body - self.held.len()]),
-            Some(Held {
+        match self.robot_bodies.get(body) {
+            None => Item::Obstacle(&self.obstacle_names[body - self.robot_bodies.len()]),
+            Some(RobotBody {
                 attachment: Some(attachment),
                 ..
             }) => Item::Attached(&attachment.name),
@@ -264,11 +267,11 @@ impl Cell {
 
     /// Returns whether two of the robot's bodies are checked against each other.
     fn is_checked(&self, a: usize, b: usize) -> bool {
-        let [a, b] = [&self.held[a], &self.held[b]];
+        let [a, b] = [&self.robot_bodies[a], &self.robot_bodies[b]];
         if a.attachment.is_none() && b.attachment.is_none() {
             return self.pairs.is_checked(a.link, b.link);
         }
-        let may_touch = |held: &Held, link: usize| {
+        let may_touch = |held: &RobotBody, link: usize| {
             let attachment = held.attachment.as_ref();
             attachment.is_some_and(|attachment| attachment.may_touch.contains(&link))
         };
@@ -278,12 +281,12 @@ impl Cell {
     }
 
     /// Adds a body that the robot holds.
-    fn hold(&mut self, body: Arc<Body>, held: Held) {
+    fn add_robot_body(&mut self, body: Arc<Body>, held: RobotBody) {
         let (frame, link_pose) = self.kinematics.link(held.link);
         let pose = link_pose.compose(&held.pose);
         let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
-        let number = self.held.len();
-        self.held.push(held);
+        let number = self.robot_bodies.len();
+        self.robot_bodies.push(held);
         self.robot_part_count += self.insert(number, placed);
     }
 
@@ -325,18 +328,18 @@ impl Cell {
     }
 
     fn attached_number(&self, name: &str) -> Result<usize, RobotError> {
-        let has_name = |held: &Held| {
+        let has_name = |held: &RobotBody| {
             let attachment = held.attachment.as_ref();
             attachment.is_some_and(|attachment| attachment.name == name)
         };
-        let number = self.held.iter().position(has_name);
+        let number = self.robot_bodies.iter().position(has_name);
         number.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
     }
 }
 
-impl Held {
-    fn by_link(link: usize, pose: Pose) -> Self {
-        Held {
+impl RobotBody {
+    fn of_link(link: usize, pose: Pose) -> Self {
+        RobotBody {
             link,
             pose,
             attachment: None,

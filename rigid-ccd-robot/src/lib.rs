@@ -25,7 +25,7 @@
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `cell` | a robot among obstacles: [`Cell`] |
 //! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept |
-//! | `link_meetings` | whether two links can ever touch, by branch and bound over their joints: [`Robot::link_meetings`] |
+//! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
@@ -33,7 +33,7 @@
 
 mod cell;
 mod error;
-mod link_meetings;
+mod link_contacts;
 mod pairs;
 mod robot;
 mod solver;
@@ -45,9 +45,9 @@ mod urdf;
 
 pub use cell::{Cell, Item};
 pub use error::{PathError, RobotError};
-pub use link_meetings::LinkMeeting;
+pub use link_contacts::LinkContactClass;
 pub use pairs::{LinkPairs, SkipReason};
-pub use robot::{ChainBetween, Joint, Link, LinkBody, Position, Robot};
+pub use robot::{ChainBetween, Joint, Link, LinkBody, PositionRule, Robot};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, PathContact, PathOutcome, PathPoint, RangeSettings,
 };

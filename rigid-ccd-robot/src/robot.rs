@@ -59,12 +59,12 @@ pub struct Joint {
     /// The axis and the limits of the joint, in the frame of the parent.
     pub joint: trajectory::Joint,
     /// The source of the joint's position: the configuration, or another joint.
-    pub position: Position,
+    pub position: PositionRule,
 }
 
 /// The source of a joint's position: the configuration, or another joint.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Position {
+pub enum PositionRule {
     /// The configuration has a position for the joint, unless the joint is fixed.
     Free,
     /// The joint follows another joint, as `mimic` of URDF. Its position is `multiplier · position + offset`; limits of
@@ -104,7 +104,7 @@ impl PositionSource {
     }
 
     /// Returns whether the joint turns a whole number of times while that position makes one turn.
-    pub(crate) fn is_whole_turn(&self) -> bool {
+    pub(crate) fn has_integer_multiplier(&self) -> bool {
         self.multiplier.fract() == 0.0
     }
 
@@ -156,7 +156,7 @@ impl Robot {
                 let joint = joint.name.clone();
                 return Err(RobotError::ReversedJoint { joint });
             }
-            if joint.position != Position::Free {
+            if joint.position != PositionRule::Free {
                 joint.joint = joint
                     .joint
                     .clone()
@@ -305,7 +305,7 @@ impl Robot {
 fn position_sources_and_free_joints(
     joints: &[Joint],
 ) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
-    let is_free = |joint: &Joint| joint.position == Position::Free && !joint.joint.is_fixed();
+    let is_free = |joint: &Joint| joint.position == PositionRule::Free && !joint.joint.is_fixed();
     let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
     let sources = joints.iter().map(|joint| {
         if joint.joint.is_fixed() {
@@ -316,7 +316,7 @@ fn position_sources_and_free_joints(
         // A joint that follows another one more often than there are joints follows itself.
         for follow_count in 0..=joints.len() as u32 {
             match &at.position {
-                Position::Free => {
+                PositionRule::Free => {
                     let number = free_joints.iter().position(|&k| joints[k].name == at.name);
                     return number
                         .map(|number| {
@@ -330,7 +330,7 @@ fn position_sources_and_free_joints(
                         })
                         .ok_or_else(|| unfollowable_joint_error(joint, &at.name));
                 }
-                Position::Follows {
+                PositionRule::Follows {
                     joint: followed,
                     multiplier: factor,
                     offset: shift,

@@ -153,7 +153,7 @@ impl<'c> CellSolver<'c> {
         let found = &self.search.found;
         Ok(match (found.limit, found.nearest) {
             (Some((limit, until)), _) => PathOutcome::Unresolved {
-                free_until: PathPoint::of(until, self.search.segments()),
+                free_until: PathPoint::of(until, self.search.segment_count()),
                 limit,
             },
             (None, Some(nearest)) => PathOutcome::Contact(self.contact(nearest)?),
@@ -231,7 +231,7 @@ impl<'c> CellSolver<'c> {
         );
         let outcome = self.distance.distance(a, b)?.outcome;
         Ok(PathContact {
-            at: PathPoint::of(at, self.search.segments()),
+            at: PathPoint::of(at, self.search.segment_count()),
             between: bodies.map(|body| self.cell.item(body)),
             witnesses: witnesses(&outcome),
         })
@@ -240,7 +240,7 @@ impl<'c> CellSolver<'c> {
 
 /// Returns the nearest points of two bodies; of two pieces that intersect if the bodies overlap.
 fn witnesses(outcome: &Outcome) -> [DVec3; 2] {
-    let kind = match (*outcome, outcome.nearest()) {
+    let kind = match (*outcome, outcome.nearest_contact()) {
         (Outcome::Overlapping { overlap, .. }, _) => HitKind::Overlapping(overlap),
         (_, Some((_, contact))) => HitKind::Contact(contact),
         _ => return [DVec3::NAN; 2],

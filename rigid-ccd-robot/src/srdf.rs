@@ -1,6 +1,6 @@
 //! Which pairs of links are not checked: reads them from an SRDF file, and writes one with proofs.
 
-use crate::link_meetings::LinkMeeting;
+use crate::link_contacts::LinkContactClass;
 use crate::robot::Robot;
 use quick_xml::de::from_str;
 use quick_xml::escape::escape;
@@ -38,21 +38,21 @@ impl Robot {
     /// ```
     /// use rigid_ccd_robot::{Link, Robot};
     /// let robot = Robot::new(vec![Link::named("base")], Vec::new())?;
-    /// let srdf = robot.srdf("stone", &robot.link_meetings(100)?);
+    /// let srdf = robot.srdf("stone", &robot.classify_link_contacts(100)?);
     /// assert!(srdf.contains("<robot name=\"stone\">"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn srdf(&self, robot_name: &str, meetings: &[([usize; 2], LinkMeeting)]) -> String {
+    pub fn srdf(&self, robot_name: &str, meetings: &[([usize; 2], LinkContactClass)]) -> String {
         let mut text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n",
             escape(robot_name)
         );
         for ([one, other], meeting) in meetings {
             let reason = match meeting {
-                LinkMeeting::Never => "Never (proven)",
-                LinkMeeting::Always => "Always (proven)",
+                LinkContactClass::Never => "Never (proven)",
+                LinkContactClass::Always => "Always (proven)",
                 _ if self.are_neighbours(*one, *other) => "Adjacent",
-                LinkMeeting::Sometimes { .. } | LinkMeeting::Undecided { .. } => continue,
+                LinkContactClass::Sometimes { .. } | LinkContactClass::Undecided { .. } => continue,
             };
             let [one, other] = [one, other].map(|&link| escape(&*self.links()[link].name));
             writeln!(

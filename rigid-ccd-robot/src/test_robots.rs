@@ -1,6 +1,6 @@
 //! Random robots for tests, and distances of their links by poses of one link after another.
 
-use crate::robot::{Joint, Link, Position, Robot};
+use crate::robot::{Joint, Link, PositionRule, Robot};
 use ccd_core::order::lesser;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -50,12 +50,12 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
             _ => trajectory::Joint::revolute(origin, axis),
         };
         let position = match k {
-            4 => Position::Follows {
+            4 => PositionRule::Follows {
                 joint: "joint1".into(),
                 multiplier: -1.5,
                 offset: 0.2,
             },
-            _ => Position::Free,
+            _ => PositionRule::Free,
         };
         Joint {
             name: format!("joint{k}"),

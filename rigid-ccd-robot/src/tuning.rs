@@ -2,13 +2,13 @@
 
 /// The length of a stretch, in segments of the path, at which open pairs go to the engine. Each halving costs the frames of
 /// all links and a distance for each open pair; the engine costs about ten of these.
-pub(crate) const LAST_LENGTH: f64 = 1.0 / 16.0;
+pub(crate) const ENGINE_STRETCH_LENGTH: f64 = 1.0 / 16.0;
 
 /// The same for the closest approach, for which the engine has to measure a distance, and not only to decide.
-pub(crate) const LAST_LENGTH_OF_CLOSEST: f64 = 1.0 / 64.0;
+pub(crate) const ENGINE_LENGTH_FOR_APPROACH: f64 = 1.0 / 64.0;
 
 /// The displacement, in metres, below which a pair goes to the engine at once after this number of halvings.
-pub(crate) const LAST_DISPLACEMENT: f64 = 0.01;
+pub(crate) const ENGINE_DISPLACEMENT: f64 = 0.01;
 pub(crate) const MIN_HALVINGS: u32 = 4;
 
 /// The displacement in half a stretch, in metres, beyond which the distance in the middle of the stretch hardly ever
@@ -28,4 +28,4 @@ pub(crate) const MAX_LINK_PARTS: usize = 1;
 pub(crate) const MIN_PIECES_TO_SPLIT: usize = 16;
 
 /// The number of intervals between the points on a joint's axis at which two links are tried.
-pub(crate) const HINGE_POINTS: u32 = 128;
+pub(crate) const HINGE_INTERVALS: u32 = 128;

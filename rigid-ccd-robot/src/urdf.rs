@@ -8,7 +8,7 @@ pub use bodies::MeshModel;
 pub use error::UrdfError;
 
 use crate::pairs::{LinkPairs, SkipReason};
-use crate::robot::{Joint, Link, LinkBody, Position, Robot};
+use crate::robot::{Joint, Link, LinkBody, PositionRule, Robot};
 use crate::srdf::disabled_pairs;
 use bodies::BodyReader;
 use packages::SearchFolders;
@@ -183,8 +183,8 @@ fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
         }
     };
     let position = match &joint.mimic {
-        None => Position::Free,
-        Some(mimic) => Position::Follows {
+        None => PositionRule::Free,
+        Some(mimic) => PositionRule::Follows {
             joint: mimic.joint.clone(),
             multiplier: mimic.multiplier.unwrap_or(1.0),
             offset: mimic.offset.unwrap_or(0.0),

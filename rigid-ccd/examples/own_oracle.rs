@@ -19,8 +19,8 @@ impl DistanceOracle for SegmentOracle {
             return Err(GiveUpReason::TooManyPoints);
         }
         let last = [a.len() - 1, b.len() - 1];
-        let (p, q) = (a[0], pair.b_to_a.point(b[0]));
-        let (u, v) = (a[last[0]] - p, pair.b_to_a.point(b[last[1]]) - q);
+        let (p, q) = (a[0], pair.b_to_a.transform_point(b[0]));
+        let (u, v) = (a[last[0]] - p, pair.b_to_a.transform_point(b[last[1]]) - q);
         // Alternating projection: the nearest point of one segment to a point of the other.
         let (mut s, mut t) = (0.5, 0.5);
         for _ in 0..100 {

@@ -3,5 +3,5 @@
 
 pub use crate::parallel::QueryError;
 pub use ccd_core::{
-    Clearance, Contact, ContactsError, Feature, HitKind, Limit, Overlap, Stats, Unresolved,
+    ClearanceVerdict, Contact, ContactsError, Feature, HitKind, Limit, Overlap, Stats, Unresolved,
 };

@@ -125,8 +125,8 @@ pub mod trajectory;
 pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
-    Answer, Body, Hit, InputError, Instructions, Motion, Outcome, Pose, Query, Settings,
-    StartPolicy,
+    Answer, Body, Hit, InputError, Motion, Outcome, Pose, Query, Settings, StartPolicy,
+    VectorInstructions,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]

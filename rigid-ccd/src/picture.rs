@@ -11,7 +11,7 @@ mod scene;
 mod tests;
 mod verdict;
 
-pub use ccd_view::{Group, Page, PageError};
+pub use ccd_view::{AnimationGroup, Page, PageError};
 pub use course::shown_motions;
 pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, gap};
@@ -25,7 +25,7 @@ use crate::table::courses::Movements;
 use crate::table::results::{ResultRow, Status};
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, InputError, Pose};
-use ccd_view::{Meshes, ShownBody, ShownContact, View};
+use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
 use drawn::feature_corners;
 
 /// The colours of body A and body B, in CSS.
@@ -76,11 +76,11 @@ impl<'a> Painter<'a> {
     }
 
     /// Makes a page of the given views, with the meshes of both bodies.
-    pub fn page<'t>(&self, title: &'t str, views: Vec<View>) -> Page<'t> {
+    pub fn page<'t>(&self, title: &'t str, views: Vec<Animation>) -> Page<'t> {
         let name = String::new();
         Page {
             title,
-            groups: vec![Group { name, views }],
+            groups: vec![AnimationGroup { name, views }],
             meshes: self.meshes.clone(),
         }
     }
@@ -89,7 +89,7 @@ impl<'a> Painter<'a> {
     ///
     /// # Errors
     /// [`ViewError`].
-    pub fn view(&mut self, query: &Movements, row: &ResultRow) -> Result<View, ViewError> {
+    pub fn view(&mut self, query: &Movements, row: &ResultRow) -> Result<Animation, ViewError> {
         let start = query.start();
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
@@ -104,7 +104,7 @@ impl<'a> Painter<'a> {
             _ => String::new(),
         };
         let name = format!("{}{measured_at} ({})", row.id, row.status.name());
-        let mut view = View::new(&name, "", duration);
+        let mut view = Animation::new(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
             let floor = match (row.status, self.query_context.time_meaning) {
@@ -115,7 +115,7 @@ impl<'a> Painter<'a> {
             };
             let found = gap(&mut self.solver, self.bodies, query, floor)?;
             view.ghost_times = found.ghost_times(duration);
-            proven = found.least();
+            proven = found.least_proven_gap();
             nearest = found.nearest_time();
             view.gap = Some(found.gap);
         }
@@ -125,7 +125,7 @@ impl<'a> Painter<'a> {
         view.bodies = shown
             .map(|((name, (mesh, color)), motion)| ShownBody::new(name, mesh, color, motion))
             .collect();
-        Ok(View {
+        Ok(Animation {
             start,
             // For bodies that do not touch, show the time at which they are nearest.
             time: match row.status {

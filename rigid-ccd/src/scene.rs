@@ -265,7 +265,7 @@ impl<'a> Scene<'a> {
         let (members, settings) = (&self.members, &self.settings);
         let query = |pair: [usize; 2]| -> Result<Query<'_>, InputError> {
             let [a, b] = pair.map(|index| members[index].moving_body());
-            Ok(Query::new(a, b, clock.duration, settings)?.with_deadline(clock.left()))
+            Ok(Query::new(a, b, clock.duration, settings)?.with_deadline(clock.remaining_time()))
         };
         let pair_queue = PairQueue::new(pairs, &query, clock.duration, goal);
         let threads = self

@@ -206,18 +206,18 @@ impl<O: DistanceOracle> Solver<O> {
     /// Those of [`Solver::first_contact`].
     ///
     /// ```
-    /// use rigid_ccd::answer::Clearance;
+    /// use rigid_ccd::answer::ClearanceVerdict;
     /// use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
     /// let ball = Body::sphere(0.5)?;
     /// let passes = Motion::new(Pose::at([-3.0, 1.2, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
     /// let closest = Solver::new().closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
     /// assert!(closest.outcome.lower() <= 0.2 && closest.outcome.upper() >= 0.2);
-    /// assert_eq!(closest.outcome.clearance(0.19), Clearance::Kept);
+    /// assert_eq!(closest.outcome.clearance(0.19), ClearanceVerdict::Kept);
     ///
     /// let keeping = Settings { clearance: Some(0.1), ..Settings::DEFAULT };
     /// let mut solver = Solver::new().with_settings(keeping);
     /// let closest = solver.closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
-    /// assert_eq!(closest.outcome.clearance(0.1), Clearance::Kept);
+    /// assert_eq!(closest.outcome.clearance(0.1), ClearanceVerdict::Kept);
     /// # Ok::<(), rigid_ccd::Error>(())
     /// ```
     pub fn closest_approach<'b>(

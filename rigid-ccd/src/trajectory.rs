@@ -43,7 +43,7 @@ pub use poses::Poses;
 pub use screw::screw;
 pub use spline::Spline;
 pub use turns::OrientationCurve;
-pub use worst_deviation::{Worst, worst_deviation};
+pub use worst_deviation::{WorstDeviation, worst_deviation};
 
 /// The unit roundoff of f64: the largest relative error of one operation.
 const U: f64 = f64::EPSILON / 2.0;

@@ -8,7 +8,7 @@ use ccd_tests::models::{
     Mesh, Model, Shape, boulder, convex_solids, cuboid, dented_cube, flat_faced_solids, hollow,
     pile, solids, terrain, torus, torus_knot,
 };
-use ccd_tests::patches::{Claim, check_cover, check_hull_in_solid, check_polytope};
+use ccd_tests::patches::{Claim, check_hull_in_solid, check_partition, check_polytope};
 use ccd_tests::strategies::{rotation, runner};
 use proptest::prelude::*;
 use std::cell::Cell;
@@ -43,7 +43,7 @@ fn check(
 ) -> Result<usize, String> {
     let solid = Solid::new(mesh);
     let claims = claimed_patches(decomposition);
-    check_cover(mesh, &claims)?;
+    check_partition(mesh, &claims)?;
     let mut points = 0;
     for (seed, claim) in (0..).zip(&claims) {
         check_polytope(mesh, claim)?;
@@ -215,7 +215,7 @@ fn the_same_mesh_gives_the_same_patches() {
 #[test]
 fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
     for model in solids() {
-        let flipped = Shape::from_closed_mesh(model.shape.mesh.clone().flipped());
+        let flipped = Shape::from_closed_mesh(model.shape.mesh.clone().with_reversed_faces());
         for order in ORDERS {
             let (here, there) = (
                 decompose_shape(&model.shape, order).expect(&model.name),

@@ -124,7 +124,7 @@ fn cavities_are_outside_and_windings_add_up() {
     let cavity = hollow(&big, &small).mesh;
     let mut twice = big.mesh.clone();
     twice.append(&small.mesh);
-    let flipped = big.mesh.clone().flipped();
+    let flipped = big.mesh.clone().with_reversed_faces();
     for (mesh, p, location) in [
         (&cavity, 0.1, Location::Outside),
         (&cavity, 0.7, Location::Inside(1)),

@@ -50,7 +50,7 @@ struct OutcomeCounts {
     miss_count: u32,
     start_contact_count: u32,
     nested_count: u32,
-    too_near_count: u32,
+    graze_count: u32,
     undecided_count: u32,
 }
 
@@ -67,7 +67,7 @@ impl OutcomeCounts {
                 Finding::ContactAtStart => &mut shares.start_contact_count,
                 Finding::Hit { .. } => &mut shares.hit_count,
                 Finding::Free { .. } => &mut shares.miss_count,
-                Finding::TooNear { .. } => &mut shares.too_near_count,
+                Finding::Graze { .. } => &mut shares.graze_count,
                 Finding::Undecided { .. } => &mut shares.undecided_count,
             };
             *share += 1;

@@ -54,7 +54,7 @@ fn sixty_million_pairs_touching_at_once() {
 /// in the queue.
 #[test]
 fn combs_of_many_teeth() {
-    let teeth = if is_slow_run() { 512 } else { 96 };
+    let teeth = if slow_tests_enabled() { 512 } else { 96 };
     let scene = combs_closing(teeth);
     let ExpectedOutcome::Hit {
         earliest_time_of_distance: earliest,
@@ -78,7 +78,11 @@ fn combs_of_many_teeth() {
 /// pairs are in the queue at once.
 #[test]
 fn a_fine_screw() {
-    let scene = screw_in_nut("T18 fine screw", PITCH, if is_slow_run() { 4 } else { 2 });
+    let scene = screw_in_nut(
+        "T18 fine screw",
+        PITCH,
+        if slow_tests_enabled() { 4 } else { 2 },
+    );
     let bodies = scene.query.bodies_of_triangles();
     let config = Settings {
         budget: u64::MAX,
@@ -87,11 +91,11 @@ fn a_fine_screw() {
     let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &config));
     assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
     assert!(
-        !is_slow_run() || answer.stats.peak_front > 1_000_000,
+        !slow_tests_enabled() || answer.stats.peak_front > 1_000_000,
         "{answer:?}"
     );
 }
 
-fn is_slow_run() -> bool {
+fn slow_tests_enabled() -> bool {
     std::env::var_os("CCD_TEST_SLOW").is_some()
 }

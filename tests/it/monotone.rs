@@ -1,7 +1,7 @@
 //! Tests that a smaller tolerance gives a later contact, or none.
 
 use ccd_core::{Answer, Outcome, Settings};
-use ccd_tests::backends::default_answer;
+use ccd_tests::backends::default_backend_answer;
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 
@@ -16,7 +16,7 @@ fn a_smaller_tolerance_is_never_earlier() {
                 tolerance,
                 ..case.config()
             };
-            let answer = default_answer(&query, &config);
+            let answer = default_backend_answer(&query, &config);
             let time = contact_time(&answer)?;
             if let Some((before, coarse)) = last.replace((time, answer)) {
                 if time < before {

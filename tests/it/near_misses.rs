@@ -58,17 +58,17 @@ fn a_ball_past_a_box_takes_few_steps() {
         // If little more than rounding is left, no trajectory is exact.
         let few = if gap > 1e-10 { 4 } else { 20 };
         for (way, most) in [(&straight as &dyn Trajectory, few), (&parabola, few)] {
-            assert!(count_most_iterations(way, gap) <= most, "{gap}");
+            assert!(max_iteration_count(way, gap) <= most, "{gap}");
         }
         for (way, most) in [(&cubic as &dyn Trajectory, 120), (&hand, 75)] {
-            assert!(count_most_iterations(way, gap) <= most, "{gap}");
+            assert!(max_iteration_count(way, gap) <= most, "{gap}");
         }
     }
 }
 
 /// Answers three questions about a ball that passes a box at a gap, or touches it if the gap is 0. Returns the largest
 /// number of visited pairs.
-fn count_most_iterations(trajectory: &dyn Trajectory, gap: f64) -> u64 {
+fn max_iteration_count(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     let radius = 0.25;
     let (ball, cube) = (
         Body::sphere(radius).unwrap(),

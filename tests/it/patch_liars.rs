@@ -5,7 +5,7 @@ use ccd_core::order::greater;
 use ccd_core::{Facet, FacetOrigin, Polytope};
 use ccd_tests::exact::{SampleCounts, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
-use ccd_tests::patches::{Claim, check_cover, check_hull_in_solid, check_polytope};
+use ccd_tests::patches::{Claim, check_hull_in_solid, check_partition, check_polytope};
 
 /// Returns a cube, and its surface as a single, correct patch.
 fn cube() -> (Mesh, Polytope) {
@@ -44,7 +44,7 @@ fn an_honest_patch_keeps_every_law() {
     assert_eq!(check_polytope(&mesh, &claim), Ok(()));
     let points = check_hull_in_solid(&Solid::new(&mesh), &claim, SampleCounts::THOROUGH, 0);
     assert!(points.is_ok_and(|count| count > 100));
-    assert_eq!(check_cover(&mesh, &[claim]), Ok(()));
+    assert_eq!(check_partition(&mesh, &[claim]), Ok(()));
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn an_invalid_cover_is_found() {
         (&[&ALL_FACES[..], &[12]], "no face 12"),
     ] {
         let claims: Vec<Claim<'_>> = faces.iter().map(|faces| claim(*faces)).collect();
-        let law = check_cover(&mesh, &claims);
+        let law = check_partition(&mesh, &claims);
         assert!(law.as_ref().is_err_and(|it| it.contains(why)), "{law:?}");
     }
 }

@@ -7,7 +7,7 @@ use ccd_core::Unresolved;
 use ccd_core::order::greater;
 use ccd_core::{Body, Contact, Motion, Outcome, Pose, Settings};
 use ccd_tests::checks::CheckResult;
-use ccd_tests::courses::{self, KINDS};
+use ccd_tests::courses::{self, TRAJECTORY_KINDS};
 use ccd_tests::law;
 use ccd_tests::strategies::seeds;
 use rand::{RngExt, SeedableRng};
@@ -248,7 +248,7 @@ impl<'s> Case<'s> {
     /// Checks the answers of the questions for single motions, which have code of their own, by the same rules.
     fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> CheckResult {
         let motion = |k: usize| -> Motion {
-            let way = self.scene.trajectories[k].stretch(0.0, 1.0);
+            let way = self.scene.trajectories[k].stretch_between(0.0, 1.0);
             way.expect("a motion").motion
         };
         let [a, b] = [0, 1].map(|k| (&self.scene.bodies[k], motion(k)));
@@ -271,7 +271,7 @@ fn no_bound_is_above_a_sampled_distance() {
         let scene = Scene::draw(&mut rng);
         let case = Case::draw(&mut rng, &scene);
         if let Err(why) = case.check(&mut solver, &mut tally) {
-            let kinds = scene.trajectory_kinds.map(|kind| KINDS[kind]);
+            let kinds = scene.trajectory_kinds.map(|kind| TRAJECTORY_KINDS[kind]);
             wrong.push(format!(
                 "{seed}: {kinds:?}, {:?}, {:?}: {why}",
                 scene.solids, case.config

@@ -1,7 +1,7 @@
 //! Compares the answers to every question about random cases with the independent referee and with each other.
 
 use ccd_core::Outcome;
-use ccd_tests::backends::default_answer;
+use ccd_tests::backends::default_backend_answer;
 use ccd_tests::case::Case;
 use ccd_tests::checks::{CheckResult, Judge};
 use ccd_tests::questions::{for_each_answer_set, for_each_trajectory_answer_set};
@@ -32,7 +32,7 @@ fn every_question_far_away_tiny_and_huge() {
 fn check_every_question(case: &Case) -> CheckResult {
     let (query, config) = (case.query(), case.config());
     let judge = Judge::new(&query, &config);
-    let first = default_answer(&query, &config);
+    let first = default_backend_answer(&query, &config);
     let mut law = Ok(());
     for_each_answer_set(&query, &config, |bodies, asked, answers| {
         if law.is_ok() {

@@ -109,7 +109,7 @@ fn check_finding(
             assert!(seen >= gap - query.rounding(), "{name}: {seen} < {gap}");
         }
         // The distance is below that at which the referee can exclude touching.
-        (ExpectedOutcome::Free { gap }, Finding::TooNear { .. }) => assert!(*gap <= 2e-9, "{name}"),
+        (ExpectedOutcome::Free { gap }, Finding::Graze { .. }) => assert!(*gap <= 2e-9, "{name}"),
         // Sliding at a small distance takes the referee more steps than its limit.
         (ExpectedOutcome::Free { gap }, Finding::Undecided { .. }) => {
             assert!(*gap < 2e-6, "{name}");
@@ -120,7 +120,7 @@ fn check_finding(
                 latest_time: latest,
                 ..
             },
-            Finding::TooNear { lo },
+            Finding::Graze { lo },
         ) => {
             assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
         }

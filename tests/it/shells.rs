@@ -48,7 +48,7 @@ fn with_random_windings(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
     };
     for (shell, _) in shells {
         if rng.random() {
-            all.append(&shell.clone().flipped());
+            all.append(&shell.clone().with_reversed_faces());
         } else {
             all.append(shell);
         }

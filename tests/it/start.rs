@@ -1,7 +1,7 @@
 //! Tests contacts at the start, which are reported, or ignored as long as the bodies do not approach.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
-use ccd_core::rounding::APPROACH_DECREASE;
+use ccd_core::rounding::MIN_APPROACH;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{
     Body, Claim, DistanceOracle, GiveUpReason, Motion, Outcome, PiecePair, Pieces, Pose, Settings,
@@ -17,7 +17,7 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-fn leave_settings(tolerance: f64) -> Settings {
+fn settings_with_leave(tolerance: f64) -> Settings {
     Settings {
         start: StartPolicy::Leave,
         ..settings_with_tolerance(tolerance)
@@ -56,7 +56,7 @@ fn sliding_within_the_tolerance_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
         let query = sliding_cube(gap, DVec3::new(1.0, 1.0, 0.0)).query;
         check_outcomes(&query, &settings_with_tolerance(1e-3), is_touching);
-        check_outcomes(&query, &leave_settings(1e-3), is_free);
+        check_outcomes(&query, &settings_with_leave(1e-3), is_free);
     }
     check_outcomes(
         &sliding_cube(1e-6, -DVec3::X).query,
@@ -65,7 +65,7 @@ fn sliding_within_the_tolerance_is_free() {
     );
     check_outcomes(
         &sliding_cube(1e-6, -DVec3::X).query,
-        &leave_settings(1e-8),
+        &settings_with_leave(1e-8),
         is_free,
     );
 }
@@ -77,7 +77,7 @@ fn sliding_onto_another_piece_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
         check_outcomes(
             &sliding_cube(gap, -DVec3::X).query,
-            &leave_settings(1e-3),
+            &settings_with_leave(1e-3),
             is_free,
         );
     }
@@ -89,12 +89,12 @@ fn touching_and_parting_is_free() {
     for gap in [1e-6, 0.0] {
         check_outcomes(
             &sliding_cube(gap, DVec3::Z).query,
-            &leave_settings(1e-3),
+            &settings_with_leave(1e-3),
             is_free,
         );
         check_outcomes(
             &sliding_cube(gap, DVec3::new(2.0, 0.0, 1.0)).query,
-            &leave_settings(1e-3),
+            &settings_with_leave(1e-3),
             is_free,
         );
         check_outcomes(
@@ -111,13 +111,17 @@ fn touching_and_approaching_is_a_contact_at_once() {
     for gap in [1e-6, 0.0] {
         let query = sliding_cube(gap, -DVec3::Z).query;
         check_outcomes(&query, &settings_with_tolerance(1e-3), is_touching);
-        check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
-            // An approach at speed 1 is visible once the distance has decreased by more than rounding.
-            Outcome::Contact { time, .. } => {
-                (0.0..=gap + APPROACH_DECREASE * query.rounding()).contains(&time)
-            }
-            _ => false,
-        });
+        check_outcomes(
+            &query,
+            &settings_with_leave(1e-3),
+            |outcome| match outcome {
+                // An approach at speed 1 is visible once the distance has decreased by more than rounding.
+                Outcome::Contact { time, .. } => {
+                    (0.0..=gap + MIN_APPROACH * query.rounding()).contains(&time)
+                }
+                _ => false,
+            },
+        );
     }
 }
 
@@ -135,13 +139,17 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
         };
         for velocity in [-side, -side + 0.5 * DVec3::new(side.y, side.z, side.x)] {
             let query = dive(0.5 * velocity);
-            check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
-                Outcome::Contact { time, .. } => time <= 1e-11,
-                _ => false,
-            });
+            check_outcomes(
+                &query,
+                &settings_with_leave(1e-3),
+                |outcome| match outcome {
+                    Outcome::Contact { time, .. } => time <= 1e-11,
+                    _ => false,
+                },
+            );
         }
         // Away from each other, they are free.
-        check_outcomes(&dive(0.5 * side), &leave_settings(1e-3), is_free);
+        check_outcomes(&dive(0.5 * side), &settings_with_leave(1e-3), is_free);
     }
 }
 
@@ -151,7 +159,7 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
 fn a_very_slow_approach_takes_few_steps() {
     for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
         let query = sliding_cube(0.0, -approach * DVec3::Z).query;
-        for_each_setup(&query, &leave_settings(1e-3), |_, setup, answer| {
+        for_each_setup(&query, &settings_with_leave(1e-3), |_, setup, answer| {
             let Outcome::Contact { time, .. } = answer.outcome else {
                 panic!("{approach:e} {setup:?}\n{answer:?}");
             };
@@ -172,7 +180,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     let half = DVec3::new(0.11, 0.06, 0.05);
     let config = |margin: f64| Settings {
         margin,
-        ..leave_settings(4e-8)
+        ..settings_with_leave(4e-8)
     };
     for margin in [3.4e-3, 0.1] {
         for share in [1.0, 0.5, 1e-3, 0.0] {
@@ -197,7 +205,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
                 assert!(expected, "{gap} {setup:?}\n{answer:?}");
             });
             let query = at(across - 0.01 * DVec3::Z);
-            let allowed = 2.0 * APPROACH_DECREASE * query.rounding() / 0.01;
+            let allowed = 2.0 * MIN_APPROACH * query.rounding() / 0.01;
             check_outcomes(&query, &config(margin), |outcome| match outcome {
                 Outcome::Contact { time, .. } => time <= allowed,
                 _ => false,
@@ -230,7 +238,7 @@ fn a_liar_cannot_release_a_pair() {
         MovingShape::translating_shape(spike, DVec3::ZERO, -DVec3::Z),
     );
     let bodies = query.bodies_of_triangles();
-    let settings = leave_settings(1e-3);
+    let settings = settings_with_leave(1e-3);
     let problem = query.problem(&bodies, &settings);
     for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
         let answer = BestFirst::default()
@@ -268,10 +276,14 @@ fn a_released_contact_may_come_back() {
         MovingShape::translating_shape(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X),
         MovingShape::still(Shape::union([slab, post]), DVec3::ZERO),
     );
-    check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
-        Outcome::Contact { time, .. } => (0.4995..=0.5).contains(&time),
-        _ => false,
-    });
+    check_outcomes(
+        &query,
+        &settings_with_leave(1e-3),
+        |outcome| match outcome {
+            Outcome::Contact { time, .. } => (0.4995..=0.5).contains(&time),
+            _ => false,
+        },
+    );
 }
 
 #[test]
@@ -377,7 +389,7 @@ fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
             0.018210892309690595,
         );
         let of_a = Motion::new(start, velocity, spin).unwrap();
-        let settings = leave_settings(1e-3);
+        let settings = settings_with_leave(1e-3);
         let problem = ccd_core::Query::new((&a, of_a), (&b, of_b), 1.0, &settings).unwrap();
         let answer = BestFirst::default()
             .first_contact(&problem, &mut ClosedForm::default())

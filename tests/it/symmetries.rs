@@ -2,7 +2,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Outcome, Pose};
-use ccd_tests::backends::default_answer;
+use ccd_tests::backends::default_backend_answer;
 use ccd_tests::checks::Judge;
 use ccd_tests::strategies::runner;
 use ccd_tests::strategies::{cases, check_cases, direction, rotation};
@@ -15,8 +15,8 @@ fn bodies_may_be_swapped() {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
         let (here, there) = (
-            default_answer(&query, &case.config()),
-            default_answer(&query.swapped(), &case.config()),
+            default_backend_answer(&query, &case.config()),
+            default_backend_answer(&query.swapped(), &case.config()),
         );
         judge.check_time(&here, 0.0)?;
         judge
@@ -33,7 +33,7 @@ fn both_may_be_seen_from_any_frame() {
         let frame = Pose::new(10.0f64.powf(far) * towards, rotation).expect("a pose");
         let moved = query.seen_from(&frame);
         let judge = Judge::new(&query, &case.config());
-        let answer = default_answer(&moved, &case.config());
+        let answer = default_backend_answer(&moved, &case.config());
         judge
             .check_time(&answer, moved.rounding())
             .map_err(|why| TestCaseError::fail(format!("{why}\n{answer:?}\n{}", case.to_toml())))
@@ -50,12 +50,12 @@ fn a_free_motion_in_reverse_is_free() {
     let (free, grazing) = (Cell::new(0), Cell::new(0));
     check_cases(400, cases(), |case| {
         let query = case.query();
-        let forwards = default_answer(&query, &case.config());
+        let forwards = default_backend_answer(&query, &case.config());
         if !matches!(forwards.outcome, Outcome::Free { .. }) {
             return Ok(());
         }
         let reversed = query.reversed();
-        let backwards = default_answer(&reversed, &case.config());
+        let backwards = default_backend_answer(&reversed, &case.config());
         Judge::new(&reversed, &case.config()).check_time(&backwards, query.rounding())?;
         let count = match backwards.outcome {
             Outcome::Free { .. } => &free,

@@ -149,7 +149,7 @@ pub fn for_each_setup(
 }
 
 /// Returns the answer of the default backend to a query, with both bodies made of triangles.
-pub fn default_answer(query: &Query, config: &Settings) -> Answer {
+pub fn default_backend_answer(query: &Query, config: &Settings) -> Answer {
     let bodies = query.bodies_of_triangles();
     Backend::DEFAULT.solve(&query.problem(&bodies, config))
 }

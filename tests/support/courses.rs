@@ -12,7 +12,7 @@ use rigid_ccd::trajectory::{
 };
 
 /// The names of the kinds of trajectories.
-pub const KINDS: [&str; 11] = [
+pub const TRAJECTORY_KINDS: [&str; 11] = [
     "motion",
     "still",
     "screw",
@@ -26,15 +26,15 @@ pub const KINDS: [&str; 11] = [
     "zigzag",
 ];
 
-/// Returns a random trajectory of a kind, given by its index in [`KINDS`]. Its lengths are about `reach`, and it stays
+/// Returns a random trajectory of a kind, given by its index in [`TRAJECTORY_KINDS`]. Its lengths are about `reach`, and it stays
 /// within about `reach` of the origin.
 pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
-    random_trajectory(rng, KINDS[kind], reach).expect("finite numbers")
+    random_trajectory(rng, TRAJECTORY_KINDS[kind], reach).expect("finite numbers")
 }
 
 /// Returns true if the trajectories of a kind are single motions.
 pub fn is_motion_kind(kind: usize) -> bool {
-    ["motion", "still", "screw", "joint"].contains(&KINDS[kind])
+    ["motion", "still", "screw", "joint"].contains(&TRAJECTORY_KINDS[kind])
 }
 
 fn random_trajectory(
@@ -184,9 +184,9 @@ struct LastLinkTrajectory {
 }
 
 impl Trajectory for LastLinkTrajectory {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = &self.positions;
-        (self.chain.link(first.len(), first, last, 1.0)?).stretch(from, to)
+        (self.chain.link(first.len(), first, last, 1.0)?).stretch_between(from, to)
     }
 }
 
@@ -243,7 +243,7 @@ impl Zigzag {
 }
 
 impl Trajectory for Zigzag {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let ends = [from, to].map(|time| self.position_at(time));
         let velocity = if to > from {
             (ends[1] - ends[0]) / (to - from)
@@ -263,7 +263,7 @@ impl Trajectory for Zigzag {
         Ok(Stretch {
             deviation_bound: DeviationBound {
                 shift: shift + 8.0 * rounding,
-                turn: 0.0,
+                angle: 0.0,
             },
             ..Stretch::exact(motion)
         })

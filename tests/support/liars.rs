@@ -95,7 +95,7 @@ impl DistanceOracle for FaultyOracle {
                 claim.b = ConvexCombination::segment([u32::MAX, 0], 0.5);
             }
             ContractBreach::ReversedAxis => {
-                claim.axis = pair.a.points[0] - pair.b_to_a.point(pair.b.points[0]);
+                claim.axis = pair.a.points[0] - pair.b_to_a.transform_point(pair.b.points[0]);
             }
             ContractBreach::GivesUp => return Err(GiveUpReason::Cycle),
         }

@@ -176,7 +176,7 @@ impl Shape {
     }
 
     /// Returns the kinds of pieces that the shape can be made of.
-    pub fn kinds(&self) -> impl Iterator<Item = PieceKind> {
+    pub fn piece_kinds(&self) -> impl Iterator<Item = PieceKind> {
         PieceKind::ALL.into_iter().filter(|kind| match kind {
             PieceKind::Triangles => !self.mesh.faces.is_empty(),
             PieceKind::Parts => !self.parts.is_empty(),
@@ -187,7 +187,7 @@ impl Shape {
 
     /// Returns true if the shape can be made of a kind of pieces.
     pub fn can_be_made_of(&self, kind: PieceKind) -> bool {
-        self.kinds().any(|known| known == kind)
+        self.piece_kinds().any(|known| known == kind)
     }
 
     /// Builds the engine's body of the shape. A body of parts is a surface, because its parts are filled anyway.
@@ -257,7 +257,7 @@ impl Mesh {
     }
 
     /// Returns the mesh with every face reversed.
-    pub fn flipped(mut self) -> Self {
+    pub fn with_reversed_faces(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
         self
     }
@@ -286,8 +286,8 @@ fn grid_faces(rows: GridExtent, columns: GridExtent) -> Vec<[u32; 3]> {
     let vertex =
         |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;
     let mut faces = Vec::new();
-    for i in 0..rows.step_count() {
-        for j in 0..columns.step_count() {
+    for i in 0..rows.cell_count() {
+        for j in 0..columns.cell_count() {
             let [a, b, c, d] = [
                 vertex(i, j),
                 vertex(i + 1, j),
@@ -313,7 +313,7 @@ impl GridExtent {
         n
     }
 
-    fn step_count(self) -> usize {
+    fn cell_count(self) -> usize {
         match self {
             GridExtent::Bounded(n) => n.saturating_sub(1),
             GridExtent::Wrapping(n) => n,

@@ -25,7 +25,7 @@ pub struct Claim<'a> {
 ///
 /// # Errors
 /// Names the face that is not in exactly one patch.
-pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> CheckResult {
+pub fn check_partition(mesh: &Mesh, claims: &[Claim<'_>]) -> CheckResult {
     let mut count = vec![0; mesh.faces.len()];
     for &face in claims.iter().flat_map(|claim| claim.faces) {
         *count

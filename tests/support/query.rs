@@ -185,7 +185,7 @@ impl MovingShape {
     /// Returns the engine's bodies of the shape, one for every kind of pieces that it can be made of.
     fn bodies(&self) -> Vec<(PieceKind, Rc<Body>)> {
         let built = |kind| (kind, Rc::new(self.shape.body(kind)));
-        self.shape.kinds().map(built).collect()
+        self.shape.piece_kinds().map(built).collect()
     }
 
     fn seen_from(&self, frame: &Pose) -> MovingShape {

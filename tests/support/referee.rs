@@ -30,7 +30,7 @@ pub enum Finding {
         hi: f64,
     },
     /// The surfaces are apart until `lo`, and later too near for a decision.
-    TooNear {
+    Graze {
         /// The time until which the bodies are proven apart.
         lo: f64,
     },
@@ -140,7 +140,7 @@ impl<'a> Referee<'a> {
             }
             step *= 1.5;
         }
-        Finding::TooNear { lo }
+        Finding::Graze { lo }
     }
 
     fn is_in_contact(&self, time: f64) -> bool {

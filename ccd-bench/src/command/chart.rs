@@ -8,7 +8,7 @@ use crate::method::peer::PeerKind;
 use crate::run::contest::MeasurementLimits;
 use crate::run::evaluation::MeasurementPlan;
 use crate::run::export::export;
-use crate::scene::listings;
+use crate::scene::scene_descriptions;
 use crate::show::presentation::write_report;
 use anyhow::{Result, ensure};
 use clap::Args;
@@ -94,7 +94,10 @@ pub(super) fn run(args: &ChartArgs) -> Result<RunOutcome> {
     if args.programs.script.is_some() {
         plan.methods.extend(Method::script_methods());
     }
-    plan.listings = select_by_name(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
+    plan.scene_descriptions =
+        select_by_name(plan.scene_descriptions, &args.scenes, "scene", |l| {
+            l.name.clone()
+        })?;
     plan.methods = select_by_name(plan.methods, &args.methods, "method", Method::to_string)?;
     if !args.tolerances.is_empty() {
         for tolerance in &args.tolerances {
@@ -106,7 +109,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<RunOutcome> {
         plan.tolerances.clone_from(&args.tolerances);
     }
     if let Some(folder) = &args.export {
-        export(&plan.listings, plan.model_folder, folder)?;
+        export(&plan.scene_descriptions, plan.model_folder, folder)?;
         return Ok(RunOutcome::AllAnswered);
     }
     let evaluated = if args.redraw {
@@ -140,7 +143,7 @@ fn plan_measurements(args: &ChartArgs) -> Result<MeasurementPlan> {
     let methods = Method::built_in_methods().into_iter();
     let methods = methods.filter(|method| args.full || is_in_quick_plan(*method));
     Ok(MeasurementPlan {
-        listings: listings()?,
+        scene_descriptions: scene_descriptions()?,
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
         limits: MeasurementLimits {

@@ -4,7 +4,7 @@ use super::chart::select_by_name;
 use super::print_summary;
 use crate::method::Method;
 use crate::method::guarded::MethodPrograms;
-use crate::method::script::ScriptKind;
+use crate::method::script::ScriptMethod;
 use crate::run::contest::Journal;
 use crate::show::write;
 use crate::stability::{
@@ -59,7 +59,7 @@ Examples:
 pub(super) fn run(args: &StabilityArgs) -> Result<RunOutcome> {
     // The folder may contain more than the requested answers.
     let mut drawn = Method::known_methods();
-    drawn.retain(|method| *method != Method::Script(ScriptKind::CoalDistance));
+    drawn.retain(|method| *method != Method::Script(ScriptMethod::CoalDistance));
     let has_program =
         |method: &Method| args.programs.script.is_some() || !matches!(method, Method::Script(_));
     let methods = drawn.iter().copied().filter(has_program).collect();

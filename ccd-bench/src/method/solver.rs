@@ -23,19 +23,19 @@ pub struct TimedReply {
 
 /// The maximum number of times that a query is answered for timing. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
-const MAX_ANSWER_COUNT: usize = 4;
+const MAX_TIMING_RUNS: usize = 4;
 /// A query that has taken this long in total is not answered once more to improve its timing.
 const REPEAT_TIME_LIMIT: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
 pub fn answer_timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedReply {
-    let mut micros = Vec::with_capacity(MAX_ANSWER_COUNT);
+    let mut micros = Vec::with_capacity(MAX_TIMING_RUNS);
     let first = Instant::now();
     loop {
         let start = Instant::now();
         let reply = solver.answer(query, tolerance);
         micros.push(start.elapsed().as_secs_f64() * 1e6);
-        if first.elapsed() > REPEAT_TIME_LIMIT || micros.len() == MAX_ANSWER_COUNT {
+        if first.elapsed() > REPEAT_TIME_LIMIT || micros.len() == MAX_TIMING_RUNS {
             let warm = usize::from(micros.len() > 1);
             let micros = median(&mut micros[warm..]);
             return TimedReply { reply, micros };

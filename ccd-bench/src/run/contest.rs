@@ -7,7 +7,7 @@ mod tests;
 pub(crate) mod verdict;
 
 use ccd_core::order::greater;
-pub use journal::{Journal, program_stamp};
+pub use journal::{Journal, program_fingerprint};
 pub use session::Session;
 pub use verdict::{Judgement, Verdict, judge, judge_outcome};
 

@@ -2,8 +2,10 @@
 
 use crate::method::guarded::MethodPrograms;
 use crate::method::{Method, PAPER_TOLERANCE};
-use crate::run::contest::{Journal, MeasurementLimits, PreparedScene, Session, program_stamp};
-use crate::scene::{ModelCache, PieceKind, Scene, SceneBody, SceneListing};
+use crate::run::contest::{
+    Journal, MeasurementLimits, PreparedScene, Session, program_fingerprint,
+};
+use crate::scene::{ModelCache, PieceKind, Scene, SceneBody, SceneDescription};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, TotalWork};
@@ -15,7 +17,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct MeasurementPlan {
     /// The descriptions of the scenes on which the methods run.
-    pub listings: Vec<SceneListing>,
+    pub scene_descriptions: Vec<SceneDescription>,
     /// The methods to measure on every scene.
     pub methods: Vec<Method>,
     /// The tolerances at which to measure each method.
@@ -46,7 +48,10 @@ impl MeasurementPlan {
     /// If a scene cannot be made.
     pub fn load_measurements(&self) -> Result<Evaluation> {
         let mut models = ModelCache::new(self.model_folder.clone());
-        let scenes = self.listings.iter().map(|l| l.make_scene(&mut models));
+        let scenes = self
+            .scene_descriptions
+            .iter()
+            .map(|l| l.make_scene(&mut models));
         Ok(Evaluation {
             scenes: scenes.collect::<Result<_>>()?,
             journal: Journal::read(&self.folder),
@@ -61,7 +66,7 @@ impl MeasurementPlan {
         for &method in &self.methods {
             self.programs.check_script_starts(method)?;
         }
-        let mut journal = Journal::open(&self.folder, &self.stamp())?;
+        let mut journal = Journal::open(&self.folder, &self.fingerprint())?;
         let mut models = ModelCache::new(self.model_folder.clone());
         let scenes = self.scenes(&mut models)?;
         let cells: usize = self
@@ -117,14 +122,14 @@ impl MeasurementPlan {
     }
 
     fn scenes(&self, models: &mut ModelCache) -> Result<Vec<Scene>> {
-        let progress = Progress::new(TotalWork::Steps(self.listings.len()));
-        let make = |listing: &SceneListing| {
+        let progress = Progress::new(TotalWork::Steps(self.scene_descriptions.len()));
+        let make = |listing: &SceneDescription| {
             progress.set_message(&format!("making {}", listing.name));
             let scene = listing.make_scene(models);
             progress.step();
             scene
         };
-        let scenes: Result<Vec<Scene>> = self.listings.iter().map(make).collect();
+        let scenes: Result<Vec<Scene>> = self.scene_descriptions.iter().map(make).collect();
         let scenes = scenes?;
         progress.set_message("making pieces");
         self.make_pieces(&scenes);
@@ -160,10 +165,10 @@ impl MeasurementPlan {
 
     /// Returns a text that identifies the build of this program, the models and the limits, which determine all
     /// measurements.
-    fn stamp(&self) -> String {
+    fn fingerprint(&self) -> String {
         format!(
             "{}models {}\nmethods {:?}\n",
-            program_stamp(),
+            program_fingerprint(),
             self.model_folder
                 .as_ref()
                 .map_or("by code".into(), |folder| folder.display().to_string()),

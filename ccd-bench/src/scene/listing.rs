@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The description of a scene, from which it can be made.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SceneListing {
+pub struct SceneDescription {
     /// The name of the scene in tables.
     pub name: String,
     a: String,
@@ -22,8 +22,8 @@ pub struct SceneListing {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ListingFile {
-    scene: Vec<SceneListing>,
+struct ScenesFile {
+    scene: Vec<SceneDescription>,
 }
 
 const SCENES_TOML: &str = include_str!("../../scenes/scenes.toml");
@@ -49,12 +49,12 @@ pub(super) const MOTION_TABLES: [(&str, &str); 6] = [
 ///
 /// # Errors
 /// If the data file is invalid.
-pub fn listings() -> Result<Vec<SceneListing>> {
-    let file: ListingFile = toml::from_str(SCENES_TOML).context("scenes.toml")?;
+pub fn scene_descriptions() -> Result<Vec<SceneDescription>> {
+    let file: ScenesFile = toml::from_str(SCENES_TOML).context("scenes.toml")?;
     Ok(file.scene)
 }
 
-impl SceneListing {
+impl SceneDescription {
     /// Makes the scene from its models and its table of motions.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Makes one page that shows measurements: a chart, tables, scenes in three dimensions. It works offline.
 
 use super::tables::TextTable;
-use super::views::Views;
+use super::views::SceneAnimations;
 use ccd_view::{escape, fill_template};
 
 #[cfg(test)]
@@ -13,7 +13,7 @@ mod tests;
 /// If the views cannot be serialised.
 pub fn page_html(
     chart: &str,
-    views: &Views,
+    views: &SceneAnimations,
     tables: &[TextTable],
 ) -> Result<String, serde_json::Error> {
     let parts = [

@@ -6,7 +6,7 @@ use crate::show::chart::{ChartData, ChartedMethod, MethodFamily};
 use crate::show::comparable::ReferenceTimes;
 use crate::show::page;
 use crate::show::tables::{self, TextTable};
-use crate::show::views::Views;
+use crate::show::views::SceneAnimations;
 use crate::show::write;
 use anyhow::Result;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ pub fn write_report(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable,
     let text: Vec<String> = tables.iter().map(|table| format!("{table}\n")).collect();
     write(&folder.join("tables.md"), &text.join("\n"))?;
     let page = folder.join("index.html");
-    let views = Views::new(&evaluated.scenes)?;
+    let views = SceneAnimations::new(&evaluated.scenes)?;
     write(&page, &page::page_html(&chart, &views, &tables)?)?;
     Ok((safety, page))
 }

@@ -3,8 +3,8 @@
 use crate::method::first_contact;
 use crate::scene::Scene;
 use anyhow::Result;
-use ccd_core::{Instructions, Outcome, Settings};
-use ccd_view::{Group, Meshes, View};
+use ccd_core::{Outcome, Settings, VectorInstructions};
+use ccd_view::{Animation, AnimationGroup, Meshes};
 use rigid_ccd::batch::{Question, SolverKind};
 use rigid_ccd::picture::{Painter, QueryContext, TimeMeaning, drawn_mesh};
 use rigid_ccd::table::courses::Movements;
@@ -12,25 +12,25 @@ use rigid_ccd::table::results::ResultRow;
 
 /// The views of all scenes; equal meshes are stored once.
 #[derive(Clone, Debug, Default)]
-pub struct Views {
+pub struct SceneAnimations {
     /// The meshes of all scenes' bodies.
     pub meshes: Meshes,
     /// The views of motions, one group for each scene.
-    pub groups: Vec<Group>,
+    pub groups: Vec<AnimationGroup>,
 }
 
 /// The maximum number of views of a scene: first of motions with a contact, then of other motions.
 const MAX_VIEWS_PER_SCENE: [usize; 2] = [6, 2];
 
-impl Views {
+impl SceneAnimations {
     /// Creates views of the first motions with a contact in each scene, and of the first other motions.
     ///
     /// # Errors
     /// If a query of a scene is invalid.
     pub fn new(scenes: &[Scene]) -> Result<Self> {
-        let mut views = Views::default();
+        let mut views = SceneAnimations::default();
         for scene in scenes {
-            let group = Group {
+            let group = AnimationGroup {
                 name: scene.name.clone(),
                 views: views.views_of_scene(scene)?,
             };
@@ -39,7 +39,7 @@ impl Views {
         Ok(views)
     }
 
-    fn views_of_scene(&mut self, scene: &Scene) -> Result<Vec<View>> {
+    fn views_of_scene(&mut self, scene: &Scene) -> Result<Vec<Animation>> {
         let bodies = scene.bodies();
         let asked = QueryContext {
             time_meaning: TimeMeaning::FirstContact,
@@ -49,7 +49,7 @@ impl Views {
         let mut painter = Painter::new(bodies, asked);
         // The painter numbers the meshes of one pair; the page has those of all.
         let meshes = [bodies.a, bodies.b].map(|body| self.meshes.add(&drawn_mesh(body)));
-        let mut solver = SolverKind::default().solver(Instructions::Best);
+        let mut solver = SolverKind::default().solver(VectorInstructions::Best);
         let mut found = [const { Vec::new() }; 2];
         for query in &scene.queries {
             let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;

@@ -6,7 +6,7 @@ use super::judge::judge;
 use crate::method::Method;
 use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms, QueryOutcome};
 use crate::method::rival::are_screw_motions;
-use crate::run::contest::{Journal, Judgement, Verdict, program_stamp, summarise_trials};
+use crate::run::contest::{Journal, Judgement, Verdict, program_fingerprint, summarise_trials};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use anyhow::{Context, Result};
@@ -55,7 +55,7 @@ impl Survey {
         for &method in &self.methods {
             self.programs.check_script_starts(method)?;
         }
-        let journal = Mutex::new(Journal::open(&self.folder, &stamp())?);
+        let journal = Mutex::new(Journal::open(&self.folder, &fingerprint())?);
         let steps = self.families.iter().map(|f| self.selected_values(f).len());
         let steps: usize = steps.sum();
         let progress = Progress::new(TotalWork::Steps(steps * self.methods.len()));
@@ -192,7 +192,7 @@ fn judge_failed_start(error: io::Error) -> io::Result<Judgement> {
 
 /// Returns a text that identifies this program and the limits of its measurements. A survey is resumed in a folder only
 /// if the text stored there is the same.
-fn stamp() -> String {
-    let program = program_stamp();
+fn fingerprint() -> String {
+    let program = program_fingerprint();
     format!("{program}patience {QUERY_TIME_LIMIT:?} {PREPARATION_TIME_LIMIT:?}\n")
 }

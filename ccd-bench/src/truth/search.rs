@@ -96,7 +96,7 @@ impl<'a> Search<'a> {
             };
             let snapshot = self.linearize_motions(span);
             let Some(left) = self.pairs_that_may_meet(&snapshot, &pairs) else {
-                let lo = undecided.first.unwrap_or(span.start);
+                let lo = undecided.first_time.unwrap_or(span.start);
                 return Truth::Undecided { lo };
             };
             if left.is_empty() {
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
                 pending.push((early, left));
                 continue;
             }
-            let lo = *undecided.first.get_or_insert(span.start);
+            let lo = *undecided.first_time.get_or_insert(span.start);
             if let Some(hi) =
                 self.find_contact_after(span.start, roots, &left, undecided.undecided_count)
             {
@@ -119,7 +119,7 @@ impl<'a> Search<'a> {
             }
             undecided.skip_after(span, shortest);
         }
-        match undecided.first {
+        match undecided.first_time {
             None => Truth::Free,
             Some(lo) => Truth::Graze { lo },
         }
@@ -322,7 +322,7 @@ enum TouchDecision {
 #[derive(Debug, Default)]
 struct UndecidedTimes {
     /// The first undecided time; `None` if there is no undecided time.
-    first: Option<f64>,
+    first_time: Option<f64>,
     /// The time before which the search examines no further intervals.
     skipped_until: f64,
     /// The number of intervals so far in which neither a contact nor a gap was proven.

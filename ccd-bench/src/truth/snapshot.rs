@@ -143,8 +143,8 @@ impl LinearizedMotions {
             return None;
         }
         let gaps_a = self.extent_matrices_along_a.axis_gap_lower_bounds(
-            self.rotate_to_a_frame(apart),
-            self.rotate_to_a_frame(moved),
+            self.rotate_to_frame_a(apart),
+            self.rotate_to_frame_a(moved),
             a,
             b,
         );
@@ -164,7 +164,7 @@ impl LinearizedMotions {
             .max(none);
         let gaps_a = self
             .extent_matrices_along_a
-            .axis_gap_lower_bounds(self.rotate_to_a_frame(apart), none, a, b)
+            .axis_gap_lower_bounds(self.rotate_to_frame_a(apart), none, a, b)
             .max(none);
         let distance = greater(gaps_b.length(), gaps_a.length());
         distance * (1.0 - FORTY_ROUNDINGS_ERROR) - 2.0 * self.gap_error_bound
@@ -186,7 +186,7 @@ impl LinearizedMotions {
         a.map(|p| self.placement.apply(p))
     }
 
-    fn rotate_to_a_frame(&self, v: DVec3) -> DVec3 {
+    fn rotate_to_frame_a(&self, v: DVec3) -> DVec3 {
         self.placement.matrix.transpose() * v
     }
 }

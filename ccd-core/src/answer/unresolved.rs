@@ -20,7 +20,7 @@ pub struct Unresolved {
     pub upper: f64,
     /// The time of the smallest measured distance, and the nearest pieces at that time. `None` if no distance was
     /// measured.
-    pub nearest: Option<(f64, Contact)>,
+    pub nearest_contact: Option<(f64, Contact)>,
 }
 
 impl Unresolved {
@@ -32,7 +32,7 @@ impl Unresolved {
             safe_from: f64::INFINITY,
             lower: 0.0,
             upper: f64::INFINITY,
-            nearest: None,
+            nearest_contact: None,
         }
     }
 
@@ -41,7 +41,7 @@ impl Unresolved {
     pub(crate) fn for_least_distance(lower: f64, at: Option<(f64, Contact)>, limit: Limit) -> Self {
         Unresolved {
             lower,
-            nearest: at,
+            nearest_contact: at,
             ..Unresolved::from_safe_until(0.0, limit)
         }
         .with_measured_upper_bound()
@@ -51,7 +51,7 @@ impl Unresolved {
     pub(super) fn with_measured_upper_bound(self) -> Self {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
         Unresolved {
-            upper: self.nearest.map_or(f64::INFINITY, upper),
+            upper: self.nearest_contact.map_or(f64::INFINITY, upper),
             ..self
         }
     }

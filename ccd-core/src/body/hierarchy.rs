@@ -42,19 +42,23 @@ impl Hierarchy {
             let at = node as usize;
             match seen_node.get_mut(at) {
                 Some(seen @ false) => *seen = true,
-                _ => return Err(InputError::BadHierarchy { at }),
+                _ => return Err(InputError::BadHierarchy { index: at }),
             }
             match nodes[at] {
                 HierarchyNode::Inner(left, right) => stack.extend([left, right]),
                 HierarchyNode::Leaf(piece) => match seen_piece.get_mut(piece as usize) {
                     Some(seen @ false) => *seen = true,
-                    _ => return Err(InputError::BadHierarchy { at: piece as usize }),
+                    _ => {
+                        return Err(InputError::BadHierarchy {
+                            index: piece as usize,
+                        });
+                    }
                 },
             }
         }
         let unseen = seen_node.iter().position(|s| !s);
         match unseen.or_else(|| seen_piece.iter().position(|s| !s)) {
-            Some(at) => Err(InputError::BadHierarchy { at }),
+            Some(at) => Err(InputError::BadHierarchy { index: at }),
             None => Ok(Hierarchy { nodes }),
         }
     }

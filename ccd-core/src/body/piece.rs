@@ -1,9 +1,9 @@
 //! The convex pieces of bodies: the shapes between which oracles compute distances.
 
+use super::cache_table::CacheTable;
 use super::facets::{Facets, fan_triangles};
 use super::polytope::FacetOrigin;
-use super::side_table::SideTable;
-use super::support::Support;
+use super::support::SupportMap;
 use crate::math::order::greater;
 use crate::math::vector::distance;
 use crate::rounding::{RATE_ERROR_F64, WEIGHT_RANGE};
@@ -23,15 +23,15 @@ pub struct Piece<'a> {
     /// The facets of the hull, if known; empty if they are unknown, and for up to three points.
     pub facets: Facets<'a>,
     /// A search structure for extremal points, if one was prepared.
-    pub(crate) support_map: Option<&'a Support>,
+    pub(crate) support_map: Option<&'a SupportMap>,
     /// The place where values that backends derive from the piece are cached; `None` for a piece outside of any list.
-    pub(crate) side_table_row: Option<SideTableRow<'a>>,
+    pub(crate) cache_table_row: Option<CacheTableRow<'a>>,
 }
 
 /// The place of a piece's cached values: the side table of its list, and its index there.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SideTableRow<'a> {
-    pub(crate) side_table: &'a SideTable,
+pub(crate) struct CacheTableRow<'a> {
+    pub(crate) cache_table: &'a CacheTable,
     pub(crate) len: usize,
     pub(crate) index: usize,
 }
@@ -44,7 +44,7 @@ impl<'a> Piece<'a> {
             radius: 0.0,
             facets: Facets::NONE,
             support_map: None,
-            side_table_row: None,
+            cache_table_row: None,
         }
     }
 
@@ -74,15 +74,15 @@ impl<'a> Piece<'a> {
         &self,
         make: impl FnOnce(&Self) -> T,
     ) -> Option<&'a T> {
-        let slot = self.side_table_row?;
-        let entry = slot.side_table.entry(slot.len, slot.index);
+        let slot = self.cache_table_row?;
+        let entry = slot.cache_table.entry(slot.len, slot.index);
         Some(entry.get_or_init(|| make(self)))
     }
 
     /// Returns the piece with a search structure for extremal points if it has many points. The structure is created
     /// once and stored.
     #[inline]
-    pub(crate) fn with_support_map(self, make: impl FnOnce(&Self) -> Support) -> Self {
+    pub(crate) fn with_support_map(self, make: impl FnOnce(&Self) -> SupportMap) -> Self {
         if self.points.len() <= MAX_SCANNED_POINTS || self.support_map.is_some() {
             return self;
         }
@@ -114,7 +114,7 @@ impl<'a> Piece<'a> {
     /// points, only some of them are tested.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal_point`].
+    /// The guarantee of [`SupportMap::extremal_point`].
     pub fn extremal_point(&self, direction: DVec3) -> u32 {
         if let Some(support) = self.support_map {
             return support.extremal_point(direction);
@@ -137,7 +137,7 @@ impl<'a> Piece<'a> {
     /// Returns the centre and radius of a ball around the points; `None` if no search structure stores one.
     #[inline]
     pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
-        self.support_map.and_then(Support::bounding_ball)
+        self.support_map.and_then(SupportMap::bounding_ball)
     }
 
     /// Returns an upper bound of the distances of the piece's points from `from`. It comes from the bounding ball if one is

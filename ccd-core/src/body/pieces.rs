@@ -5,12 +5,12 @@ pub(crate) mod builder;
 mod serial;
 mod unpack;
 
+use super::cache_table::CacheTable;
 use super::facets::{Facets, range_from_ends};
 use super::feature::Feature;
 use super::feature_lookup::find_mesh_feature;
-use super::piece::{ConvexCombination, Piece, SideTableRow};
+use super::piece::{CacheTableRow, ConvexCombination, Piece};
 use super::polytope::{Face, FacetOrigin};
-use super::side_table::SideTable;
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
 use builder::{PiecesBuilder, PolytopeParts};
@@ -28,7 +28,7 @@ pub struct Pieces {
     vertex_ids: Vec<u32>,
     shape: PieceShapes,
     /// The cached values that backends derive from the pieces.
-    side_table: SideTable,
+    cache_table: CacheTable,
 }
 
 /// The largest number of points that all pieces of a body may have together. Indices have 32 bits: a quarter of their
@@ -104,7 +104,7 @@ impl Pieces {
             points,
             vertex_ids,
             shape,
-            side_table: SideTable::default(),
+            cache_table: CacheTable::default(),
         }
     }
 
@@ -177,8 +177,8 @@ impl Pieces {
             radius: self.radius(index),
             facets: self.facets(index),
             support_map: None,
-            side_table_row: Some(SideTableRow {
-                side_table: &self.side_table,
+            cache_table_row: Some(CacheTableRow {
+                cache_table: &self.cache_table,
                 len: self.len(),
                 index,
             }),

@@ -27,7 +27,7 @@ use glam::DVec3;
 /// assert_eq!(support.extremal_point(DVec3::new(0.1, 1.0, 5.0)), 2);
 /// ```
 #[derive(Clone, Debug)]
-pub enum Support {
+pub enum SupportMap {
     /// Scans all points: computes the height of every point along the direction.
     Scan(SupportScan),
     /// Climbs along the edges of the hull to higher corners.
@@ -36,21 +36,21 @@ pub enum Support {
     Tree(Box<SupportTree>),
 }
 
-impl Support {
+impl SupportMap {
     /// Builds the search structure for the points of one piece: a scan of few points, climbing for many. If there are
     /// more than [`MAX_SCANNED_POINTS`] of them, the facets must be those of their hull. Without facets, every point is
     /// scanned.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
         let climbed = points.len() > MAX_SCANNED_POINTS;
         match climbed.then(|| SupportTable::new(points, facets)).flatten() {
-            Some(table) => Support::Climb(Box::new(table)),
-            None => Support::Scan(SupportScan::new(points)),
+            Some(table) => SupportMap::Climb(Box::new(table)),
+            None => SupportMap::Scan(SupportScan::new(points)),
         }
     }
 
     /// Builds a tree search for points whose facets are unknown.
     pub(crate) fn from_points(points: &[DVec3]) -> Self {
-        Support::Tree(Box::new(SupportTree::new(points)))
+        SupportMap::Tree(Box::new(SupportTree::new(points)))
     }
 
     /// Returns the index of a point that is farthest along a direction of any length.
@@ -62,17 +62,19 @@ impl Support {
     #[inline]
     pub fn extremal_point(&self, direction: DVec3) -> u32 {
         match self {
-            Support::Scan(scan) => scan.extremal_point(direction),
-            Support::Climb(table) => table.extremal_point(direction),
-            Support::Tree(tree) => tree.extremal_point(direction),
+            SupportMap::Scan(scan) => scan.extremal_point(direction),
+            SupportMap::Climb(table) => table.extremal_point(direction),
+            SupportMap::Tree(tree) => tree.extremal_point(direction),
         }
     }
 
-    /// Like [`Support::extremal_point`], but may start at `corner`, a point that is likely to be nearly extremal.
+    /// Like [`SupportMap::extremal_point`], but may start at `corner`, a point that is likely to be nearly extremal.
     #[inline]
     pub(crate) fn extremal_point_with_hint(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {
-            (Support::Climb(table), Some(corner)) => table.extremal_point_from(corner, direction),
+            (SupportMap::Climb(table), Some(corner)) => {
+                table.extremal_point_from(corner, direction)
+            }
             _ => self.extremal_point(direction),
         }
     }
@@ -81,9 +83,9 @@ impl Support {
     #[inline]
     pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
         match self {
-            Support::Scan(_) => None,
-            Support::Climb(table) => Some(table.bounding_ball()),
-            Support::Tree(tree) => Some(tree.bounding_ball()),
+            SupportMap::Scan(_) => None,
+            SupportMap::Climb(table) => Some(table.bounding_ball()),
+            SupportMap::Tree(tree) => Some(tree.bounding_ball()),
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
-use crate::rounding::{APPROACH_DECREASE, is_direction_uncertain};
+use crate::rounding::{MIN_APPROACH, is_direction_uncertain};
 
 /// Translates the contacts of an outcome from triangulated surfaces to the bodies that the caller gave. The normal, the
 /// nearest points and the bounds of a contact are those of the pieces that it names.
@@ -69,8 +69,8 @@ fn replace_uncertain_normal(
         return contact;
     }
     let [frame, _] = &snapshot.frames;
-    let points = witnesses.map(|at| frame.inverse_point(problem.to_local_point(at)));
-    let towards = frame.inverse_vector(seen.normal);
+    let points = witnesses.map(|at| frame.inverse_transform_point(problem.to_problem_point(at)));
+    let towards = frame.inverse_transform_vector(seen.normal);
     let Some(axis) = common_normal(&snapshot, points, towards, meter) else {
         return contact;
     };
@@ -78,7 +78,7 @@ fn replace_uncertain_normal(
     // Overlapping pieces have no direction between them. Either direction may prove that they touch: an oracle that
     // computes their nearest points up to rounding need not return a direction. Written so that NaN counts as an
     // overlap.
-    if !(greater(seen.lower, gap) >= -APPROACH_DECREASE * problem.rounding) {
+    if !(greater(seen.lower, gap) >= -MIN_APPROACH * problem.rounding) {
         return contact;
     }
     seen.lower = lesser(seen.lower, gap);
@@ -106,9 +106,9 @@ fn remeasure_contact<O: DistanceOracle>(
         // The oracle finds less for the pieces than for their surfaces. The result for the surfaces remains, with the
         // bounds that its normal proves for the pieces.
         None => {
-            let axis = snapshot.frames[0].inverse_vector(contact.separation.normal);
+            let axis = snapshot.frames[0].inverse_transform_vector(contact.separation.normal);
             let from = snapshot.frames[0]
-                .inverse_point(given.to_local_point(contact.separation.witness_a));
+                .inverse_transform_point(given.to_problem_point(contact.separation.witness_a));
             let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
             contact
                 .cap_lower_bound(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)

@@ -37,20 +37,20 @@ impl<'a> ContactManifold<'a> {
     pub(super) fn add_face_contacts(&mut self, faces: [u32; 2]) {
         let [a, b] = self.near_surfaces;
         let rounding = self.problem.rounding;
-        for v in a.unhidden_corners_of(faces[0]) {
+        for v in a.reportable_corners_of(faces[0]) {
             let (part, foot) =
                 nearest_point_on_triangle(a.corner_position(v), b.triangle(faces[1]), rounding);
             let spots = [SurfacePart::Corner(v), surface_part(b, faces[1], part)];
             self.add_pair_if_near(spots, [a.corner_position(v), foot], faces);
         }
-        for v in b.unhidden_corners_of(faces[1]) {
+        for v in b.reportable_corners_of(faces[1]) {
             let (part, foot) =
                 nearest_point_on_triangle(b.corner_position(v), a.triangle(faces[0]), rounding);
             let spots = [surface_part(a, faces[0], part), SurfacePart::Corner(v)];
             self.add_pair_if_near(spots, [foot, b.corner_position(v)], faces);
         }
-        for e in a.unhidden_edges_of(faces[0]) {
-            for f in b.unhidden_edges_of(faces[1]) {
+        for e in a.reportable_edges_of(faces[0]) {
+            for f in b.reportable_edges_of(faces[1]) {
                 let ends = [
                     e.map(|end| a.corner_position(end)),
                     f.map(|end| b.corner_position(end)),

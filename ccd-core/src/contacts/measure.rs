@@ -55,7 +55,7 @@ pub(super) fn measure_feature_pair(
         normal = common;
     }
     let way = unit(b - a).unwrap_or(normal);
-    let world = |x: DVec3| problem.to_world_point(a_to_world.point(x));
+    let world = |x: DVec3| problem.to_world_point(a_to_world.transform_point(x));
     let name = |k: usize| skins[k].feature_of(spots[k], candidate.faces[k]);
     Contact {
         feature_a: name(0),

@@ -28,7 +28,7 @@ pub(super) fn common_normal(
             looks += 1;
             normals.add_offset_of_a(way);
         });
-    let in_b = pieces.b_to_a.inverse_point(points[1]);
+    let in_b = pieces.b_to_a.inverse_transform_point(points[1]);
     problem.b.body.for_each_offset_around(in_b, reach, |way| {
         looks += 1;
         normals.add_offset_of_b(turn * way);

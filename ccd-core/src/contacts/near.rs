@@ -99,7 +99,7 @@ impl BoundingVolume {
                 // Axes rounded to f32 are not exactly orthonormal.
                 let more = f64::from(node.rounding_radius) + RAY_BOX_WIDENING_F64 * radius;
                 BoundingVolume {
-                    centre: to_a.point(node.centre),
+                    centre: to_a.transform_point(node.centre),
                     radius,
                     axes: node.axes.map(|axis| to_a.rotation * axis.as_dvec3()),
                     shape: BoxOrTriangle::Box(node.half_extents.map(|half| f64::from(half) + more)),
@@ -107,7 +107,7 @@ impl BoundingVolume {
             }
             NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
-                let corners = corners.map(|corner| to_a.point(corner));
+                let corners = corners.map(|corner| to_a.transform_point(corner));
                 let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
                 let arm = |corner: DVec3| corner.distance(centre);
                 BoundingVolume {

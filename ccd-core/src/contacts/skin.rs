@@ -23,11 +23,11 @@ pub(super) struct NearSurface<'a> {
     /// of the faces.
     coplanar_edges: HashMap<[u32; 2], [u32; 2]>,
     /// For each corner, whether it has no mesh number and all edges at it are between coplanar faces.
-    is_corner_hidden: Vec<bool>,
+    is_corner_internal: Vec<bool>,
     /// The faces around each hidden corner.
-    faces_around_hidden_corner: HashMap<u32, Vec<u32>>,
+    faces_around_internal_corner: HashMap<u32, Vec<u32>>,
     /// The first triangle of each face of the mesh; a face may have several triangles.
-    first_triangle_of: HashMap<Feature, u32>,
+    first_triangle_by_feature: HashMap<Feature, u32>,
     /// The sum of the normals of the faces around each corner.
     corner_normals: Vec<DVec3>,
 }
@@ -69,9 +69,9 @@ impl<'a> NearSurface<'a> {
             faces: Vec::new(),
             corner_indices: HashMap::new(),
             coplanar_edges: HashMap::new(),
-            is_corner_hidden: Vec::new(),
-            faces_around_hidden_corner: HashMap::new(),
-            first_triangle_of: HashMap::new(),
+            is_corner_internal: Vec::new(),
+            faces_around_internal_corner: HashMap::new(),
+            first_triangle_by_feature: HashMap::new(),
             corner_normals: Vec::new(),
         }
     }
@@ -85,23 +85,23 @@ impl<'a> NearSurface<'a> {
 
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
-    pub(super) fn find_hidden_edges_and_corners(&mut self, rounding: f64) {
+    pub(super) fn find_internal_features(&mut self, rounding: f64) {
         self.propagate_mesh_numbers();
         self.compute_corner_normals();
         let mut faces_at_edge: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
             if let Feature::Face(_) = name {
-                self.first_triangle_of.entry(*name).or_insert(face);
+                self.first_triangle_by_feature.entry(*name).or_insert(face);
             }
             for ends in triangle_edges(*corners) {
                 faces_at_edge.entry(ends).or_default().push(face);
             }
         }
-        self.is_corner_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
+        self.is_corner_internal = self.corners.iter().map(|c| c.id.is_none()).collect();
         // Segments and points are not within a plane.
         let thin = |face: &&Face| triangle_edges(face.corners).count() < 3;
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
-            self.is_corner_hidden[corner as usize] = false;
+            self.is_corner_internal[corner as usize] = false;
         }
         for (ends, faces) in faces_at_edge {
             match <[u32; 2]>::try_from(faces) {
@@ -111,7 +111,7 @@ impl<'a> NearSurface<'a> {
                 }
                 _ => {
                     for end in ends {
-                        self.is_corner_hidden[end as usize] = false;
+                        self.is_corner_internal[end as usize] = false;
                     }
                 }
             }
@@ -119,9 +119,9 @@ impl<'a> NearSurface<'a> {
         for (face, Face { corners, .. }) in (0u32..).zip(&self.faces) {
             let hidden = corners
                 .iter()
-                .filter(|&&k| self.is_corner_hidden[k as usize]);
+                .filter(|&&k| self.is_corner_internal[k as usize]);
             for &corner in hidden {
-                let around = self.faces_around_hidden_corner.entry(corner);
+                let around = self.faces_around_internal_corner.entry(corner);
                 around.or_default().push(face);
             }
         }
@@ -195,13 +195,14 @@ impl<'a> NearSurface<'a> {
         let placed = points
             .iter()
             .chain(&inside)
-            .map(|&point| self.body_to_a.point(point));
+            .map(|&point| self.body_to_a.transform_point(point));
         corners.into_iter().chain(placed).for_each(look);
     }
 
     /// Returns the mean of a piece's points, in A's frame.
     pub(super) fn mean_of_points(&self, piece: u32) -> DVec3 {
-        self.body_to_a.point(self.body.mean_of_points(piece))
+        self.body_to_a
+            .transform_point(self.body.mean_of_points(piece))
     }
 
     /// Returns the edges and corners on the boundary of an edge or face.
@@ -222,7 +223,7 @@ impl<'a> NearSurface<'a> {
     pub(super) fn coplanar_faces_around(&self, spot: SurfacePart) -> &[u32] {
         let faces = match spot {
             SurfacePart::Corner(corner) => self
-                .faces_around_hidden_corner
+                .faces_around_internal_corner
                 .get(&corner)
                 .map(Vec::as_slice),
             SurfacePart::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
@@ -235,14 +236,14 @@ impl<'a> NearSurface<'a> {
     /// corners inside a flat part are replaced by a face. Triangles with the same face number are one face.
     pub(super) fn reported_part(&self, spot: SurfacePart, face: u32) -> (SurfacePart, u32) {
         let hiding_face = match spot {
-            SurfacePart::Corner(corner) => self.is_corner_hidden[corner as usize].then_some(face),
+            SurfacePart::Corner(corner) => self.is_corner_internal[corner as usize].then_some(face),
             SurfacePart::Edge(ends) => self.face_of_coplanar_edge(ends),
             SurfacePart::Face(face) => Some(face),
         };
         let Some(face) = hiding_face else {
             return (spot, face);
         };
-        let first = self.first_triangle_of.get(&self.face(face).name);
+        let first = self.first_triangle_by_feature.get(&self.face(face).name);
         (SurfacePart::Face(first.copied().unwrap_or(face)), face)
     }
 
@@ -259,15 +260,18 @@ impl<'a> NearSurface<'a> {
     }
 
     /// Returns the distinct corners of a face that are not hidden.
-    pub(super) fn unhidden_corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
+    pub(super) fn reportable_corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
         let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
-        let shown = |corner: &u32| !self.is_corner_hidden[*corner as usize];
+        let shown = |corner: &u32| !self.is_corner_internal[*corner as usize];
         first.map(move |k| corners[k]).filter(shown)
     }
 
     /// Returns the edges of a face, except those between coplanar faces.
-    pub(super) fn unhidden_edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
+    pub(super) fn reportable_edges_of(
+        &self,
+        face: u32,
+    ) -> impl Iterator<Item = [u32; 2]> + use<'_> {
         triangle_edges(self.face(face).corners)
             .filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
     }

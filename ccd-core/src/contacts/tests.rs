@@ -37,7 +37,7 @@ fn problem_of_still_bodies<'a>(
     config: &'a Settings,
 ) -> Problem<'a> {
     let moving = |body, pose| MovingBody::from((body, Motion::still(pose)));
-    Problem::about(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
+    Problem::of_moving_bodies(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
 }
 
 fn pose_at(x: f64, y: f64, z: f64) -> Pose {
@@ -281,8 +281,8 @@ fn no_pair_of_random_soups_is_missed() {
         };
         let count = |rng: &mut Pcg64| rng.random_range(1..40);
         let (count_a, count_b) = (count(rng), count(rng));
-        let a = Mesh::soup(soup(rng, tame(look_a), count_a, size));
-        let b = Mesh::soup(soup(rng, tame(look_b), count_b, size));
+        let a = Mesh::from_triangles(soup(rng, tame(look_a), count_a, size));
+        let b = Mesh::from_triangles(soup(rng, tame(look_b), count_b, size));
         let place = random_point_in_ball(rng, size);
         let pose = Pose::new(place, random_rotation(rng)).unwrap();
         let tolerance = size * random_power_of_ten(rng, -2.5, -0.5);

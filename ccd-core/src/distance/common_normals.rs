@@ -81,7 +81,7 @@ impl CommonNormals {
         let towards = unit(towards)?;
         let mut best = towards;
         for (k, offset) in self.offsets.iter().copied().enumerate() {
-            if self.falls_along(best, offset) {
+            if self.is_offset_falling(best, offset) {
                 best = self.project_onto_cone_in_plane(towards, offset, k)?;
             }
         }
@@ -97,15 +97,15 @@ impl CommonNormals {
         count: usize,
     ) -> Option<DVec3> {
         let level = unit(level)?;
-        let mut best = unit_of_component(towards - level * level.dot(towards))?;
+        let mut best = unit_along_component(towards - level * level.dot(towards))?;
         let before = || self.offsets.iter().copied().take(count);
         for (k, offset) in before().enumerate() {
-            if self.falls_along(best, offset) {
+            if self.is_offset_falling(best, offset) {
                 let line = unit(vector_perpendicular_to_both(level, offset))?;
-                best = unit_of_component(line * line.dot(towards))?;
+                best = unit_along_component(line * line.dot(towards))?;
                 if before()
                     .take(k)
-                    .any(|offset| self.falls_along(best, offset))
+                    .any(|offset| self.is_offset_falling(best, offset))
                 {
                     return None;
                 }
@@ -114,7 +114,7 @@ impl CommonNormals {
         Some(best)
     }
 
-    fn falls_along(&self, n: DVec3, offset: DVec3) -> bool {
+    fn is_offset_falling(&self, n: DVec3, offset: DVec3) -> bool {
         // Written so that NaN counts as a violation.
         !(n.dot(offset) >= -self.slack)
     }
@@ -125,7 +125,7 @@ const MAX_KEPT_OFFSETS: usize = 1 << 20;
 
 /// Returns the unit vector along a component of a unit vector; `None` if the component is so short that it may be mere
 /// rounding.
-fn unit_of_component(part: DVec3) -> Option<DVec3> {
+fn unit_along_component(part: DVec3) -> Option<DVec3> {
     (length(part) > LEAST_PERPENDICULAR_LENGTH).then(|| unit(part))?
 }
 

@@ -131,8 +131,8 @@ impl Search<'_> {
 
     /// Tests whether a point, given in the inner body's frame, is inside the outer body.
     fn classify_point(&self, point: DVec3) -> ContainmentResult {
-        let placed = self.inner_body.frame.point(point);
-        let there = self.outer_body.frame.inverse_point(placed);
+        let placed = self.inner_body.frame.transform_point(point);
+        let there = self.outer_body.frame.inverse_transform_point(placed);
         match contains(self.outer_body.body, there, self.reach) {
             Some(true) => ContainmentResult::Inside(placed),
             Some(false) => ContainmentResult::NotInside,
@@ -216,7 +216,7 @@ impl Search<'_> {
         let place = |p: DVec3| {
             self.inner_body
                 .frame
-                .inverse_point(self.outer_body.frame.point(p))
+                .inverse_transform_point(self.outer_body.frame.transform_point(p))
         };
         let points = points_beside_edges(&piece, &other, place, self.reach);
         let mut result = points.map(|p| self.classify_point(p));

@@ -68,8 +68,10 @@ pub(crate) fn decide_intersection(
 
 /// Returns the point of the Minkowski difference `a − b` that is farthest along a direction, in A's frame.
 fn minkowski_support_point(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
-    let of_b = pair.b.extremal_position(-pair.b_to_a.inverse_vector(along));
-    pair.a.extremal_position(along) - pair.b_to_a.point(of_b)
+    let of_b = pair
+        .b
+        .extremal_position(-pair.b_to_a.inverse_transform_vector(along));
+    pair.a.extremal_position(along) - pair.b_to_a.transform_point(of_b)
 }
 
 /// A growing polytope inside the Minkowski difference of two pieces `[GJK88]`. If it contains the origin, the pieces

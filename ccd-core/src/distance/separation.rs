@@ -34,7 +34,7 @@ pub(crate) struct CheckedClaim {
 pub(crate) fn check_claim(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> CheckedClaim {
     let (a, on_a) = with_valid_indices(claim.a, pair.a.points);
     let (b, on_b) = with_valid_indices(claim.b, pair.b.points);
-    let on_b = pair.b_to_a.point(on_b);
+    let on_b = pair.b_to_a.transform_point(on_b);
     let way = on_b - on_a;
     let distance = length(way);
     let radii = pair.a.radius + pair.b.radius;
@@ -90,7 +90,7 @@ fn support_gap_with_hints(
             heights.fold(f64::NEG_INFINITY, greater)
         }
     };
-    let n_b = pair.b_to_a.inverse_vector(n);
+    let n_b = pair.b_to_a.inverse_transform_vector(n);
     let origin_b = n.dot(pair.b_to_a.translation - from);
     let lowest = match pair.b.support_map {
         Some(support) => {

@@ -31,7 +31,7 @@ pub(crate) fn answer<O: DistanceOracle>(
 
 /// Like [`answer`], for a search that need not examine pairs in order of time. Such a search may pass over a contact at
 /// the start. If contacts at the start are to be ignored, the start is therefore examined first.
-pub(crate) fn answer_in_any_order<O: DistanceOracle>(
+pub(crate) fn answer_by_unordered_search<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     scratch: &mut Scratch,

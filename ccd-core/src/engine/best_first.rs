@@ -122,7 +122,7 @@ impl<O: DistanceOracle> Question<O> for ProvenFacts {
     }
 
     fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
-        self.finish(problem)
+        self.final_outcome(problem)
     }
 }
 

@@ -66,7 +66,7 @@ impl ProvenFacts {
     }
 
     /// Returns the outcome of a query whose pairs are all apart to the end.
-    pub(crate) fn finish(&mut self, problem: &Problem<'_>) -> Outcome {
+    pub(crate) fn final_outcome(&mut self, problem: &Problem<'_>) -> Outcome {
         self.check_containment_once_apart(problem)
             .unwrap_or(Outcome::Free {
                 proven_gap: problem.proven_gap(),

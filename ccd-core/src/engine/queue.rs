@@ -88,7 +88,7 @@ impl<T> Queue<T> {
     fn add_slot(&mut self) {
         let mut last = self.items.len() - 1;
         if last == 0 || last == 1 << (2 * self.depth) {
-            self.deepen();
+            self.add_level();
         }
         for level in &mut self.levels[..self.depth] {
             if !last.is_multiple_of(4) {
@@ -102,7 +102,7 @@ impl<T> Queue<T> {
     }
 
     #[cold]
-    fn deepen(&mut self) {
+    fn add_level(&mut self) {
         if self.levels.len() == self.depth {
             self.levels.push(Vec::new());
         }

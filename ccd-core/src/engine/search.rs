@@ -158,9 +158,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
                 return ControlFlow::Continue(());
             }
             WaitingItem::Siblings(siblings) => {
-                if let Some((clock, alone)) =
-                    look.take_earliest_with_later_clock(problem, siblings, s)
-                {
+                if let Some((clock, alone)) = look.advance_least_pair(problem, siblings, s) {
                     let rest = siblings.clock();
                     let waits =
                         self.requeue_rest_and_push_new(rest, (clock, WaitingItem::Siblings(alone)));

@@ -22,7 +22,7 @@ use std::cmp::Ordering;
 /// assert!(exact::side(triangle, DVec3::ONE - DVec3::Z).is_eq());
 /// ```
 #[inline]
-pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
+pub fn side_of_plane(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     let [p, q, r] = triangle;
     let level = p.cmpeq(q) & p.cmpeq(r) & p.cmpeq(point);
     if level.any() {
@@ -37,7 +37,7 @@ pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
 /// `Greater` is to the left.
 ///
 /// # Guarantee
-/// Like [`side`].
+/// Like [`side_of_plane`].
 #[inline]
 pub fn side_of_line_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
     let [a, b, point] = [a, b, point].map(|p| coord2(p, axis));
@@ -47,7 +47,7 @@ pub fn side_of_line_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Orde
 /// Returns whether the corners of a triangle are on one line.
 ///
 /// # Guarantee
-/// Like [`side`].
+/// Like [`side_of_plane`].
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     (0..3).all(|axis| side_of_line_along(axis, [a, b], c).is_eq())
 }

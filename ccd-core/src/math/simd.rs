@@ -2,7 +2,7 @@
 //! instructions for them at run time.
 
 use crate::rounding::LEAST_AXIS_LENGTH_F32;
-use crate::settings::Instructions;
+use crate::settings::VectorInstructions;
 use fearless_simd::{
     ExtractToken, Level, Simd, SimdBase, SimdNarrow, SimdSplit, f32x4, f32x8, f64x4, mask32x8,
     prelude::*,
@@ -258,13 +258,13 @@ impl<L: Simd> Mul for PackedMatrix<L> {
     }
 }
 
-impl Instructions {
+impl VectorInstructions {
     /// Converts the choice of instructions to the token that [`vectorize!`](crate::vectorize) takes.
     #[doc(hidden)]
     pub fn simd_level(self) -> Level {
         match self {
-            Instructions::Best => Level::new(),
-            Instructions::Baseline => Level::baseline(),
+            VectorInstructions::Best => Level::new(),
+            VectorInstructions::Baseline => Level::baseline(),
         }
     }
 }

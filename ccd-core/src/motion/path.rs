@@ -61,7 +61,7 @@ impl Path {
             velocity,
             acceleration: DVec3::ZERO,
             spin,
-            local_angular_velocity: start.inverse_vector(spin),
+            local_angular_velocity: start.inverse_transform_vector(spin),
             rate,
             axis,
         }

@@ -132,19 +132,19 @@ impl Frame {
 
     /// Transforms a point: `rotation · point + translation`.
     #[inline(always)]
-    pub fn point(&self, point: DVec3) -> DVec3 {
+    pub fn transform_point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
-    /// Transforms a point back: `rotationᵀ · (point − translation)`, the inverse of [`Frame::point`].
+    /// Transforms a point back: `rotationᵀ · (point − translation)`, the inverse of [`Frame::transform_point`].
     #[inline(always)]
-    pub fn inverse_point(&self, point: DVec3) -> DVec3 {
-        self.inverse_vector(point - self.translation)
+    pub fn inverse_transform_point(&self, point: DVec3) -> DVec3 {
+        self.inverse_transform_vector(point - self.translation)
     }
 
     /// Rotates a vector back: `rotationᵀ · vector`.
     #[inline(always)]
-    pub fn inverse_vector(&self, vector: DVec3) -> DVec3 {
+    pub fn inverse_transform_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
             self.rotation.x_axis.dot(vector),
             self.rotation.y_axis.dot(vector),
@@ -154,10 +154,10 @@ impl Frame {
 
     /// Returns the transform from `other`'s coordinates to this frame's: `self⁻¹ ∘ other`.
     #[inline(always)]
-    pub fn from_frame(&self, other: &Frame) -> Frame {
+    pub fn transform_from(&self, other: &Frame) -> Frame {
         Frame {
             rotation: self.rotation.transpose() * other.rotation,
-            translation: self.inverse_point(other.translation),
+            translation: self.inverse_transform_point(other.translation),
         }
     }
 }

@@ -15,7 +15,7 @@ pub(crate) struct RelativePath {
     motion_terms: RelativeMotionTerms,
     /// The centre of rotation of the seeing body, in that body's frame.
     centre: Row,
-    other_centre: Row,
+    other_rotation_centre: Row,
 }
 
 #[derive(Clone, Debug)]
@@ -91,7 +91,7 @@ impl RelativePath {
         RelativePath {
             motion_terms: seen,
             centre: row(own.centre),
-            other_centre: row(other.centre),
+            other_rotation_centre: row(other.centre),
         }
     }
 
@@ -149,8 +149,8 @@ impl RelativePath {
 
     /// Returns the centre of rotation of the seen body, in its frame.
     #[inline(always)]
-    pub(crate) fn other_centre<L: Simd>(&self, level: L) -> PackedVector<L> {
-        PackedVector::load(level, &self.other_centre)
+    pub(crate) fn other_rotation_centre<L: Simd>(&self, level: L) -> PackedVector<L> {
+        PackedVector::load(level, &self.other_rotation_centre)
     }
 }
 

@@ -45,7 +45,7 @@ pub trait Trajectory: Sync {
     ///
     /// # Errors
     /// An [`InputError`] if there is no motion between these times.
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError>;
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError>;
 
     /// Returns a time between two others at which a velocity jumps; `None` if there is none. Stretches that end there
     /// have better bounds. If there are several, the best one is near the middle.
@@ -63,9 +63,9 @@ pub trait Trajectory: Sync {
     /// Returns the pose at a time, with the accuracy of a stretch of no length.
     ///
     /// # Errors
-    /// The errors of [`Trajectory::stretch`].
+    /// The errors of [`Trajectory::stretch_between`].
     fn pose(&self, time: f64) -> Result<Pose, InputError> {
-        Ok(self.stretch(time, time)?.motion.start())
+        Ok(self.stretch_between(time, time)?.motion.start())
     }
 }
 
@@ -135,7 +135,7 @@ impl Stretch {
         let place = length(motion.start().translation()) + 2.0 * length(motion.centre());
         DeviationBound {
             shift: RETIMED_POSE_ERROR_F64 * (place + speed * time.abs()),
-            turn: RETIMED_POSE_ERROR_F64 * (1.0 + turned),
+            angle: RETIMED_POSE_ERROR_F64 * (1.0 + turned),
         }
     }
 }
@@ -146,19 +146,19 @@ pub struct DeviationBound {
     /// The largest distance between the two positions of the motion's centre, in the scene's unit of length.
     pub shift: f64,
     /// The largest angle between the two orientations, in radians.
-    pub turn: f64,
+    pub angle: f64,
 }
 
 impl DeviationBound {
     /// The deviation of a motion from itself, which is zero.
     pub const NONE: DeviationBound = DeviationBound {
         shift: 0.0,
-        turn: 0.0,
+        angle: 0.0,
     };
 
     /// Returns a bound of the deviation of a point that is at most `reach` from the motion's centre.
     pub fn at(&self, reach: f64) -> f64 {
-        let DeviationBound { shift, turn } = *self;
+        let DeviationBound { shift, angle: turn } = *self;
         if turn > 0.0 {
             shift + turn * reach
         } else if turn == 0.0 {
@@ -177,7 +177,7 @@ impl std::ops::Add for DeviationBound {
     fn add(self, other: DeviationBound) -> DeviationBound {
         DeviationBound {
             shift: self.shift + other.shift,
-            turn: self.turn + other.turn,
+            angle: self.angle + other.angle,
         }
     }
 }
@@ -295,13 +295,13 @@ impl AccelerationBounds {
         };
         DeviationBound {
             shift: deviation(self.linear_acceleration),
-            turn: deviation(self.angular_acceleration),
+            angle: deviation(self.angular_acceleration),
         }
     }
 }
 
 impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         // Times far from 0 have no exact middle: the halves differ.
         let middle = from + 0.5 * (to - from);
         let [before, after] = [middle - from, to - middle];
@@ -340,7 +340,7 @@ impl Trajectory for Motion {
         Some(*self)
     }
 
-    fn stretch(&self, from: f64, _to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, _to: f64) -> Result<Stretch, InputError> {
         if from == 0.0 {
             return Ok(Stretch::exact(*self));
         }

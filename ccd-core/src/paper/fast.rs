@@ -2,9 +2,9 @@
 //! time step.
 
 mod descent;
-mod front;
 mod hull_pair;
 mod reach;
+mod traversal_tree;
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
@@ -16,10 +16,10 @@ use crate::engine::scratch::Scratch;
 use crate::motion::bound::VelocityBound;
 use crate::problem::Problem;
 use descent::Descent;
-use front::Front;
 use hull_pair::HullTreePair;
 use reach::AxisDistanceCache;
 use std::ops::ControlFlow;
+use traversal_tree::TraversalTree;
 
 /// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published. It is Algorithm 2 of the
 /// paper `[FAST06]`.
@@ -49,7 +49,7 @@ use std::ops::ControlFlow;
 #[derive(Debug)]
 pub struct Fast<O: DistanceOracle> {
     bound: VelocityBound,
-    front: Front<O::Cache>,
+    traversal_tree: TraversalTree<O::Cache>,
     axis_distance_cache: AxisDistanceCache,
     best_first: BestFirst<O>,
     scratch: Scratch,
@@ -60,7 +60,7 @@ impl<O: DistanceOracle> Fast<O> {
     pub fn new(bound: VelocityBound) -> Self {
         Fast {
             bound,
-            front: Front::default(),
+            traversal_tree: TraversalTree::default(),
             axis_distance_cache: AxisDistanceCache::default(),
             best_first: BestFirst::default(),
             scratch: None,
@@ -110,7 +110,7 @@ impl<O: DistanceOracle> Fast<O> {
         meter: &mut Meter,
     ) -> Outcome {
         let mut proven = ProvenFacts::default();
-        self.front.reset(hulls);
+        self.traversal_tree.reset(hulls);
         let mut s = 0.0;
         while s < 1.0 {
             meter.stats.advancements += 1;
@@ -118,7 +118,7 @@ impl<O: DistanceOracle> Fast<O> {
                 problem,
                 hulls,
                 bound: self.bound,
-                front: &mut self.front,
+                traversal_tree: &mut self.traversal_tree,
                 axis_distance_cache: &mut self.axis_distance_cache,
                 proven_facts: &proven,
                 oracle,
@@ -126,7 +126,7 @@ impl<O: DistanceOracle> Fast<O> {
             };
             let next = descent.step(s);
             let stats = &mut meter.stats;
-            stats.peak_front = stats.peak_front.max(self.front.peak_leaf_count());
+            stats.peak_front = stats.peak_front.max(self.traversal_tree.peak_leaf_count());
             let next = match next {
                 ControlFlow::Continue(next) => next,
                 ControlFlow::Break(outcome) => return outcome,
@@ -139,7 +139,7 @@ impl<O: DistanceOracle> Fast<O> {
             }
             s = next;
         }
-        proven.finish(problem)
+        proven.final_outcome(problem)
     }
 }
 

@@ -107,7 +107,7 @@ impl<O: DistanceOracle> Naive<O> {
             }
             s = next;
         }
-        proven.finish(problem)
+        proven.final_outcome(problem)
     }
 }
 

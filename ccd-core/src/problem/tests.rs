@@ -10,7 +10,7 @@ fn problem_tolerance(motion: Motion, duration: f64, config: &Settings) -> Result
     let ball = Body::sphere(1.0).unwrap();
     let moving = |motion| MovingBody::from((&ball, motion));
     let still = Motion::still(Pose::IDENTITY);
-    Problem::about(moving(motion), moving(still), duration, config).map(|p| p.tolerance)
+    Problem::of_moving_bodies(moving(motion), moving(still), duration, config).map(|p| p.tolerance)
 }
 
 fn assert_refused(result: Result<f64, InputError>) -> &'static str {
@@ -94,11 +94,14 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     // Both positions are in range, but too far apart.
     let body = Body::sphere(1.0).unwrap();
     let still = |at: f64| MovingBody::from((&body, Motion::still(pose(at))));
-    let apart = |at: f64| Problem::about(still(at), still(-at), 1.0, &config).map(|p| p.tolerance);
+    let apart = |at: f64| {
+        Problem::of_moving_bodies(still(at), still(-at), 1.0, &config).map(|p| p.tolerance)
+    };
     assert!(apart(0.5 * MAX_COORDINATE).is_ok());
     assert_eq!(assert_refused(apart(0.6 * MAX_COORDINATE)), "travel");
     // Bodies side by side are as exact as anywhere, whatever their position.
-    let side_by_side = Problem::about(still(1e12), still(1e12 - 4.0), 1.0, &config).unwrap();
+    let side_by_side =
+        Problem::of_moving_bodies(still(1e12), still(1e12 - 4.0), 1.0, &config).unwrap();
     assert_eq!(side_by_side.tolerance, config.tolerance);
     for large in [MAX_COORDINATE, 1e13] {
         let is_good = large <= MAX_COORDINATE;
@@ -144,7 +147,8 @@ fn clocks_are_times_that_are_never_late() {
     let ball = Body::sphere(1.0).unwrap();
     let still = MovingBody::from((&ball, Motion::still(Pose::IDENTITY)));
     for duration in [0.0, 1e-300, 0.1, 1.0, 7.0, 1e300] {
-        let problem = Problem::about(still, still, duration, &Settings::DEFAULT).unwrap();
+        let problem =
+            Problem::of_moving_bodies(still, still, duration, &Settings::DEFAULT).unwrap();
         assert_eq!(problem.time_of_clock(0.0), 0.0);
         assert_eq!(problem.time_of_clock(1.0), duration);
         assert_eq!(problem.time_of_clock(f64::INFINITY), duration);

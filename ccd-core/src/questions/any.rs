@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{answer_in_any_order, search_by_period};
+use crate::engine::answer::{answer_by_unordered_search, search_by_period};
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
@@ -40,7 +40,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     pub(crate) fn any_contact_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer =
-            answer_in_any_order(problem, oracle, &mut scratch, |problem, oracle, meter| {
+            answer_by_unordered_search(problem, oracle, &mut scratch, |problem, oracle, meter| {
                 search_by_period(problem, meter, |problem, meter| {
                     self.stack.clear();
                     let outcome = self.search_any_contact(problem, oracle, meter);
@@ -150,7 +150,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch {
     fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
         match self.first_failure {
             Some((s, limit)) => self.unresolved_outcome(problem, s, limit),
-            None => self.proven_facts.finish(problem),
+            None => self.proven_facts.final_outcome(problem),
         }
     }
 }

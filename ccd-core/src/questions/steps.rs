@@ -43,7 +43,7 @@ use std::ops::ControlFlow;
 /// assert!(matches!(answer.outcome, Outcome::Contact { .. }));
 /// # Ok::<(), InputError>(())
 /// ```
-pub struct FirstContact<'a, O: DistanceOracle>(ResumableSearchKind<'a, O>);
+pub struct FirstContactSearch<'a, O: DistanceOracle>(ResumableSearchKind<'a, O>);
 
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum ResumableSearchKind<'a, O: DistanceOracle> {
@@ -91,11 +91,11 @@ pub enum Progress {
     Answered(Answer),
 }
 
-impl<'a, O: DistanceOracle> FirstContact<'a, O> {
+impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     /// Creates the search for a query, which uses the memory of the schedule `memory`. The time until the
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
-        FirstContact(match query.problem.take() {
+        FirstContactSearch(match query.problem.take() {
             Some(problem) => ResumableSearchKind::Stepped(SteppedSearch::new(problem, memory)),
             None => ResumableSearchKind::Immediate {
                 query,

@@ -20,7 +20,7 @@ use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, body, random_direction, random_point_in_ball, random_power_of_ten,
     random_rotation, rng, soup,
 };
-use crate::tests::worst::share;
+use crate::tests::worst::error_share;
 use crate::{Body, Pose};
 use glam::DVec3;
 
@@ -54,7 +54,8 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
             usize::from(far > 1e5 || bodies[0].tree().max_distance_from_origin() > 1e5);
         worst.turning_count += usize::from(motions[0].spin().length() * duration > 100.0);
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
-        let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
+        let problem =
+            Problem::of_moving_bodies(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
         for _ in 0..4 {
             let s = rng.random_range(0.0..1.0);
             compare_with_exact(&mut rng, &problem, &motions, duration, s, &mut worst);
@@ -82,14 +83,16 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
         let ends = [(); 2].map(|()| ends(&mut rng, world, size));
         let motions = ends.map(|ends| between(&ends, duration));
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
-        let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
+        let problem =
+            Problem::of_moving_bodies(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
         let origin = DoubleDouble3::from(ends[1].positions[0]);
         for k in 0..2 {
             let s = rng.random_range(0.0..1.0);
             let side = [&problem.a, &problem.b][k];
             for &p in bodies[k].pieces().points() {
                 let exact = ends[k].place(DoubleDouble::from(s), p) - origin;
-                let off = (DoubleDouble3::from(side.path.frame(s).point(p)) - exact).length();
+                let off =
+                    (DoubleDouble3::from(side.path.frame(s).transform_point(p)) - exact).length();
                 worst = greater(worst, off.get() / problem.rounding);
             }
         }
@@ -182,17 +185,17 @@ fn error_shares(
     });
     for k in 0..2 {
         for (&p, &exact) in pieces[k].points.iter().zip(&exact[k]) {
-            let off = (DoubleDouble3::from(frames[k].point(p)) - exact).length();
+            let off = (DoubleDouble3::from(frames[k].transform_point(p)) - exact).length();
             shares.position_error_share = greater(
                 shares.position_error_share,
-                share(off.get(), problem.rounding),
+                error_share(off.get(), problem.rounding),
             );
         }
     }
     let pair = PiecePair {
         a: pieces[0],
         b: pieces[1],
-        b_to_a: frames[0].from_frame(&frames[1]),
+        b_to_a: frames[0].transform_from(&frames[1]),
     };
     let [i, j] = [0, 1].map(|_| rng.random_range(0..3u32));
     let claim = Claim {
@@ -219,11 +222,11 @@ fn error_shares(
         .unwrap();
     let gap = (lowest - highest).get();
     let rounded = checked.lower + problem.rounding;
-    shares.gap = share((rounded - gap).abs(), problem.rounding);
+    shares.gap = error_share((rounded - gap).abs(), problem.rounding);
     let distance = (exact[1][j as usize] - exact[0][i as usize]).length();
     let rounded = DoubleDouble::from(checked.upper - problem.rounding);
     let off = (rounded - distance).get().abs();
-    shares.distance = share(off, problem.rounding);
+    shares.distance = error_share(off, problem.rounding);
     shares
 }
 

@@ -37,13 +37,13 @@ impl BoundTightener {
     /// Removes the pair with the least clock, `s`, from its siblings if a later clock can be proven for it. Returns the
     /// later clock and the pair, which then waits alone.
     #[inline(always)]
-    pub(crate) fn take_earliest_with_later_clock(
+    pub(crate) fn advance_least_pair(
         &self,
         problem: &Problem<'_>,
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        if self.is_f32_coarse && siblings.times_advanced() < MAX_NEWTON_STEPS {
+        if self.is_f32_coarse && siblings.advance_count() < MAX_NEWTON_STEPS {
             advance_flat_pair(problem, siblings, s)
         } else {
             None

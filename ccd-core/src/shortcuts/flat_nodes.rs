@@ -9,7 +9,7 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{GAP_ERROR_PER_RADIUS_F32, RATE_ERROR_F64};
-use crate::tuning::{CLOSED_GAP_THRESHOLD, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
+use crate::tuning::{CLOSED_GAP_THRESHOLD, MIN_ROTATION_GAP_SHARE, MIN_ROUNDING_FOR_F64};
 use glam::DVec3;
 
 /// Returns a time, from clock `s` on, for which a flat node of A and a flat node of B certainly keep the required gap.
@@ -44,7 +44,7 @@ fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
 struct FlatNode {
     node: PlacedNode,
     /// Half the thickness of the node along its normal; `None` for a triangle, whose corners are known.
-    half: Option<f64>,
+    half_thickness: Option<f64>,
     /// The unit normal of the node's plane.
     normal: DVec3,
 }
@@ -69,13 +69,13 @@ impl FlatNode {
         Some(FlatNode {
             normal: node.rotated(normal),
             node,
-            half,
+            half_thickness: half,
         })
     }
 
     /// Returns `max n·(x − centre)` over the node's points `x`, for a unit vector `n`.
     fn extent_along(&self, n: DVec3) -> f64 {
-        match self.half {
+        match self.half_thickness {
             Some(half) => {
                 let along = self.normal.dot(n).abs();
                 let across = length(n.cross(self.normal));
@@ -101,7 +101,7 @@ fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, 
     let free = approach.free_time(gap);
     // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.
-    if free >= 1.0 - s || approach.centre_rate * free >= (1.0 - ROTATION_GAP_SHARE) * gap {
+    if free >= 1.0 - s || approach.centre_rate * free >= (1.0 - MIN_ROTATION_GAP_SHARE) * gap {
         free
     } else {
         0.0

@@ -47,7 +47,7 @@ impl PlacedNode {
                 half_extents: whole.half_extents.to_array(),
                 slack: whole.slack,
             },
-            centre: frame.point(whole.centre),
+            centre: frame.transform_point(whole.centre),
             radius: whole.radius,
         }
     }
@@ -64,12 +64,12 @@ impl PlacedNode {
                     slack: f64::from(node.rounding_radius)
                         + BOX_EXTENT_ERROR_F32 * f64::from(node.radius),
                 },
-                centre: frame.point(node.centre),
+                centre: frame.transform_point(node.centre),
                 radius: f64::from(node.radius),
             },
             NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
-                let [a, b, c] = corners.map(|x| frame.point(x));
+                let [a, b, c] = corners.map(|x| frame.transform_point(x));
                 let centre = (a + b + c) / 3.0;
                 let corners = [a - centre, b - centre, c - centre];
                 PlacedNode {
@@ -106,7 +106,7 @@ impl PlacedNode {
         else {
             return self.centre;
         };
-        let way = self.frame.inverse_vector(point - self.centre);
+        let way = self.frame.inverse_transform_vector(point - self.centre);
         let along = |k: usize| {
             let half = half[k] + slack;
             axes[k] * greater(-half, lesser(half, way.dot(axes[k])))
@@ -139,7 +139,7 @@ impl PlacedNode {
                 half_extents: half,
                 slack,
             } => {
-                let (along, size) = (self.frame.inverse_vector(n), n.length());
+                let (along, size) = (self.frame.inverse_transform_vector(n), n.length());
                 let half = |k: usize| half[k] * along.dot(axes[k]).abs();
                 lesser(
                     half(0) + half(1) + half(2) + slack * size,

@@ -17,7 +17,7 @@ use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{TURN_COUNT_WIDENING, least_tolerance, position_rounding};
 use crate::settings::StartPolicy;
 use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
-use crate::tuning::{MAX_DISTANCE_CHANGE_SHARE, MAX_SCREW_DRIFT, MAX_SEARCHED_SHARE};
+use crate::tuning::{MAX_DISTANCE_CHANGE_SHARE, MAX_SCREW_DRIFT, MAX_SEARCHED_DURATION_SHARE};
 use std::ops::ControlFlow;
 
 /// A problem with periodic motions, and the time until which the bodies are proven apart.
@@ -326,10 +326,10 @@ fn period_with_least_work(bodies: [PathWithRadius<'_>; 2], change: f64) -> Optio
         let rounds = greater(1.0, period.max_distance_change / (period.length * change));
         lesser(1.0, period.length * rounds)
     };
-    Period::all_fitting_twice(bodies)
+    Period::within_half_duration(bodies)
         .map(|period| (searched(&period), period))
         .reduce(|best, next| if next.0 < best.0 { next } else { best })
-        .filter(|(searched, _)| *searched <= MAX_SEARCHED_SHARE)
+        .filter(|(searched, _)| *searched <= MAX_SEARCHED_DURATION_SHARE)
         .map(|(_, period)| period)
 }
 

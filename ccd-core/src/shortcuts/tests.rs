@@ -202,7 +202,8 @@ fn each_shortcut_saves_the_work_that_is_documented() {
                 shortcuts,
                 ..Settings::DEFAULT
             };
-            let problem = Problem::about((&a, of_a), (&b, of_b), 1.0, &settings).unwrap();
+            let problem =
+                Problem::of_moving_bodies((&a, of_a), (&b, of_b), 1.0, &settings).unwrap();
             solve(&problem).stats.work()
         })
     });

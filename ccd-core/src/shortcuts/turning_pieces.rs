@@ -114,7 +114,8 @@ impl<'p> PiecePastTurningPlane<'p> {
         } else {
             other.piece.points[0]
         };
-        let offset = other.frame.point(reference) - holder.frame.point(path.centre);
+        let offset =
+            other.frame.transform_point(reference) - holder.frame.transform_point(path.centre);
         let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
@@ -216,7 +217,7 @@ impl<'p> PiecePastTurningPlane<'p> {
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
             let turned = RotatingVector::new(-self.own_rotation_axis, v).vector_at(own);
-            self.frame.inverse_vector(turned)
+            self.frame.inverse_transform_vector(turned)
         };
         HeightTerms {
             height: axis.dot(offset),

@@ -43,7 +43,7 @@ fn points_stay_in_their_box() {
                 let frame = path.frame(f64::from(step) / 128.0);
                 let pieces = scene.bodies[k].pieces();
                 for x in (0..pieces.len()).flat_map(|piece| pieces.triangle(piece)) {
-                    let point = frame.point(x);
+                    let point = frame.transform_point(x);
                     (low, high) = (
                         componentwise_min(low, point),
                         componentwise_max(high, point),

@@ -88,7 +88,7 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
             ..Settings::DEFAULT
         };
         let moving = |k: usize| MovingBody::from((&bodies[k], between(&scene.ends[k], duration)));
-        let problem = Problem::about(moving(0), moving(1), duration, &config).unwrap();
+        let problem = Problem::of_moving_bodies(moving(0), moving(1), duration, &config).unwrap();
         for outcome in [
             BestFirst::default()
                 .answer_first_contact(&problem, &mut ExhaustiveOracle)

@@ -18,7 +18,7 @@ impl DistanceOracle for ExhaustiveOracle {
         let (Some(a), Some(b)) = (to_triangle(pair.a.points), to_triangle(pair.b.points)) else {
             return Err(GiveUpReason::TooManyPoints);
         };
-        let b_in_a = b.map(|p| pair.b_to_a.point(p));
+        let b_in_a = b.map(|p| pair.b_to_a.transform_point(p));
         let found = nearest_points(&a, &b_in_a);
         let way = point(&b_in_a, found.b) - point(&a, found.a);
         Ok(Claim {

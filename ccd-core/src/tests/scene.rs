@@ -247,7 +247,7 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     let [a, b] = [&problem.a, &problem.b].map(|side| {
         let frame = side.path.frame(s);
         let pieces = side.body.pieces();
-        let placed = |k: usize| pieces.triangle(k).map(|p| frame.point(p));
+        let placed = |k: usize| pieces.triangle(k).map(|p| frame.transform_point(p));
         (0..pieces.len()).map(placed).collect::<Vec<Triangle>>()
     });
     let pairs = a
@@ -391,7 +391,7 @@ fn draw_velocities(
 
 impl<'a> Problem<'a> {
     /// Creates the problem that a query about two bodies with constant velocities solves.
-    pub(crate) fn about(
+    pub(crate) fn of_moving_bodies(
         a: impl Into<MovingBody<'a>>,
         b: impl Into<MovingBody<'a>>,
         duration: f64,

@@ -49,7 +49,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
         let side = [&problem.a, &problem.b][k];
         let frame = side.path.frame(s);
         let pieces = side.body.pieces();
-        let placed = |k: usize| pieces.triangle(k).map(|p| frame.point(p));
+        let placed = |k: usize| pieces.triangle(k).map(|p| frame.transform_point(p));
         (0..pieces.len()).map(placed).collect::<Vec<_>>()
     };
     let (a, b) = (place(0), place(1));
@@ -79,7 +79,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
         };
         let moving =
             |k: usize| MovingBody::from((&bodies[k], [Motion::still(Pose::IDENTITY), motion][k]));
-        let problem = Problem::about(moving(0), moving(1), 1.0, &config).unwrap();
+        let problem = Problem::of_moving_bodies(moving(0), moving(1), 1.0, &config).unwrap();
         let outcome = BestFirst::default()
             .answer_first_contact(&problem, &mut ExhaustiveOracle)
             .outcome;

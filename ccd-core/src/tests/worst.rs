@@ -137,7 +137,7 @@ impl LargestError {
 }
 
 /// Returns the quotient of an error and its allowance; infinite for an error above an allowance of 0.
-pub(crate) fn share(error: f64, allowance: f64) -> f64 {
+pub(crate) fn error_share(error: f64, allowance: f64) -> f64 {
     if allowance > 0.0 {
         error / allowance
     } else if error > 0.0 {

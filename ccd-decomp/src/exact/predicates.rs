@@ -2,7 +2,7 @@
 //! extend [`ccd_core::exact`].
 
 pub(crate) use ccd_core::exact::{
-    first_point_below_exact_range, is_degenerate, side, side_of_line_along,
+    first_point_below_exact_range, is_degenerate, side_of_line_along, side_of_plane,
 };
 
 use ccd_core::glam::DVec3;
@@ -10,7 +10,7 @@ use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::order::greater;
 use std::cmp::Ordering;
 
-/// Returns the [side] of a triangle's plane on which a point lies, exactly. Corners and point are indices into
+/// Returns the [side](side_of_plane) of a triangle's plane on which a point lies, exactly. Corners and point are indices into
 /// `points`. A corner of the triangle needs no computation, which would be the predicate's slowest.
 #[inline]
 pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
@@ -19,7 +19,7 @@ pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Order
     }
     let [a, b, c] = triangle;
     let corners = [points[a as usize], points[b as usize], points[c as usize]];
-    side(corners, points[point as usize])
+    side_of_plane(corners, points[point as usize])
 }
 
 /// The projection along a coordinate axis under which a triangle has a non-zero area, with the orientation of its
@@ -62,13 +62,13 @@ impl Projection {
 /// along one axis differ by a factor of more than 1e90.
 pub(crate) fn has_zero_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
-    let factor = |x: f64| if x < 1.0 { unit_scale_factor(x) } else { 1.0 };
+    let factor = |x: f64| if x < 1.0 { power_of_two_scale(x) } else { 1.0 };
     let scale = DVec3::from_array(a.max(b).max(c).to_array().map(factor));
     is_degenerate(triangle.map(|p| p * scale))
 }
 
 /// Returns the power of two that scales a positive number to about 1; 1 for any other number.
-fn unit_scale_factor(x: f64) -> f64 {
+fn power_of_two_scale(x: f64) -> f64 {
     const EXPONENT_MASK: u64 = f64::INFINITY.to_bits();
     if x > 0.0 && x.is_finite() {
         greater(
@@ -85,8 +85,8 @@ fn unit_scale_factor(x: f64) -> f64 {
 /// two until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
 /// differ by a factor of more than 1e90.
 pub(crate) fn determinant_sign(columns: [DVec3; 3]) -> Ordering {
-    let [x, y, z] = columns.map(|column| column * unit_scale_factor(column.abs().max_element()));
-    side([DVec3::ZERO, x, y], z)
+    let [x, y, z] = columns.map(|column| column * power_of_two_scale(column.abs().max_element()));
+    side_of_plane([DVec3::ZERO, x, y], z)
 }
 
 /// Returns the index of the first point with a coordinate that is not finite or exceeds the supported range.

@@ -1,6 +1,6 @@
 //! Exact crossings of segments with triangles, for winding numbers.
 
-use super::predicates::side;
+use super::predicates::side_of_plane;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -8,11 +8,11 @@ use std::cmp::Ordering;
 /// segment misses the triangle. Returns `None` if it meets an edge or ends on the triangle.
 pub(crate) fn segment_crossing_sign([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
     let [a, b, c] = triangle;
-    let ends = [from, to].map(|p| side(triangle, p));
+    let ends = [from, to].map(|p| side_of_plane(triangle, p));
     if ends[0] == ends[1] && ends[0] != Ordering::Equal {
         return Some(0);
     }
-    let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side([from, to, v], w));
+    let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side_of_plane([from, to, v], w));
     if turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater) {
         return Some(0);
     }

@@ -1,6 +1,6 @@
 //! Exact intersection tests of triangles and segments.
 
-use super::predicates::{Projection, side};
+use super::predicates::{Projection, side_of_plane};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -30,7 +30,7 @@ pub(crate) fn meet_outside_shared_corners(
 /// Returns whether two triangles of non-zero area have a point in common.
 pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
     let beyond = |which: usize| {
-        let sides = triangles[1 - which].map(|p| side(triangles[which], p));
+        let sides = triangles[1 - which].map(|p| side_of_plane(triangles[which], p));
         sides[0] != Ordering::Equal && sides.iter().all(|&s| s == sides[0])
     };
     !beyond(0)
@@ -51,19 +51,19 @@ fn are_folded_flat(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> boo
     let Some(projection) = Projection::new(one) else {
         return true;
     };
-    side(one, other[l]) == Ordering::Equal
+    side_of_plane(one, other[l]) == Ordering::Equal
         && projection.turn(one[(k + 1) % 3], one[(k + 2) % 3], other[l]) == Ordering::Greater
 }
 
 /// Returns whether a segment meets a triangle; touching counts.
 fn segment_meets_triangle([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle;
-    match (side(triangle, p), side(triangle, q)) {
+    match (side_of_plane(triangle, p), side_of_plane(triangle, q)) {
         (Ordering::Equal, Ordering::Equal) => coplanar_segment_meets_triangle([p, q], triangle),
         (s, t) if s == t => false,
         _ => {
             // The tetrahedra of the segment with each edge have one orientation if it crosses inside.
-            let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side([p, q, v], w));
+            let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side_of_plane([p, q, v], w));
             !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
         }
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::exact::predicates::{Projection, is_degenerate, side};
+use crate::exact::predicates::{Projection, is_degenerate, side_of_plane};
 use proptest::prelude::*;
 use rstest::rstest;
 use std::cmp::Ordering;
@@ -23,7 +23,7 @@ impl BruteForceHull {
             for &b in &distinct {
                 for &c in &distinct {
                     let plane = [points[a], points[b], points[c]];
-                    let sides = || distinct.iter().map(|&k| side(plane, points[k]));
+                    let sides = || distinct.iter().map(|&k| side_of_plane(plane, points[k]));
                     if is_degenerate(plane) || sides().any(|s| s == Ordering::Greater) {
                         continue;
                     }
@@ -74,11 +74,11 @@ fn assert_valid_hull(points: &[DVec3], hull: &Hull) {
         assert!(corners.len() >= 3);
         let plane = [at(corners[0]), at(corners[1]), at(corners[2])];
         for &p in points {
-            assert_ne!(side(plane, p), Ordering::Greater, "{p} is outside");
+            assert_ne!(side_of_plane(plane, p), Ordering::Greater, "{p} is outside");
         }
         for k in 0..corners.len() {
             let [v, w, x] = [0, 1, 2].map(|l| corners[(k + l) % corners.len()]);
-            assert_eq!(side(plane, at(v)), Ordering::Equal);
+            assert_eq!(side_of_plane(plane, at(v)), Ordering::Equal);
             assert!(!is_degenerate([at(v), at(w), at(x)]), "collinear corners");
             assert!(edges.insert((v, w)), "edge {v}-{w} is there twice");
         }

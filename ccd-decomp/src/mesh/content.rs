@@ -17,12 +17,12 @@ pub(crate) struct Content {
     pub(crate) unit: Option<Unit>,
     /// The names of the parts of the file, in the order of their numbers. Each part has a face.
     pub(crate) part_names: Vec<Option<String>>,
-    pub(crate) layout: Layout,
+    pub(crate) geometry: Geometry,
 }
 
 /// The faces of a file, in one of the two ways in which formats describe them.
 #[derive(Debug)]
-pub(crate) enum Layout {
+pub(crate) enum Geometry {
     /// A list of vertices and faces, with the number of each face's part; without numbers all faces are in the first
     /// part.
     FaceList(Polygons, Vec<u32>),
@@ -34,11 +34,11 @@ impl Content {
     /// Returns the faces of some parts of the file, in one list for each part. Vertices and faces of a part are
     /// numbered from 0.
     pub(crate) fn separate_parts(&self, parts: Range<usize>) -> Result<Vec<Polygons>, MeshFault> {
-        match &self.layout {
-            Layout::FaceList(polygons, part_of_face) => {
+        match &self.geometry {
+            Geometry::FaceList(polygons, part_of_face) => {
                 groups::copy_groups(polygons, part_of_face, parts)
             }
-            Layout::Assembly(assembly) => {
+            Geometry::Assembly(assembly) => {
                 assembly.check_expansion_cost(parts.clone())?;
                 let alone = parts.map(|part| assembly.placed_triangles(part..part + 1));
                 alone.collect()
@@ -49,9 +49,9 @@ impl Content {
     /// Returns all faces of the file as one list. Faces of a list keep the file's numbers; faces of an assembly are
     /// numbered part by part.
     pub(crate) fn all_faces(self) -> Result<Polygons, MeshFault> {
-        match self.layout {
-            Layout::FaceList(polygons, _) => Ok(polygons),
-            Layout::Assembly(assembly) => assembly.placed_triangles(0..assembly.parts.len()),
+        match self.geometry {
+            Geometry::FaceList(polygons, _) => Ok(polygons),
+            Geometry::Assembly(assembly) => assembly.placed_triangles(0..assembly.parts.len()),
         }
     }
 }
@@ -62,7 +62,7 @@ impl From<Polygons> for Content {
         Content {
             unit: None,
             part_names: vec![None],
-            layout: Layout::FaceList(polygons, Vec::new()),
+            geometry: Geometry::FaceList(polygons, Vec::new()),
         }
     }
 }

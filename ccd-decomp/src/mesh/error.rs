@@ -68,12 +68,12 @@ pub enum MeshFault {
         parts: Vec<Option<String>>,
     },
     /// Several parts of the file have the requested name.
-    #[error("has {} parts {part:?}; give the number of one: {}", .numbers.len(), list_of_numbers(.numbers))]
+    #[error("has {} parts {part:?}; give the number of one: {}", .part_numbers.len(), list_of_numbers(.part_numbers))]
     AmbiguousPart {
         /// The name that was requested.
         part: String,
         /// The numbers of the parts with this name, from 0.
-        numbers: Vec<usize>,
+        part_numbers: Vec<usize>,
     },
     /// Repeated references expand a small file to more triangles than its size allows.
     #[error(
@@ -123,7 +123,7 @@ pub enum MeshFault {
         line: Option<usize>,
     },
     /// A face has a vertex number that does not exist.
-    #[error("{}face {face} names vertex {vertex}, but there are {vertices}, numbered from {base}", line_prefix(*.line))]
+    #[error("{}face {face} names vertex {vertex}, but there are {vertices}, numbered from {first_vertex_number}", line_prefix(*.line))]
     NoSuchVertex {
         /// The number of the face.
         face: usize,
@@ -134,7 +134,7 @@ pub enum MeshFault {
         /// The number of vertices in the file.
         vertices: usize,
         /// The number that the format gives to the first vertex.
-        base: u8,
+        first_vertex_number: u8,
     },
     /// A face has fewer than three corners.
     #[error("{}face {face} has {corners} corners; remove it or give it three", line_prefix(*.line))]

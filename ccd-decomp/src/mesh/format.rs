@@ -101,14 +101,14 @@ impl Format {
             return Err(MeshFault::StepFile);
         }
         match self {
-            Format::Obj => obj::parse(&text::utf8_without_lone_returns(bytes)),
+            Format::Obj => obj::parse(&text::utf8_cr_to_lf(bytes)),
             Format::Stl => stl::parse(bytes).map(Content::from),
             Format::Ply => ply::parse(&unmarked).map(Content::from),
-            Format::Off => off::parse(&text::utf8_without_lone_returns(bytes)).map(Content::from),
+            Format::Off => off::parse(&text::utf8_cr_to_lf(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
             Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]
-            Format::Gltf => Err(not_built(linked)),
+            Format::Gltf => Err(missing_gltf_feature(linked)),
         }
     }
 }
@@ -119,7 +119,7 @@ fn is_step_file(bytes: &[u8]) -> bool {
 }
 
 #[cfg(not(feature = "gltf"))]
-fn not_built(_: &LinkedFiles) -> MeshFault {
+fn missing_gltf_feature(_: &LinkedFiles) -> MeshFault {
     MeshFault::MissingFeature {
         format: "glTF",
         feature: "gltf",

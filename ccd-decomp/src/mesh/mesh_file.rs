@@ -50,7 +50,7 @@ impl MeshFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
         let read = || {
-            let (format, bytes) = read_with_format(path)?;
+            let (format, bytes) = read_format_and_bytes(path)?;
             let folder = path.parent().unwrap_or(Path::new(""));
             let mut linked = LinkedFiles::new();
             for (name, needed_bytes) in format.file_references(&bytes)? {
@@ -146,7 +146,8 @@ impl MeshFile {
         let made = || {
             let part = self.find_part(name_or_number)?;
             let separate = self.content.separate_parts(part..part + 1);
-            let mesh = separate.and_then(|mut one| mesh(one.swap_remove(0), self.conversion()));
+            let mesh =
+                separate.and_then(|mut one| mesh(one.swap_remove(0), self.unit_conversion()));
             mesh.map_err(|fault| fault.at_element(self.part_label(part)))
         };
         made().map_err(|fault| error(fault, &self.path))
@@ -162,7 +163,7 @@ impl MeshFile {
             .separate_parts(0..self.content.part_names.len());
         let parts = parts.map_err(|fault| error(fault, &self.path))?.into_iter();
         let named = parts.enumerate().map(|(part, polygons)| {
-            let mesh = mesh(polygons, self.conversion())
+            let mesh = mesh(polygons, self.unit_conversion())
                 .map_err(|fault| error(fault.at_element(self.part_label(part)), &self.path))?;
             let name = self.content.part_names[part].clone();
             Ok(NamedMesh { name, mesh })
@@ -177,13 +178,13 @@ impl MeshFile {
     /// # Errors
     /// The faults of the mesh.
     pub fn into_mesh(self) -> Result<TriangleMesh, MeshError> {
-        let conversion = self.conversion();
+        let conversion = self.unit_conversion();
         let whole = self.content.all_faces();
         let mesh = whole.and_then(|polygons| mesh(polygons, conversion));
         mesh.map_err(|fault| error(fault, &self.path))
     }
 
-    fn conversion(&self) -> Option<UnitConversion> {
+    fn unit_conversion(&self) -> Option<UnitConversion> {
         let units = self.content.unit.zip(self.target_unit);
         units.map(|(from, to)| UnitConversion::new(from, to))
     }
@@ -203,7 +204,7 @@ impl MeshFile {
                 }),
             _ => Err(MeshFault::AmbiguousPart {
                 part: name_or_number.into(),
-                numbers: named,
+                part_numbers: named,
             }),
         }
     }
@@ -220,7 +221,7 @@ pub(crate) fn source_paths(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
         if !Format::from_path(path).is_ok_and(Format::refers_to_files) {
             return Ok(vec![path.to_owned()]);
         }
-        let (format, bytes) = read_with_format(path)?;
+        let (format, bytes) = read_format_and_bytes(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut files = vec![path.to_owned()];
         for name in format.file_references(&bytes)?.keys() {
@@ -251,7 +252,7 @@ fn mesh(
     TriangleMesh::from_polygons(polygons)
 }
 
-fn read_with_format(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
+fn read_format_and_bytes(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
     if path.is_dir() {
         return Err(MeshFault::Folder);
     }

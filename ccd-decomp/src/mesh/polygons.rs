@@ -56,7 +56,7 @@ impl Polygons {
                     line,
                     vertex,
                     vertices,
-                    base: 0,
+                    first_vertex_number: 0,
                 });
             }
         }

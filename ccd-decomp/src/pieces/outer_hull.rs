@@ -1,9 +1,9 @@
 //! Encloses a mesh by its convex hull, with a certified bound on how far the hull extends beyond the mesh.
 
+mod enclosed_mesh;
 mod facet_planes;
 mod search;
 mod shrink;
-mod target;
 mod under;
 
 use crate::hull::{HullError, hull};
@@ -16,7 +16,7 @@ use crate::tolerance::EXCESS_TOLERANCE_PER_HALF_DIAGONAL;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use ccd_core::{Facet, FacetOrigin, Hull, Polytope};
-use target::Target;
+use enclosed_mesh::EnclosedMesh;
 
 /// The convex hull of a mesh. None of its facets counts as part of the mesh.
 ///
@@ -67,7 +67,7 @@ fn polytope(hull: Hull) -> Polytope {
 
 /// Returns an upper bound on how far the hull extends beyond the mesh; 0 for a convex solid.
 fn excess_bound(mesh: &TriangleMesh, topology: &Topology, hull: &Hull) -> f64 {
-    let target = Target::new(mesh, topology);
+    let target = EnclosedMesh::new(mesh, topology);
     let mut by_shrinking = f64::INFINITY;
     if let Ok(manifold) = Manifold::without_intersection_check(mesh, topology)
         && let Some(centre) = star_centre(&manifold)

@@ -15,7 +15,7 @@ use crate::solid::flats::ConvexPolygons;
 use crate::solid::manifold::{Dihedral, Manifold};
 use crate::solid::solid_surface;
 use crate::tolerance::MAX_PATCH_POLYGONS;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use growing_patch::{GrowingPatch, JoinResult};
 use order::seed_order;
 use std::collections::VecDeque;
@@ -57,7 +57,7 @@ pub fn decompose(mesh: &TriangleMesh, order: PatchOrder) -> Result<Decomposition
         &manifold,
         &ConvexPolygons::new(&manifold),
         order,
-        &Work::unbounded(),
+        &WorkBudget::unbounded(),
     )
 }
 
@@ -69,7 +69,7 @@ pub(crate) fn patches_from_polygons(
     manifold: &Manifold<'_>,
     flats: &ConvexPolygons,
     order: PatchOrder,
-    work: &Work,
+    work: &WorkBudget,
 ) -> Result<Decomposition, DecomposeError> {
     if let Ok(polytope) = convex_polytope(manifold) {
         let faces = (0..manifold.faces().len() as u32).collect();
@@ -99,7 +99,7 @@ struct PatchGrower<'a, 'm> {
     manifold: &'a Manifold<'m>,
     polygons: &'a ConvexPolygons,
     order: PatchOrder,
-    work: &'a Work,
+    work: &'a WorkBudget,
     /// For each polygon, whether it belongs to a patch.
     is_in_patch: Vec<bool>,
     /// For each polygon, the number of the last patch that tried to add it. A refusal is final, because the hull only

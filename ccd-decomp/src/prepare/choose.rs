@@ -11,15 +11,15 @@ use crate::solid::flats::{PlanarRegionSize, RegionMerger};
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
 use crate::tolerance::{PATCH_QUERY_COST, QueryCost, RESTING_QUERY_SHARE, TRIANGLE_QUERY_COST};
-use crate::work::Work;
+use crate::work::WorkBudget;
 
 /// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
 ///
 /// Intersection tests and decomposition are slow: they run only if the result would be used, within a budget.
-pub(super) fn choose(
+pub(super) fn choose_pieces(
     mesh: &TriangleMesh,
     topology: &Topology,
-    work: &Work,
+    work: &WorkBudget,
 ) -> (PiecesOfOneKind, PieceReason) {
     let manifold = match Manifold::without_intersection_check(mesh, topology) {
         Ok(manifold) => manifold,

@@ -6,7 +6,7 @@ use super::planes::facet_planes;
 use super::region::{Region, Shape};
 use crate::bounds::Bounds;
 use crate::tolerance::BOXES_BEFORE_ORIENTED_TESTS;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::cell::{Cell, OnceCell};
@@ -64,7 +64,7 @@ impl BoxTree {
     pub(crate) fn all_near_faces_satisfy(
         &self,
         region: &Region,
-        work: &Work,
+        work: &WorkBudget,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         // Used only if axis-aligned boxes leave too many elements.
@@ -92,7 +92,7 @@ impl BoxTree {
     pub(super) fn all_near_elements_satisfy(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
-        work: &Work,
+        work: &WorkBudget,
         mut holds: impl FnMut(&Element) -> bool,
     ) -> bool {
         let mut at = 0;

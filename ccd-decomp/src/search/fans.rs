@@ -6,9 +6,9 @@ use super::oriented_box::OrientedBox;
 use super::planes::separating_planes;
 use super::region::{Hull, Shape};
 use crate::bounds::Bounds;
-use crate::exact::predicates::{is_degenerate, side};
+use crate::exact::predicates::{is_degenerate, side_of_plane};
 use crate::tolerance::MIN_FAN_TRIANGLES;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -60,7 +60,7 @@ impl Fan {
         let [p, q, _] = rim[rim.len() / 2].corners;
         let in_plane = |element: &Element| {
             let mut corners = element.corners.iter();
-            corners.all(|&corner| side([hub, p, q], corner) == Ordering::Equal)
+            corners.all(|&corner| side_of_plane([hub, p, q], corner) == Ordering::Equal)
         };
         let level: Vec<Element> = rim.iter().copied().filter(in_plane).collect();
         let is_plane = !is_degenerate([hub, p, q]) && 2 * level.len() > rim.len();
@@ -81,7 +81,10 @@ impl Fan {
     /// the hull.
     fn is_flat_beside_hull(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
-            let sides = hull.corners.iter().map(|&corner| side(plane, corner));
+            let sides = hull
+                .corners
+                .iter()
+                .map(|&corner| side_of_plane(plane, corner));
             let mut sides = sides.filter(|&side| side != Ordering::Equal);
             let first = sides.next();
             sides.all(|side| Some(side) == first)
@@ -98,7 +101,7 @@ impl Fan {
     pub(super) fn all_near_faces_satisfy(
         &self,
         shape: &Shape,
-        work: &Work,
+        work: &WorkBudget,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         if let Shape::HullInBox(hull) = shape

@@ -2,7 +2,7 @@
 
 use super::box_tree::BoxTree;
 use crate::bounds::Bounds;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 
 /// The cost of visiting one node in a search by distance, in steps. Visiting one node in a search by region is one
@@ -18,7 +18,7 @@ impl BoxTree {
     pub(crate) fn nearest_face(
         &self,
         point: DVec3,
-        work: &Work,
+        work: &WorkBudget,
         mut measure: impl FnMut([DVec3; 3]) -> f64,
     ) -> Option<(u32, f64)> {
         let mut best: Option<(u32, f64)> = None;
@@ -56,7 +56,7 @@ impl BoxTree {
     pub(crate) fn all_triangles_meeting_box_satisfy(
         &self,
         bounds: &Bounds,
-        work: &Work,
+        work: &WorkBudget,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);

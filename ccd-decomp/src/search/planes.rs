@@ -2,7 +2,7 @@
 
 use super::oriented_box::OrientedBox;
 use super::region::{Hull, Shape};
-use crate::exact::predicates::{Projection, side, side_of_line_along};
+use crate::exact::predicates::{Projection, side_of_line_along, side_of_plane};
 use ccd_core::glam::DVec3;
 use ccd_core::rounding::height_rounding;
 use std::cmp::Ordering;
@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 /// A plane through a point, with a normal of any length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
-    foot: DVec3,
+    point: DVec3,
     normal: DVec3,
     largest_coordinate: f64,
     /// A bound on the rounding error of heights above the plane, per unit of the largest coordinate.
@@ -20,7 +20,7 @@ pub(super) struct Plane {
 impl Plane {
     fn new(foot: DVec3, [u, v]: [DVec3; 2]) -> Self {
         Plane {
-            foot,
+            point: foot,
             normal: u.cross(v),
             largest_coordinate: foot.abs().max_element(),
             // Twice, to cover three axes.
@@ -35,7 +35,7 @@ impl Plane {
     /// Returns whether a box is certainly in front of the plane.
     #[inline]
     pub(super) fn has_box_in_front(&self, oriented: &OrientedBox) -> bool {
-        let offset = oriented.centre - self.foot;
+        let offset = oriented.centre - self.point;
         let reach = oriented.max_abs_coordinate + 2.0 * self.largest_coordinate;
         let height = self.normal.dot(offset) - oriented.support_bound(self.normal);
         // Written so that NaN is not in front.
@@ -52,7 +52,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         &Shape::Segment([p, q]) => Vec::from([[hub, p, q], [hub, q, p]].map(Plane::from_triangle)),
         Shape::HullInBox(Hull { facets, .. }) => {
-            let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
+            let is_front = |&&facet: &&[DVec3; 3]| side_of_plane(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
             facets.map(|&facet| Plane::from_triangle(facet)).collect()
         }
@@ -72,7 +72,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
             }
             let [p, q, r] = *corners;
             for facet in [[p, q, r], [q, p, r]] {
-                if side(facet, hub) != Ordering::Less {
+                if side_of_plane(facet, hub) != Ordering::Less {
                     planes.push(Plane::from_triangle(facet));
                 }
             }
@@ -113,14 +113,15 @@ fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
         edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)
     };
-    side(triangle, point) == Ordering::Equal && Projection::new(triangle).is_none_or(within)
+    side_of_plane(triangle, point) == Ordering::Equal
+        && Projection::new(triangle).is_none_or(within)
 }
 
 /// Of the two oriented planes through the hub and the edge `p q`, adds those that do not have the corner `rest` in
 /// front.
 fn add_plane_through_edge(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
-        if side(plane, rest) != Ordering::Greater {
+        if side_of_plane(plane, rest) != Ordering::Greater {
             planes.push(Plane::from_triangle(plane));
         }
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::bounds::Bounds;
-use crate::exact::predicates::{is_degenerate, side};
+use crate::exact::predicates::{is_degenerate, side_of_plane};
 use crate::exact::rays::segment_crossing_sign;
 use crate::exact::triangles::triangles_meet;
 use crate::hull::exact_hull::ExactHull;
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 
 fn near_faces(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     let mut found = Vec::new();
-    boxes.all_near_faces_satisfy(region, &Work::unbounded(), |face| {
+    boxes.all_near_faces_satisfy(region, &WorkBudget::unbounded(), |face| {
         found.push(face);
         true
     });
@@ -148,7 +148,7 @@ fn skipped_triangles_meet_nothing() {
                     continue;
                 }
                 let is_inside = |p: &DVec3| {
-                    let behind = |&facet: &[DVec3; 3]| side(facet, *p) == Ordering::Less;
+                    let behind = |&facet: &[DVec3; 3]| side_of_plane(facet, *p) == Ordering::Less;
                     !facets.is_empty() && facets.iter().all(behind)
                 };
                 // A common corner alone need not be found.
@@ -191,17 +191,20 @@ fn the_nearest_triangle_is_found() {
             let all = faces.iter().map(|face| distance(at(face)));
             let least = all.fold(f64::INFINITY, ccd_core::order::lesser);
             let (face, found) = search
-                .nearest_face(point, &Work::unbounded(), distance)
+                .nearest_face(point, &WorkBudget::unbounded(), distance)
                 .unwrap();
             assert_eq!(distance(at(&faces[face as usize])), found);
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::enclosing([p, q]);
             let mut within = Vec::new();
-            let all =
-                search.all_triangles_meeting_box_satisfy(&bounds, &Work::unbounded(), |face| {
+            let all = search.all_triangles_meeting_box_satisfy(
+                &bounds,
+                &WorkBudget::unbounded(),
+                |face| {
                     within.push(face);
                     true
-                });
+                },
+            );
             assert!(all);
             within.sort_unstable();
             let meets = |face: &[u32; 3]| Bounds::enclosing(at(face)).meets(&bounds);

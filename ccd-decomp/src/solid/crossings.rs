@@ -6,7 +6,7 @@ use super::manifold::Manifold;
 use crate::exact::triangles::meet_outside_shared_corners;
 use crate::search::region::Region;
 use crate::tolerance::MAX_CROSSINGS;
-use crate::work::{Work, WorkBudgetExhausted};
+use crate::work::{WorkBudget, WorkBudgetExhausted};
 use fanned_polygons::FannedPolygons;
 
 /// Returns the pairs of faces that meet outside shared vertices and edges. The list ends at [a thousand](MAX_CROSSINGS)
@@ -16,7 +16,7 @@ use fanned_polygons::FannedPolygons;
 /// [`WorkBudgetExhausted`] if the work does not suffice.
 pub(crate) fn crossings(
     manifold: &Manifold<'_>,
-    work: &Work,
+    work: &WorkBudget,
 ) -> Result<Vec<(u32, u32)>, WorkBudgetExhausted> {
     let mut found = Vec::new();
     let fanned = FannedPolygons::collect_from(manifold);

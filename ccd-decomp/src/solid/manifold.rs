@@ -2,7 +2,9 @@
 
 use super::error::DecomposeError;
 use super::topology::Topology;
-use crate::exact::predicates::{Projection, first_point_below_exact_range, is_degenerate, side};
+use crate::exact::predicates::{
+    Projection, first_point_below_exact_range, is_degenerate, side_of_plane,
+};
 use crate::half_edges::{HalfEdge, twins};
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
@@ -123,7 +125,7 @@ impl<'m> Manifold<'m> {
         let twin = self.twin(half_edge);
         let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
         let (triangle, far) = (self.triangle(half_edge / 3), self.point(far));
-        match side(triangle, far) {
+        match side_of_plane(triangle, far) {
             Ordering::Less => Dihedral::Convex,
             Ordering::Greater => Dihedral::Reflex,
             Ordering::Equal => {

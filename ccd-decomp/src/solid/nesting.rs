@@ -14,7 +14,7 @@ use crate::search::TriangleBoxes;
 use crate::search::region::Region;
 use crate::tally::Tally;
 use crate::tolerance::{FACE_CENTRE_ROUNDING, MAX_NESTING_RAYS};
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use closed_parts::closed_part_numbers;
@@ -188,9 +188,11 @@ impl<'m> Shells<'m> {
         let misses = |face: u32| {
             is_of_shell(face) || segment_crossing_sign(across, self.mesh.triangle(face)) == Some(0)
         };
-        let is_alone =
-            self.boxes
-                .all_near_faces_satisfy(&Region::segment(across), &Work::unbounded(), misses);
+        let is_alone = self.boxes.all_near_faces_satisfy(
+            &Region::segment(across),
+            &WorkBudget::unbounded(),
+            misses,
+        );
         is_alone.then_some(middle)
     }
 
@@ -201,7 +203,7 @@ impl<'m> Shells<'m> {
         let region = Region::segment(ray);
         let passes = self
             .boxes
-            .all_near_faces_satisfy(&region, &Work::unbounded(), |face| {
+            .all_near_faces_satisfy(&region, &WorkBudget::unbounded(), |face| {
                 let other = self.shell_of_face[face as usize];
                 let start = Bounds::enclosing([ray[0]]);
                 let may_wind = other != shell && self.bounds.get(other).meets(&start);
@@ -232,7 +234,7 @@ impl<'m> Shells<'m> {
             let one = self.mesh.triangle(face);
             self.boxes.all_near_faces_satisfy(
                 &Region::from_triangle(one),
-                &Work::unbounded(),
+                &WorkBudget::unbounded(),
                 |near| {
                     let other = self.shell_of_face[near as usize];
                     if other != shell && !crossed.contains(&other) && !flat(near) {

@@ -7,7 +7,7 @@ use crate::exact::rays::{probe_segment, segment_crossing_sign};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
 use crate::tolerance::MAX_NESTING_RAYS;
-use crate::work::Work;
+use crate::work::WorkBudget;
 
 /// Checks that the solid is behind every face. The solid is where the winding number is not 0.
 ///
@@ -18,7 +18,7 @@ use crate::work::Work;
 /// [`DecomposeError`]; [`WorkBudgetExceeded`](DecomposeError::WorkBudgetExceeded) if the work does not suffice.
 pub(crate) fn check_orientation(
     manifold: &Manifold<'_>,
-    work: &Work,
+    work: &WorkBudget,
 ) -> Result<(), DecomposeError> {
     let shell_of = shell_numbers(manifold);
     let near = manifold.triangle(0)[0];
@@ -62,7 +62,7 @@ fn winding_number_of_other_shells(
     manifold: &Manifold<'_>,
     shell_of: &[u32],
     faces: &[u32],
-    work: &Work,
+    work: &WorkBudget,
 ) -> Option<i32> {
     let shell = shell_of[faces[0] as usize];
     let near = manifold.triangle(faces[0])[0];

@@ -1,7 +1,7 @@
 //! Recognises star-shaped solids, whose whole surface is visible from one point.
 
 use super::manifold::Manifold;
-use crate::exact::predicates::side;
+use crate::exact::predicates::side_of_plane;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_NONZERO_COORDINATE;
 use std::cmp::Ordering;
@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 pub(crate) fn star_centre(manifold: &Manifold<'_>) -> Option<DVec3> {
     candidate_centres(manifold).into_iter().find(|&middle| {
         let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
-        let has_behind = |triangle| side(triangle, middle) == Ordering::Less;
+        let has_behind = |triangle| side_of_plane(triangle, middle) == Ordering::Less;
         triangles().all(has_behind) && ray_meets_one_triangle(triangles(), middle)
     })
 }
@@ -58,7 +58,7 @@ fn ray_meets_one_triangle(triangles: impl Iterator<Item = [DVec3; 3]>, middle: D
     let target = with_tiny_coordinates_zeroed((a + b + c) / 3.0);
     let mut met = 0;
     for [a, b, c] in triangles {
-        let within = [(a, b), (b, c), (c, a)].map(|(v, w)| side([middle, v, w], target));
+        let within = [(a, b), (b, c), (c, a)].map(|(v, w)| side_of_plane([middle, v, w], target));
         if within == [Ordering::Greater; 3] {
             met += 1;
         } else if !within.contains(&Ordering::Less) {

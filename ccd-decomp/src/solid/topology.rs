@@ -18,7 +18,7 @@ pub struct Topology {
     /// Edges with more than two faces, with more in one direction than in the other.
     pub branching_edges: Tally<Edge>,
     /// Edges with more than two faces, equally many in both directions. Closed parts touch there.
-    pub shared_edges: Tally<Edge>,
+    pub edges_shared_by_parts: Tally<Edge>,
     /// Wrongly oriented shells, if other shells are right; one face of each. Bodies are made with these shells
     /// reversed.
     pub wrong_shells: Tally<u32>,
@@ -63,7 +63,7 @@ impl Topology {
                 (1, _) => &mut topology.boundary_edges,
                 (2, false) => &mut topology.flipped_edges,
                 (_, false) => &mut topology.branching_edges,
-                (_, true) => &mut topology.shared_edges,
+                (_, true) => &mut topology.edges_shared_by_parts,
             };
             tally.add(Edge(v, w));
         }
@@ -96,7 +96,7 @@ impl Topology {
 
     /// Returns whether the mesh is closed, and no edge has more than two faces.
     pub fn is_manifold(&self) -> bool {
-        self.is_closed() && self.shared_edges.is_empty()
+        self.is_closed() && self.edges_shared_by_parts.is_empty()
     }
 
     /// Returns advice on how to make the mesh a manifold, as a part of error messages.
@@ -150,7 +150,7 @@ impl fmt::Display for Topology {
                 &self.branching_edges,
                 "unbalanced edges with more than two faces",
             ),
-            (&self.shared_edges, "edges shared by closed parts"),
+            (&self.edges_shared_by_parts, "edges shared by closed parts"),
         ];
         let torn = !(self.boundary_edges.is_empty() && self.branching_edges.is_empty());
         write!(f, "{}", if torn { "open" } else { "closed" })?;

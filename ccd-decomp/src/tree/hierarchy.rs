@@ -6,7 +6,7 @@ mod reinsert;
 
 use crate::bounds::Bounds;
 use crate::tolerance::MAX_CLUSTER_PIECES;
-use crate::tree::slot::Slot;
+use crate::tree::slot::SubtreeSlot;
 use agglomerate::agglomerate;
 use ccd_core::glam::{DVec3, Vec3A};
 use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
@@ -87,7 +87,7 @@ fn split_and_agglomerate(leaves: &[Node]) -> Vec<Node> {
         piece,
     });
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
-    if let Some(slot) = Slot::of_whole_tree(&mut nodes) {
+    if let Some(slot) = SubtreeSlot::of_whole_tree(&mut nodes) {
         build_subtree(leaves, &mut centres.collect::<Vec<_>>(), slot);
     }
     nodes
@@ -101,7 +101,7 @@ struct PieceCentre {
 }
 
 /// Builds the subtree over some pieces, in parallel if they are many.
-fn build_subtree(leaves: &[Node], centres: &mut [PieceCentre], mut slot: Slot<'_, Node>) {
+fn build_subtree(leaves: &[Node], centres: &mut [PieceCentre], mut slot: SubtreeSlot<'_, Node>) {
     if centres.len() <= MAX_CLUSTER_PIECES {
         return build_cluster(leaves, centres, slot);
     }
@@ -124,7 +124,7 @@ fn build_subtree(leaves: &[Node], centres: &mut [PieceCentre], mut slot: Slot<'_
 }
 
 /// Builds the subtree over a few pieces by agglomeration.
-fn build_cluster(leaves: &[Node], centres: &[PieceCentre], slot: Slot<'_, Node>) {
+fn build_cluster(leaves: &[Node], centres: &[PieceCentre], slot: SubtreeSlot<'_, Node>) {
     let of_cluster = centres.iter().map(|centre| leaves[centre.piece as usize]);
     let tree = agglomerate(&of_cluster.collect::<Vec<_>>());
     let nodes = std::iter::once(slot.node).chain(slot.descendants);

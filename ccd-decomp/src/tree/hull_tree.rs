@@ -4,7 +4,7 @@ mod split;
 
 use crate::hull::{HullError, hull};
 use crate::tolerance::MIN_PARALLEL_PIECES;
-use crate::tree::slot::Slot;
+use crate::tree::slot::SubtreeSlot;
 use ccd_core::glam::DVec3;
 use ccd_core::{HullNode, HullTree, HullTreeError, InputError, Pieces};
 use split::Splitter;
@@ -35,7 +35,7 @@ pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
         pieces,
         splitter: Splitter::new(pieces),
     };
-    if let Some(slot) = Slot::of_whole_tree(&mut nodes) {
+    if let Some(slot) = SubtreeSlot::of_whole_tree(&mut nodes) {
         grower.build_subtree(&mut order, slot)?;
     }
     Ok(HullTree::new(pieces, &nodes)?)
@@ -52,7 +52,7 @@ impl TreeBuilder<'_> {
     fn build_subtree(
         &self,
         pieces: &mut [u32],
-        mut slot: Slot<'_, HullNode>,
+        mut slot: SubtreeSlot<'_, HullNode>,
     ) -> Result<(), BuildError> {
         if let [piece] = *pieces {
             *slot.node = HullNode::Leaf(piece);

@@ -4,7 +4,7 @@ use super::ClosedForm;
 use super::nearest::{Corners, NearestPoints};
 use super::pierce::nearest_with_edge_plane_intersections;
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, DistanceOracle, Frame, GiveUpReason, Instructions, Piece, PiecePair};
+use ccd_core::{Claim, DistanceOracle, Frame, GiveUpReason, Piece, PiecePair, VectorInstructions};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rstest::rstest;
@@ -25,7 +25,7 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUpReason> {
 }
 
 fn nearest(p: &Corners, q: &Corners) -> NearestPoints {
-    super::nearest_points(Instructions::Best.simd_level(), p, q)
+    super::nearest_points(VectorInstructions::Best.simd_level(), p, q)
 }
 
 fn vector(x: f64, y: f64, z: f64) -> DVec3 {
@@ -133,8 +133,8 @@ fn all_instructions_give_the_same_bits() {
             b_to_a: Frame::IDENTITY,
         };
         let claim = |set| ClosedForm::new(set).separation(&pair, &mut ());
-        let best = claim(Instructions::Best).expect("triangles");
-        assert_eq!(Ok(best), claim(Instructions::Baseline));
+        let best = claim(VectorInstructions::Best).expect("triangles");
+        assert_eq!(Ok(best), claim(VectorInstructions::Baseline));
         near += usize::from(best.axis.length() < 1e-6 || flat);
     }
     assert!(near > 2_000, "{near}");

@@ -57,7 +57,7 @@ impl AxisVertices {
     ///
     /// The candidates are the nearest point, a known axis, and an arbitrary axis, as they are or made perpendicular to
     /// an edge, and the perpendiculars of two edges.
-    pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
+    pub(crate) fn best_axis(&self, known: DVec3) -> (DVec3, f64) {
         let mut edges = [DVec3::ZERO; MAX_AXIS_VERTICES];
         for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {
             *edge = unit(vertex.point - self.vertices[0].point).unwrap_or(DVec3::ZERO);

@@ -25,7 +25,7 @@ impl<'a> MinkowskiDifference<'a> {
             pair,
             first_point_a: first_a,
             first_point_b: first_b,
-            between: pair.b_to_a.point(first_b) - first_a,
+            between: pair.b_to_a.transform_point(first_b) - first_a,
         })
     }
 
@@ -44,9 +44,9 @@ impl<'a> MinkowskiDifference<'a> {
     }
 
     /// Returns the vertex of the difference with the least height along `direction`.
-    pub(crate) fn support(&self, direction: DVec3) -> Vertex {
+    pub(crate) fn lowest_vertex(&self, direction: DVec3) -> Vertex {
         let a = farthest_index_along(&self.pair.a, self.first_point_a, direction);
-        let turned = self.pair.b_to_a.inverse_vector(direction);
+        let turned = self.pair.b_to_a.inverse_transform_vector(direction);
         let b = farthest_index_along(&self.pair.b, self.first_point_b, -turned);
         self.vertex(a, b).unwrap_or(Vertex {
             point: self.between,

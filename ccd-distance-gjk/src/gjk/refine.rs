@@ -4,7 +4,7 @@ use super::minkowski::MinkowskiDifference;
 use super::search::SearchResult;
 use super::simplex::Simplex;
 use crate::closed_form::nearest::{Corners, nearest_points};
-use ccd_core::Instructions;
+use ccd_core::VectorInstructions;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
@@ -19,12 +19,16 @@ pub(crate) fn refine_witnesses(
     found: &mut SearchResult,
 ) {
     let vertices = simplex.vertices();
-    let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
-    let q = Points::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));
+    let p = PaddedTriangle::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
+    let q = PaddedTriangle::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));
     let (Some(p), Some(q)) = (p, q) else {
         return;
     };
-    let near = nearest_points(Instructions::Best.simd_level(), &p.corners, &q.corners);
+    let near = nearest_points(
+        VectorInstructions::Best.simd_level(),
+        &p.corners,
+        &q.corners,
+    );
     let square = near.difference(&p.corners, &q.corners).length_squared();
     if square < found.squared_distance {
         found.squared_distance = square;
@@ -39,15 +43,15 @@ pub(crate) fn refine_witnesses(
 }
 
 /// Three points of a piece; the last point is repeated if there are fewer.
-struct Points {
+struct PaddedTriangle {
     corners: Corners,
     indices: [u32; 3],
 }
 
-impl Points {
+impl PaddedTriangle {
     /// Collects the first three distinct points; `None` if there is no point.
     fn new(points: impl Iterator<Item = (u32, Option<DVec3>)>) -> Option<Self> {
-        let mut out = Points {
+        let mut out = PaddedTriangle {
             corners: [DVec3::ZERO; 3],
             indices: [0; 3],
         };

@@ -54,7 +54,7 @@ impl SearchResult {
         difference: &MinkowskiDifference<'_>,
         axis: DVec3,
     ) -> (Vertex, f64) {
-        let vertex = difference.support(axis);
+        let vertex = difference.lowest_vertex(axis);
         let gap = axis.dot(vertex.point) / axis.length_squared().sqrt();
         if gap > self.gap {
             (self.axis, self.gap) = (axis, gap);

@@ -30,7 +30,7 @@ pub(crate) fn try_feature_axes(
         fan.push(found.probe_axis(difference, axis).0);
     }
     for _ in 0..MAX_AXIS_VERTICES {
-        let (axis, promise) = fan.best(found.axis);
+        let (axis, promise) = fan.best_axis(found.axis);
         // Written so that NaN stops it. The promised gap is at least the gap of the hulls.
         if !(promise > found.gap) {
             break;

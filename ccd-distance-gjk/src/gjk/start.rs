@@ -42,7 +42,7 @@ impl Cache {
         if simplex.vertices().is_empty() {
             let axis = unit(self.axis);
             let direction = axis.unwrap_or(difference.between);
-            simplex.push(difference.support(direction));
+            simplex.push(difference.lowest_vertex(direction));
         }
         simplex
     }

@@ -165,7 +165,7 @@ fn a_fan_finds_the_axis_between_its_edges() {
     }
     // Every vertex is above: along the axis z they would be at 0, as along all axes at which they
     // touch.
-    let (axis, low) = fan.best(DVec3::X);
+    let (axis, low) = fan.best_axis(DVec3::X);
     assert!(low >= -1e-15 && axis.z > 0.99, "{axis} stands at {low}");
 }
 
@@ -216,7 +216,7 @@ fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
             let pair = PiecePair {
                 a: a.pieces().get(0),
                 b: b.pieces().get(0),
-                b_to_a: a_to_world.from_frame(&Frame::IDENTITY),
+                b_to_a: a_to_world.transform_from(&Frame::IDENTITY),
             };
             let difference = MinkowskiDifference::new(&pair).unwrap();
             let warm = solve(&difference, cache.simplex(&difference));

@@ -40,7 +40,7 @@ impl Scene {
 
     /// Returns both pieces' points in A's frame, relative to A's first point, without the rounding of far coordinates.
     pub(crate) fn local_points(&self) -> (Vec<DVec3>, Vec<DVec3>) {
-        let between = self.b_to_a.point(self.b[0]) - self.a[0];
+        let between = self.b_to_a.transform_point(self.b[0]) - self.a[0];
         let local = |y: &DVec3| self.b_to_a.rotation * (*y - self.b[0]) + between;
         let a = self.a.iter().map(|x| *x - self.a[0]).collect();
         (a, self.b.iter().map(local).collect())
@@ -51,7 +51,7 @@ impl Scene {
         Scene {
             a: self.b.clone(),
             b: self.a.clone(),
-            b_to_a: self.b_to_a.from_frame(&Frame::IDENTITY),
+            b_to_a: self.b_to_a.transform_from(&Frame::IDENTITY),
             size: self.size,
         }
     }
@@ -71,11 +71,11 @@ impl Scene {
     pub(crate) fn in_random_frames(self, rng: &mut Pcg64, far: f64) -> Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
-            a: self.a.iter().map(|&x| to_a.point(x)).collect(),
+            a: self.a.iter().map(|&x| to_a.transform_point(x)).collect(),
             b: self
                 .b
                 .iter()
-                .map(|&y| to_b.point(self.b_to_a.point(y)))
+                .map(|&y| to_b.transform_point(self.b_to_a.transform_point(y)))
                 .collect(),
             b_to_a: relative_frame(&to_a, &to_b),
             size: self.size,

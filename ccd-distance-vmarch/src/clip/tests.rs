@@ -62,7 +62,7 @@ fn no_part_is_left_outside_of_the_prism(#[case] half: DVec3, #[case] at: DVec3) 
 fn overlaps_of_parallel_segments_have_a_middle(#[case] shift: f64, #[case] middle: f64) {
     let line = |start: f64, length: f64| Line {
         start: start * DVec3::X,
-        along: DVec3::X,
+        direction: DVec3::X,
         length,
     };
     assert_eq!(

@@ -109,13 +109,13 @@ fn nearest_points_are_nearest_at_every_angle() {
         let tilt = random_magnitude(&mut rng, -17.0, 0.0);
         let one = Line {
             start: random_direction(&mut rng),
-            along,
+            direction: along,
             length: random_magnitude(&mut rng, -6.0, 0.5),
         };
         let other = Line {
             start: one.point_at(rng.random_range(-1.0..1.0))
                 + random_magnitude(&mut rng, -9.0, 0.0) * random_direction(&mut rng),
-            along: (along + tilt * random_direction(&mut rng)).normalize(),
+            direction: (along + tilt * random_direction(&mut rng)).normalize(),
             length: random_magnitude(&mut rng, -6.0, 0.5),
         };
         let [s, t] = nearest_parameters(&one, &other).parameters;

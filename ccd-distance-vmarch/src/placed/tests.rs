@@ -2,7 +2,7 @@ use super::{PlacedPair, PlacedPolytope};
 use crate::polytope::Polytope;
 use crate::rational::{Exact3, exact_fraction};
 use crate::tolerance::PLACEMENT_ERROR;
-use crate::worst::{RandomCase, WorstCaseSearch, share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_share};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{Frame, Piece};
@@ -62,7 +62,7 @@ fn worst_placing() {
                 .fold(f64::INFINITY, |a, b| -greater(-a, -b))
         });
         (least[0] > 1e-12 * size && least[1] > 1e-12 * size)
-            .then(|| share(off, PLACEMENT_ERROR * size))
+            .then(|| error_share(off, PLACEMENT_ERROR * size))
     });
     found.assert_tight_bound(40.0);
 }

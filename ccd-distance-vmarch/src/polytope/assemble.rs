@@ -34,7 +34,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
             .iter()
             .map(|&number| Vertex {
                 point: local(number),
-                number,
+                point_index: number,
                 first_outgoing_edge: 0,
                 end_outgoing_edge: 0,
             })
@@ -48,7 +48,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
     let at = |v: u32| points[numbers[v as usize] as usize];
     let edge = |v: u32, w: u32| Edge {
         start: out.vertices[v as usize].point,
-        along: unit(at(w) - at(v)),
+        direction: unit(at(w) - at(v)),
         length: at(w).distance(at(v)),
         inward_directions: [DVec3::ZERO; 2],
         ends: [v, w],
@@ -91,7 +91,11 @@ fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
             let Ok(number) = found else { continue };
             let normal = out.faces[face as usize].normal;
             let edge = &mut out.edges[number];
-            let along = if v < w { edge.along } else { -edge.along };
+            let along = if v < w {
+                edge.direction
+            } else {
+                -edge.direction
+            };
             let inward = unit(normal.cross(along));
             let slot = usize::from(v > w);
             edge.inward_directions[slot] = inward;
@@ -113,12 +117,12 @@ fn add_outgoing_edges(out: &mut Polytope) {
     for (edge, number) in out.edges.iter().zip(0..) {
         let [start, end] = edge.ends;
         let spoke = |along, to| OutgoingEdge {
-            along,
+            direction: along,
             edge: number,
-            to,
+            end_vertex: to,
         };
-        spokes.push((start, spoke(edge.along, end)));
-        spokes.push((end, spoke(-edge.along, start)));
+        spokes.push((start, spoke(edge.direction, end)));
+        spokes.push((end, spoke(-edge.direction, start)));
     }
     spokes.sort_by_key(|&(from, _)| from);
     let mut at = 0;

@@ -80,7 +80,7 @@ impl ConvexityCheck<'_> {
     }
 
     fn corner(&self, v: u32) -> DVec3 {
-        self.points[self.polytope.vertex(v).number as usize]
+        self.points[self.polytope.vertex(v).point_index as usize]
     }
 }
 

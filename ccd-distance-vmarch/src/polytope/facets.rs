@@ -11,7 +11,7 @@ pub(crate) struct Facets {
     pub(crate) loops: Vec<Vec<u32>>,
     pub(crate) planes: Vec<Plane>,
     /// For each facet, the neighbouring facet across each of its sides, in the order of the sides.
-    pub(crate) across: Vec<Vec<u32>>,
+    pub(crate) facets_across_sides: Vec<Vec<u32>>,
 }
 
 /// The plane and the width of a polygon.
@@ -67,7 +67,7 @@ impl Facets {
         let across =
             |corners: &Vec<u32>| sides_of_loop(corners).map(|(v, w)| holder(w, v)).collect();
         Some(Facets {
-            across: loops.iter().map(across).collect::<Option<Vec<_>>>()?,
+            facets_across_sides: loops.iter().map(across).collect::<Option<Vec<_>>>()?,
             planes: loops
                 .iter()
                 .map(|corners| Plane::new(points, corners))

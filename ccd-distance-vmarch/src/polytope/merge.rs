@@ -58,7 +58,7 @@ fn group_coplanar_facets(points: &[DVec3], facets: &Facets, rounding: f64) -> (V
         };
         let mut grown = vec![seed];
         while let Some(facet) = grown.pop() {
-            for &other in &facets.across[facet as usize] {
+            for &other in &facets.facets_across_sides[facet as usize] {
                 if faces[other as usize] == NONE && joins(other) {
                     faces[other as usize] = count;
                     grown.push(other);
@@ -82,7 +82,7 @@ fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option
     let mut out = Vec::with_capacity(members.len());
     for (face, members) in (0..).zip(&members) {
         let sides = members.iter().flat_map(|&facet| {
-            let across = facets.across[facet].iter();
+            let across = facets.facets_across_sides[facet].iter();
             sides_of_loop(&facets.loops[facet]).zip(across)
         });
         let outer = sides.filter(|&(_, &other)| faces[other as usize] != face);

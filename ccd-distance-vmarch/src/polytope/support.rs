@@ -95,9 +95,9 @@ impl Polytope {
         for _ in 0..self.vertices.len() {
             let before = at;
             for edge in self.outgoing_edges_of(before) {
-                let here = height(edge.to);
+                let here = height(edge.end_vertex);
                 if here > highest {
-                    (at, highest) = (edge.to, here);
+                    (at, highest) = (edge.end_vertex, here);
                 }
             }
             if at == before {

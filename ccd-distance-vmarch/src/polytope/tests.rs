@@ -23,15 +23,15 @@ fn assert_valid_polytope(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
         for spoke in polytope.outgoing_edges_of(v) {
-            let offset = polytope.vertex(spoke.to).point - vertex.point;
-            assert!((offset - offset.length() * spoke.along).length() <= slack);
+            let offset = polytope.vertex(spoke.end_vertex).point - vertex.point;
+            assert!((offset - offset.length() * spoke.direction).length() <= slack);
             assert!(polytope.edge(spoke.edge).ends.contains(&v));
         }
     }
     for (e, edge) in (0..).zip(&polytope.edges) {
         let [start, end] = edge.ends.map(|v| polytope.vertex(v).point);
         assert_eq!(start, edge.start);
-        assert!((start + edge.length * edge.along - end).length() <= slack);
+        assert!((start + edge.length * edge.direction - end).length() <= slack);
         for (&f, &inward) in edge.faces.iter().zip(&edge.inward_directions) {
             if f == NO_FACE {
                 assert_eq!(inward, DVec3::ZERO);

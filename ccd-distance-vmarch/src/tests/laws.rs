@@ -44,7 +44,8 @@ fn touching_is_exact_up_to_rounding(
         let claim = Vmarch::default().separation(&scene.pair(), &mut Cache::default());
         let claim = claim.unwrap_or_else(|why| panic!("{why:?}"));
         let on_a = claim.a.position(&cube.shape.points).expect("a point of A");
-        let on_b = b_to_a.point(claim.b.position(&other.shape.points).expect("a point of B"));
+        let on_b =
+            b_to_a.transform_point(claim.b.position(&other.shape.points).expect("a point of B"));
         let (a, b) = (
             ReferencePolytope::new(&cube.shape, &Frame::IDENTITY),
             ReferencePolytope::new(&other.shape, &b_to_a),
@@ -224,10 +225,11 @@ fn spinning_balls_are_as_near_as_their_lowest_corner() {
             .shape
             .points
             .iter()
-            .map(|p| b_to_a.point(*p).z)
+            .map(|p| b_to_a.transform_point(*p).z)
             .fold(f64::MAX, lesser);
         let on_a = claim.a.position(&plate.shape.points).expect("a point of A");
-        let on_b = b_to_a.point(claim.b.position(&ball.shape.points).expect("a point of B"));
+        let on_b =
+            b_to_a.transform_point(claim.b.position(&ball.shape.points).expect("a point of B"));
         assert!((on_a.distance(on_b) - (low - 0.1)).abs() < 1e-15);
     }
     let counters = oracle.counters();

@@ -1,6 +1,6 @@
 //! Makes convex polytopes with known facets, by construction or by trying the planes of all triples of points.
 
-use ccd_core::exact::side;
+use ccd_core::exact::side_of_plane;
 use ccd_core::glam::DVec3;
 use ccd_core::{Facet, FacetOrigin, Pieces, Polytope};
 pub(crate) use rand::{RngExt, SeedableRng};
@@ -97,7 +97,8 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
                 }
                 for [p, q, r] in [[i, j, k], [i, k, j]] {
                     let triangle = [points[p], points[q], points[r]];
-                    let sides: Vec<Ordering> = points.iter().map(|&x| side(triangle, x)).collect();
+                    let sides: Vec<Ordering> =
+                        points.iter().map(|&x| side_of_plane(triangle, x)).collect();
                     if sides.iter().all(|&s| s.is_le()) && sides.iter().any(|&s| s.is_lt()) {
                         let on = (0..count as u32).filter(|&v| sides[v as usize].is_eq());
                         let on: Vec<u32> = on.collect();
@@ -125,7 +126,10 @@ fn planar_hull_corners(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> V
     let above = p + normal.normalize_or_zero() * (q - p).length();
     let is_side = |v: u32, w: u32| {
         let base = [points[v as usize], points[w as usize], above];
-        let turns: Vec<Ordering> = on.iter().map(|&x| side(base, points[x as usize])).collect();
+        let turns: Vec<Ordering> = on
+            .iter()
+            .map(|&x| side_of_plane(base, points[x as usize]))
+            .collect();
         // The inside of the polygon is behind a plane through the side, across the polygon; no
         // point is within the side.
         let [a, b] = [v, w].map(|x| points[x as usize]);
@@ -135,7 +139,7 @@ fn planar_hull_corners(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> V
         };
         let on_line = on
             .iter()
-            .filter(|&&x| side(base, points[x as usize]).is_eq());
+            .filter(|&&x| side_of_plane(base, points[x as usize]).is_eq());
         let beyond = on_line.clone().any(|x| {
             let c = points[*x as usize];
             (c - a).dot(b - a) < 0.0 || (c - b).dot(a - b) < 0.0

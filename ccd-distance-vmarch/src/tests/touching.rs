@@ -60,7 +60,8 @@ fn parts_of_flush_cubes_are_kept_apart() {
             let claim = Vmarch::default().separation(&scene.pair(), &mut Cache::default());
             let claim = claim.unwrap_or_else(|why| panic!("{why:?}"));
             let on_a = claim.a.position(&a.shape.points).expect("a point of A");
-            let on_b = b_to_a.point(claim.b.position(&b.shape.points).expect("a point of B"));
+            let on_b =
+                b_to_a.transform_point(claim.b.position(&b.shape.points).expect("a point of B"));
             let distance = on_a.distance(on_b);
             let bare_a = ReferencePolytope::new(&a.shape, &Frame::IDENTITY);
             let bare_b = ReferencePolytope::new(&b.shape, &b_to_a);

@@ -27,7 +27,11 @@ struct Polygon {
 
 impl ReferencePolytope {
     pub(crate) fn new(shape: &Shape, frame: &Frame) -> Self {
-        let points: Vec<DVec3> = shape.points.iter().map(|&p| frame.point(p)).collect();
+        let points: Vec<DVec3> = shape
+            .points
+            .iter()
+            .map(|&p| frame.transform_point(p))
+            .collect();
         let at = |v: &u32| points[*v as usize];
         let segment = |e: [u32; 2]| {
             let ends = [at(&e[0]), at(&e[1])];

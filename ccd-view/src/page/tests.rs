@@ -1,5 +1,5 @@
 use super::*;
-use crate::{DrawnMesh, ShownBody, View};
+use crate::{Animation, DrawnMesh, ShownBody};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 
@@ -10,11 +10,11 @@ fn page(title: &str) -> Page<'_> {
         faces: vec![[0, 1, 2]],
     });
     let hostile = "</script><b>\u{2028}{{title}}";
-    let view = View {
+    let view = Animation {
         bodies: vec![ShownBody::new(hostile, mesh, "#000", &Motion::STILL)],
-        ..View::new(hostile, hostile, 1.0)
+        ..Animation::new(hostile, hostile, 1.0)
     };
-    let groups = vec![Group {
+    let groups = vec![AnimationGroup {
         name: hostile.to_owned(),
         views: vec![view],
     }];

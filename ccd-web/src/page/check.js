@@ -4,7 +4,7 @@
 (async () => {
   await Workshop.ready;
   const page = document.documentElement.dataset;
-  const { named } = wasm_bindgen.Part;
+  const named = wasm_bindgen.Part.from_name;
 
   // The answers of the machine that wrote the page. Times may differ in their last bits, as docs/building.md says.
   const ROUNDING = 1e-14;

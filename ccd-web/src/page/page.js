@@ -225,7 +225,7 @@ const Workshop = (() => {
 
   function open() {
     const scene = SCENES[element("scene").selectedIndex];
-    const [part, target] = [scene.part, scene.target].map((name) => drawn(wasm_bindgen.Part.named(name)));
+    const [part, target] = [scene.part, scene.target].map((name) => drawn(wasm_bindgen.Part.from_name(name)));
     replace({ part, target });
     element("file").value = "";
     begin(scene);

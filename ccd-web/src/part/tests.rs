@@ -3,7 +3,7 @@ use super::*;
 #[test]
 fn every_part_bounds_a_solid_that_is_drawn_where_it_is() {
     for name in Part::NAMES {
-        let part = Part::named(name).unwrap();
+        let part = Part::from_name(name).unwrap();
         let drawn = &part.surface;
         let volume: f64 = (drawn.faces().iter())
             .map(|face| face.map(|k| drawn.vertices()[k as usize]))
@@ -34,7 +34,7 @@ fn a_file_is_brought_to_a_size_about_its_middle() {
 #[test]
 fn what_is_no_part_is_an_error() {
     assert!(matches!(
-        Part::named("spoon"),
+        Part::from_name("spoon"),
         Err(WebError::UnknownPart(_))
     ));
     let no_mesh: [(&str, &[u8]); 3] = [

@@ -11,8 +11,8 @@ fn throw(place: [f64; 3], velocity: [f64; 3]) -> Throw {
 #[test]
 fn a_contact_is_found_that_steps_miss_or_see_late() {
     let (bullet, sheet) = (
-        Part::named("bullet").unwrap(),
-        Part::named("sheet").unwrap(),
+        Part::from_name("bullet").unwrap(),
+        Part::from_name("sheet").unwrap(),
     );
     let fast = throw([-1.0, 0.0, 0.0], [9.7, 0.0, 0.0]);
     let found = fast.first_contact(&bullet, &sheet).unwrap();
@@ -32,8 +32,8 @@ fn a_contact_is_found_that_steps_miss_or_see_late() {
 #[test]
 fn the_verdicts_are_those_of_the_engine() {
     let (bullet, sheet) = (
-        Part::named("bullet").unwrap(),
-        Part::named("sheet").unwrap(),
+        Part::from_name("bullet").unwrap(),
+        Part::from_name("sheet").unwrap(),
     );
     let verdict = |throw: Throw| throw.first_contact(&bullet, &sheet).unwrap().verdict;
     assert_eq!(verdict(throw([-1.0, 0.0, 0.0], [0.5, 0.0, 0.0])), "free");

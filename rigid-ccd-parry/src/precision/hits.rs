@@ -17,7 +17,7 @@ pub(super) fn hit(found: &CastHit) -> ShapeCastHit {
         normal2,
         status: match found.status {
             CastStatus::Contact => ShapeCastStatus::Converged,
-            CastStatus::Overlap | CastStatus::Inside | CastStatus::Near => {
+            CastStatus::Overlap | CastStatus::Inside | CastStatus::WithinTargetAtStart => {
                 ShapeCastStatus::PenetratingOrWithinTargetDist
             }
             CastStatus::Limit => ShapeCastStatus::OutOfIterations,

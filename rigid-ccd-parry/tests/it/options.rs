@@ -321,7 +321,7 @@ fn cylinders_are_early_by_at_most_the_excess() {
     let fine = cast(Excess::RadiusFraction).expect("served");
     assert!(fine <= exact && fine > exact - 1.0 / 4096.0 - 2e-6);
     let refused = cast(Excess::NotAllowed).expect_err("refused");
-    let error = ShapeError::RoundShapeRefused;
+    let error = ShapeError::SolidOfRevolutionRefused;
     assert_eq!(
         refused,
         CastError::Shape {

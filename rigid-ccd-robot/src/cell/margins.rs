@@ -52,7 +52,7 @@ impl Cell {
         let [one, other] = pair.map(|item| self.bodies_of(item));
         for &a in &one {
             for &b in &other {
-                self.margins.clearances.insert(ordered(a, b), distance);
+                self.margins.clearances.insert(ordered_pair(a, b), distance);
             }
         }
         Ok(())
@@ -66,7 +66,7 @@ impl Cell {
             clearances,
         } = &self.margins;
         if !clearances.is_empty()
-            && let Some(&clearance) = clearances.get(&ordered(a, b))
+            && let Some(&clearance) = clearances.get(&ordered_pair(a, b))
         {
             return clearance;
         }
@@ -116,7 +116,7 @@ impl Margins {
     }
 }
 
-fn ordered(a: usize, b: usize) -> [usize; 2] {
+fn ordered_pair(a: usize, b: usize) -> [usize; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 

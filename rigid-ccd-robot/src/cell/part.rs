@@ -3,7 +3,7 @@
 use crate::tuning::MIN_PIECES_TO_SPLIT;
 use ccd_core::fan_triangles;
 use ccd_core::order::greater;
-use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Support, Volume};
+use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, SupportMap, Volume};
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;
@@ -25,7 +25,7 @@ pub(crate) struct PlacedBody {
 #[derive(Debug)]
 pub(crate) struct Hull {
     corners: Vec<DVec3>,
-    support: Support,
+    support: SupportMap,
     /// The radius of the ball by which the hull is grown.
     radius: f64,
 }
@@ -71,7 +71,7 @@ impl PlacedBody {
         let clusters = clusters(body.pieces().iter().collect(), max_hulls);
         let hulls = clusters
             .iter()
-            .map(|pieces| Arc::new(Hull::around(pieces)))
+            .map(|pieces| Arc::new(Hull::around_pieces(pieces)))
             .collect();
         PlacedBody {
             body,
@@ -89,7 +89,7 @@ impl PlacedBody {
 }
 
 impl Hull {
-    fn around(pieces: &[Piece<'_>]) -> Self {
+    fn around_pieces(pieces: &[Piece<'_>]) -> Self {
         let radii = pieces.iter().map(|piece| piece.radius);
         let points = pieces.iter().flat_map(|piece| piece.points);
         let (corners, support) = corners_of_hull(points.copied().collect());
@@ -105,7 +105,7 @@ impl Hull {
     fn extremal_corner(&self, direction: DVec3) -> u32 {
         match &self.support {
             // Inlined where vector instructions are chosen.
-            Support::Scan(scan) => scan.extremal_point(direction),
+            SupportMap::Scan(scan) => scan.extremal_point(direction),
             other => other.extremal_point(direction),
         }
     }
@@ -210,7 +210,7 @@ fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>>
 }
 
 /// Returns the corners of the hull of points, and a search for the extremal ones; all points if the hull cannot be computed.
-fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, Support) {
+fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, SupportMap) {
     let with_facets = ccd_decomp::convex_hull(&points).ok().and_then(|hull| {
         let facets = hull.facets.iter().map(|corners| Facet {
             origin: FacetOrigin::Virtual,
@@ -226,10 +226,10 @@ fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, Support) {
     match with_facets {
         Some(pieces) => {
             let Piece { points, facets, .. } = pieces.get(0);
-            (points.to_vec(), Support::new(points, facets))
+            (points.to_vec(), SupportMap::new(points, facets))
         }
         None => {
-            let support = Support::new(&points, Facets::NONE);
+            let support = SupportMap::new(&points, Facets::NONE);
             (points, support)
         }
     }

@@ -1,12 +1,12 @@
 //! Tests of changes of a cell: obstacles, attached bodies, paddings and clearances.
 
 use super::*;
-use crate::robot::{Joint, Link, Position};
+use crate::robot::{Joint, Link, PositionRule};
 use crate::solver::PathOutcome;
 use rigid_ccd::trajectory;
 
 /// Returns a slide along x with a ball of radius 0.1, and a second link beside it that holds a ball at (0, 1, 0).
-fn slide() -> Cell {
+fn cart_cell() -> Cell {
     let ball = || Body::sphere(0.1).unwrap();
     let links = vec![
         Link::named("base"),
@@ -19,7 +19,7 @@ fn slide() -> Cell {
         child: child.into(),
         joint: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0]).unwrap(), [1.0, 0.0, 0.0])
             .unwrap(),
-        position: Position::Free,
+        position: PositionRule::Free,
     };
     let joints = vec![slide("rail", "cart", 0.0), slide("side", "post", 1.0)];
     let robot = Robot::new(links, joints).unwrap();
@@ -51,7 +51,7 @@ fn assert_stops_at(cell: &Cell, position: f64, between: [Item<'_>; 2]) {
 
 #[test]
 fn obstacles_are_moved_and_removed() {
-    let mut cell = slide();
+    let mut cell = cart_cell();
     let wall = Body::cuboid([0.1, 1.0, 1.0]).unwrap();
     let at = |x: f64| Pose::at([x, 0.0, 0.0]).unwrap();
     cell.add_obstacle("far", Body::sphere(0.5).unwrap(), at(8.0))
@@ -76,7 +76,7 @@ fn obstacles_are_moved_and_removed() {
 
 #[test]
 fn attached_bodies_move_with_their_link() {
-    let mut cell = slide();
+    let mut cell = cart_cell();
     let rod = Body::capsule(0.05, 0.5).unwrap();
     cell.add_obstacle(
         "wall",
@@ -114,7 +114,7 @@ fn attached_bodies_move_with_their_link() {
 
 #[test]
 fn paddings_keep_obstacles_away_but_not_links() {
-    let mut cell = slide();
+    let mut cell = cart_cell();
     let wall = Body::cuboid([0.1, 0.5, 0.5]).unwrap();
     cell.add_obstacle("wall", wall, Pose::at([5.0, 0.0, 0.0]).unwrap())
         .unwrap();

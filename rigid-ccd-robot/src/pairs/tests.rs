@@ -1,5 +1,5 @@
 use super::*;
-use crate::robot::{Joint, Link, Position};
+use crate::robot::{Joint, Link, PositionRule};
 use rigid_ccd::{Body, Pose, trajectory};
 
 /// Returns a robot: a base, an arm of two hinged links, a camera fixed to the base, and a camera at the arm's end.
@@ -14,7 +14,7 @@ fn robot() -> Robot {
         parent: parent.into(),
         child: child.into(),
         joint,
-        position: Position::Free,
+        position: PositionRule::Free,
     };
     let joints = vec![
         joint("base", "upper", hinge()),

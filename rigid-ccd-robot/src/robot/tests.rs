@@ -16,7 +16,7 @@ fn joint(name: &str, parent: &str, child: &str, joint: trajectory::Joint) -> Joi
         parent: parent.into(),
         child: child.into(),
         joint,
-        position: Position::Free,
+        position: PositionRule::Free,
     }
 }
 
@@ -70,7 +70,7 @@ fn draw(random: &mut Pcg64) -> RandomRobot {
         // Joint 6 follows joint 3, which follows joint 0.
         let follows = if k == 3 || k == 6 { k - 3 } else { k };
         if follows != k {
-            joint.position = Position::Follows {
+            joint.position = PositionRule::Follows {
                 joint: format!("joint{follows}"),
                 multiplier: -2.0,
                 offset: 0.5,
@@ -177,7 +177,7 @@ fn stretches_between_branches_hold() {
         });
         let count = between.chain().joints().len();
         let link = between.chain().link(count, &first, &last, 1.0).unwrap();
-        let stretch = link.stretch(0.2, 0.5).unwrap();
+        let stretch = link.stretch_between(0.2, 0.5).unwrap();
         for _ in 0..20 {
             let time = random.random_range(0.2..0.5);
             let (near, there) = (stretch.pose(time - 0.2), link.pose(time).unwrap());
@@ -240,7 +240,7 @@ fn what_is_no_tree_is_refused() {
 
 #[test]
 fn joints_that_follow_nothing_are_refused() {
-    let follows = |joint: &str| Position::Follows {
+    let follows = |joint: &str| PositionRule::Follows {
         joint: joint.into(),
         multiplier: 1.0,
         offset: 0.0,
@@ -282,7 +282,7 @@ fn configurations_that_do_not_fit_are_refused() {
 fn limits_of_a_joint_that_follows_do_not_count() {
     let mut follower = hinge("follower", "link0", "link2");
     follower.joint = follower.joint.with_limits(0.0..=0.1);
-    follower.position = Position::Follows {
+    follower.position = PositionRule::Follows {
         joint: "leader".into(),
         multiplier: 3.0,
         offset: 0.0,

@@ -4,7 +4,7 @@ use super::stretch::{PathPoint, Stretch};
 use super::{CellSolver, Question};
 use crate::error::PathError;
 use rigid_ccd::Error;
-use rigid_ccd::answer::Clearance;
+use rigid_ccd::answer::ClearanceVerdict;
 
 /// A range of a path, and whether all pairs keep their distance in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct ClearanceRange {
     pub to: PathPoint,
     /// Whether all pairs keep their distance everywhere in the range, or one of them is nearer everywhere in the range, or
     /// neither is proven.
-    pub clearance: Clearance,
+    pub clearance: ClearanceVerdict,
 }
 
 /// How finely a path is examined, and how far the robot may be from it.
@@ -76,7 +76,7 @@ impl CellSolver<'_> {
     /// [`PathError`].
     ///
     /// ```
-    /// use rigid_ccd::{Body, Pose, Settings, answer::Clearance, trajectory};
+    /// use rigid_ccd::{Body, Pose, Settings, answer::ClearanceVerdict, trajectory};
     /// use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, Position, RangeSettings, Robot};
     ///
     /// let slider = Joint {
@@ -96,8 +96,8 @@ impl CellSolver<'_> {
     /// // The distance is 2 - x.
     /// let ranges = solver.clearance_ranges(&[[0.0], [2.0]], RangeSettings::DEFAULT)?;
     /// let [kept, unverified, violated] = ranges[..] else { panic!("{ranges:?}") };
-    /// assert_eq!(kept.clearance, Clearance::Kept);
-    /// assert_eq!(violated.clearance, Clearance::Violated);
+    /// assert_eq!(kept.clearance, ClearanceVerdict::Kept);
+    /// assert_eq!(violated.clearance, ClearanceVerdict::Violated);
     /// assert!(kept.to.share <= 0.5 && violated.from.share >= 0.5);
     /// assert!(violated.from.share - kept.to.share < 1e-3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -109,9 +109,11 @@ impl CellSolver<'_> {
     ) -> Result<Vec<ClearanceRange>, PathError> {
         ranges.check()?;
         // Both bodies of a pair may be away from where they are placed.
-        self.search.pairs.set_growth(2.0 * ranges.pose_error);
+        self.search
+            .pairs
+            .set_margin_increase(2.0 * ranges.pose_error);
         let found = self.find_ranges(path, ranges.resolution);
-        self.search.pairs.set_growth(0.0);
+        self.search.pairs.set_margin_increase(0.0);
         found
     }
 
@@ -123,7 +125,7 @@ impl CellSolver<'_> {
         self.begin(path)?;
         let mut found = Vec::new();
         self.examine(self.search.whole_path(), resolution, &mut found)?;
-        let segments = self.search.segments();
+        let segments = self.search.segment_count();
         let ranges = found.iter().map(|(from, to, clearance)| ClearanceRange {
             from: PathPoint::of(*from, segments),
             to: PathPoint::of(*to, segments),
@@ -137,13 +139,13 @@ impl CellSolver<'_> {
         &mut self,
         stretch: Stretch,
         resolution: f64,
-        found: &mut Vec<(f64, f64, Clearance)>,
+        found: &mut Vec<(f64, f64, ClearanceVerdict)>,
     ) -> Result<(), Error> {
-        let is_in_time = self.search.time_limit.reached().is_none();
-        let clearance = if is_in_time && self.is_kept(stretch)? {
-            Clearance::Kept
+        let is_in_time = self.search.time_limit.reached_limit().is_none();
+        let clearance = if is_in_time && self.is_clearance_kept(stretch)? {
+            ClearanceVerdict::Kept
         } else if is_in_time && self.search.is_violated(&stretch)? {
-            Clearance::Violated
+            ClearanceVerdict::Violated
         } else if is_in_time
             && stretch.to - stretch.from > resolution
             && self.search.placement.moves()
@@ -153,7 +155,7 @@ impl CellSolver<'_> {
             }
             return Ok(());
         } else {
-            Clearance::Unverified
+            ClearanceVerdict::Unverified
         };
         match found.last_mut() {
             Some((_, to, last)) if *last == clearance => *to = stretch.to,
@@ -162,7 +164,7 @@ impl CellSolver<'_> {
         Ok(())
     }
 
-    fn is_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
+    fn is_clearance_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
         self.search.answer(Question::AnyContact, stretch)?;
         let found = &self.search.found;
         Ok(found.nearest.is_none() && found.limit.is_none())

@@ -11,7 +11,7 @@ use rigid_ccd::oracle::Frame;
 
 /// The factor by which bounds are rounded up: they are sums and products of a few values for each joint, of which there
 /// are at most some thousands.
-const ROUNDED_UP: f64 = 1.0 + 1e-11;
+const ROUNDING_FACTOR: f64 = 1.0 + 1e-11;
 
 /// For each part and each joint that moves it, a bound of its displacement as the frame before that joint sees it.
 #[derive(Clone, Debug, Default)]
@@ -19,7 +19,7 @@ pub(crate) struct Displacements {
     /// The joints that move each part, from the nearest one to the one at the base.
     joints: Vec<usize>,
     /// For each part, the start of its joints.
-    starts: Vec<usize>,
+    joint_starts: Vec<usize>,
     bounds: Vec<f64>,
 }
 
@@ -27,14 +27,14 @@ impl Displacements {
     pub(crate) fn new(kinematics: &Kinematics, parts: &[Part]) -> Self {
         let mut all = Displacements::default();
         for part in parts {
-            all.starts.push(all.joints.len());
+            all.joint_starts.push(all.joints.len());
             let mut frame = part.frame;
             while frame > 0 {
                 all.joints.push(frame - 1);
                 frame = kinematics.joints()[frame - 1].parent;
             }
         }
-        all.starts.push(all.joints.len());
+        all.joint_starts.push(all.joints.len());
         all.bounds = vec![0.0; all.joints.len()];
         all
     }
@@ -47,17 +47,17 @@ impl Displacements {
         part: usize,
         seen_from: usize,
     ) -> Option<u32> {
-        let joints = &self.joints[self.starts[part]..self.starts[part + 1]];
+        let joints = &self.joints[self.joint_starts[part]..self.joint_starts[part + 1]];
         let parent = |joint: usize| kinematics.joints()[joint].parent;
         let step = joints
             .iter()
             .position(|&joint| parent(joint) == seen_from)?;
-        Some((self.starts[part] + step) as u32)
+        Some((self.joint_starts[part] + step) as u32)
     }
 
     /// Returns the place of the bound for a part as the base sees it; `None` for a part that rests there.
-    pub(crate) fn slot_at_base(&self, part: usize) -> Option<u32> {
-        let range = self.starts[part]..self.starts[part + 1];
+    pub(crate) fn displacement_index_at_base(&self, part: usize) -> Option<u32> {
+        let range = self.joint_starts[part]..self.joint_starts[part + 1];
         (!range.is_empty()).then(|| range.end as u32 - 1)
     }
 
@@ -78,8 +78,8 @@ impl Displacements {
         deviations: &[f64],
         rounding: f64,
     ) {
-        for (part, bounds) in parts.iter().zip(self.starts.windows(2)) {
-            let centre = frames[part.frame].point(part.centre);
+        for (part, bounds) in parts.iter().zip(self.joint_starts.windows(2)) {
+            let centre = frames[part.frame].transform_point(part.centre);
             let mut displacement = 0.0;
             for slot in bounds[0]..bounds[1] {
                 let number = self.joints[slot];
@@ -92,7 +92,7 @@ impl Displacements {
                     let distance = axis.cross(arm).length() + part.ball_radius + 3.0 * rounding;
                     chord(deviations[number]) * distance
                 };
-                self.bounds[slot] = displacement * ROUNDED_UP;
+                self.bounds[slot] = displacement * ROUNDING_FACTOR;
             }
         }
     }

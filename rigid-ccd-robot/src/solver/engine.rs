@@ -6,7 +6,7 @@ use super::part_pairs::{PartPair, sort_by_share};
 use super::search::Search;
 use super::stretch::Step;
 use ccd_core::order::{greater, lesser};
-use rigid_ccd::answer::Clearance;
+use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::{Answer, Error, Outcome, Settings};
 use std::ops::ControlFlow::{self, Break, Continue};
 
@@ -43,7 +43,7 @@ impl Search<'_> {
         let open = OpenPair::at(*pair, bodies, at);
         let answer = self.ask(question, &open, None)?;
         if question == Question::ClosestApproach {
-            return Ok(self.keep_distance(&open, &answer.outcome));
+            return Ok(self.record_distance(&open, &answer.outcome));
         }
         // A pair that a limit leaves undecided here stays a candidate.
         Ok(match answer.outcome.hit() {
@@ -74,7 +74,7 @@ impl Search<'_> {
                     let answer = self.ask(self.question, &pair, None)?;
                     self.keep_answer(&pair, &answer.outcome)
                 }
-                Question::ClosestApproach => self.approach(&pair)?,
+                Question::ClosestApproach => self.measure_least_distance(&pair)?,
             };
             if step.is_break() {
                 break;
@@ -106,7 +106,7 @@ impl Search<'_> {
     }
 
     /// Measures the least distance of an open pair, if it may be less than what is found.
-    fn approach(&mut self, open: &OpenPair) -> Step {
+    fn measure_least_distance(&mut self, open: &OpenPair) -> Step {
         let least = self.found.upper - self.settings.tolerance;
         // Written so that NaN is measured.
         if least <= 0.0 {
@@ -116,18 +116,18 @@ impl Search<'_> {
             let answer = self.ask(Question::ClosestApproach, open, Some(least))?;
             if answer
                 .outcome
-                .clearance(least + 2.0 * self.placement.rounding)
-                == Clearance::Kept
+                .clearance_verdict(least + 2.0 * self.placement.rounding)
+                == ClearanceVerdict::Kept
             {
                 return Ok(Continue(()));
             }
         }
         let answer = self.ask(Question::ClosestApproach, open, None)?;
-        Ok(self.keep_distance(open, &answer.outcome))
+        Ok(self.record_distance(open, &answer.outcome))
     }
 
     /// Keeps the distance of an open pair, if it is the least.
-    fn keep_distance(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
+    fn record_distance(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
         if let Some(limit) = outcome.limit() {
             self.found.limit = Some((limit, 0.0));
         }

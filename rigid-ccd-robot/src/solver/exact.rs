@@ -7,7 +7,7 @@ use rigid_ccd::{Answer, Error, Motion, Pose, Solver};
 use std::collections::HashMap;
 
 /// The chains of joints by which one body moves as another one sees it. Each is made when it is needed first.
-pub(crate) struct ExactPairs<'c> {
+pub(crate) struct PairChains<'c> {
     cell: &'c Cell,
     chains: HashMap<[usize; 2], PairChain>,
     from: Vec<f64>,
@@ -20,9 +20,9 @@ struct PairChain {
     moving: Vec<Option<usize>>,
 }
 
-impl<'c> ExactPairs<'c> {
+impl<'c> PairChains<'c> {
     pub(crate) fn new(cell: &'c Cell) -> Self {
-        ExactPairs {
+        PairChains {
             cell,
             chains: HashMap::new(),
             from: Vec::new(),

@@ -35,8 +35,8 @@ pub(crate) struct MovingJoint {
     pub(crate) is_prismatic: bool,
     /// The rotation from the joint's frame to the parent's is `fixed + sin(q) sine + cos(q) cosine`.
     fixed: DMat3,
-    sine: DMat3,
-    cosine: DMat3,
+    sine_coefficient: DMat3,
+    cosine_coefficient: DMat3,
 }
 
 impl Kinematics {
@@ -141,8 +141,8 @@ impl MovingJoint {
             axis: frame * axis,
             is_prismatic,
             fixed,
-            sine,
-            cosine,
+            sine_coefficient: sine,
+            cosine_coefficient: cosine,
         }
     }
 
@@ -151,14 +151,14 @@ impl MovingJoint {
         if self.is_prismatic {
             return Frame {
                 rotation: parent.rotation * self.fixed,
-                translation: parent.point(self.origin + self.axis * position),
+                translation: parent.transform_point(self.origin + self.axis * position),
             };
         }
         let (sine, cosine) = position.sin_cos();
-        let turned = self.fixed + self.sine * sine + self.cosine * cosine;
+        let turned = self.fixed + self.sine_coefficient * sine + self.cosine_coefficient * cosine;
         Frame {
             rotation: parent.rotation * turned,
-            translation: parent.point(self.origin),
+            translation: parent.transform_point(self.origin),
         }
     }
 }

@@ -13,19 +13,19 @@ use rigid_ccd::oracle::Frame;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thresholds {
     /// A pair is free that stays farther apart than this over the whole stretch.
-    pub(crate) free: f64,
+    pub(crate) free_distance: f64,
     /// A pair is near that is at most so far apart in the middle.
-    pub(crate) near: f64,
+    pub(crate) near_distance: f64,
 }
 
 /// What the distance of a pair in the middle of a stretch proves.
-pub(crate) enum Measured {
+pub(crate) enum DistanceVerdict {
     /// The pair stays farther apart than the threshold over the whole stretch.
     Free,
     /// The hulls are near each other in the middle.
     Near,
     /// Neither is known. The hulls are at most so far apart in the middle.
-    Open(f64),
+    Undecided(f64),
 }
 
 /// Measures a pair, as exactly as the thresholds require. With `skips_far` a pair that moves far is not measured as long as
@@ -37,22 +37,25 @@ pub(crate) fn measure(
     pair: &mut PartPair,
     thresholds: Thresholds,
     skips_far: bool,
-) -> Measured {
+) -> DistanceVerdict {
     let parts = cell.parts();
     let (a, b) = (&parts[pair.a as usize], &parts[pair.b as usize]);
     let frames = [a, b].map(|part| placement.frames[part.frame]);
     let displacement = pair.displacement(placement);
     let rounding = 2.0 * placement.rounding;
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
-    let centres = [frames[0].point(a.centre), frames[1].point(b.centre)];
+    let centres = [
+        frames[0].transform_point(a.centre),
+        frames[1].transform_point(b.centre),
+    ];
     let gap = gap_of_volumes([a, b], &frames[0], centres, is_obstacle);
-    let required = displacement + thresholds.free + rounding;
+    let required = displacement + thresholds.free_distance + rounding;
     if gap > required {
-        return Measured::Free;
+        return DistanceVerdict::Free;
     }
-    if skips_far && displacement > FAR_DISPLACEMENT && gap > thresholds.near {
+    if skips_far && displacement > FAR_DISPLACEMENT && gap > thresholds.near_distance {
         pair.proof_distance_share = 1.0;
-        return Measured::Open(f64::INFINITY);
+        return DistanceVerdict::Undecided(f64::INFINITY);
     }
     let first_axis = if pair.axis != DVec3::ZERO {
         pair.axis
@@ -62,7 +65,7 @@ pub(crate) fn measure(
     let radii = a.radius + b.radius;
     let until = RequiredBounds {
         lower: required + radii,
-        upper: thresholds.near - rounding + radii,
+        upper: thresholds.near_distance - rounding + radii,
     };
     let bounds = bound_distance(
         #[inline(always)]
@@ -71,23 +74,23 @@ pub(crate) fn measure(
         until,
     );
     if bounds.lower > until.lower {
-        return Measured::Free;
+        return DistanceVerdict::Free;
     }
     pair.axis = bounds.axis;
     pair.proof_distance_share = (bounds.lower - radii) / required;
     // The shapes that both bodies enclose may be farther apart.
     let upper = bounds.upper - radii + rounding + a.excess + b.excess;
     if bounds.upper <= until.upper {
-        Measured::Near
+        DistanceVerdict::Near
     } else {
-        Measured::Open(upper)
+        DistanceVerdict::Undecided(upper)
     }
 }
 
 /// Returns a lower bound of the distance of a pair in the middle of a stretch by bounding volumes.
 pub(crate) fn volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
     let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
-    let centres = parts.map(|part| placement.frames[part.frame].point(part.centre));
+    let centres = parts.map(|part| placement.frames[part.frame].transform_point(part.centre));
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
     gap_of_volumes(
         parts,
@@ -131,11 +134,14 @@ pub(super) fn first_axis(b: &Part, [centre_a, centre_b]: [DVec3; 2], is_obstacle
 /// Returns the vertex of the Minkowski difference of two hulls with the least height along a direction.
 #[inline(always)]
 pub(super) fn vertex([a, b]: [&Part; 2], frames: &[Frame; 2], direction: DVec3) -> Vertex {
-    let in_a = frames[0].inverse_vector(direction);
-    let in_b = -frames[1].inverse_vector(direction);
+    let in_a = frames[0].inverse_transform_vector(direction);
+    let in_b = -frames[1].inverse_transform_vector(direction);
     let (index_a, corner_a) = a.extremal_corner(in_a);
     let (index_b, corner_b) = b.extremal_corner(in_b);
-    let (point_a, point_b) = (frames[0].point(corner_a), frames[1].point(corner_b));
+    let (point_a, point_b) = (
+        frames[0].transform_point(corner_a),
+        frames[1].transform_point(corner_b),
+    );
     Vertex {
         point: point_b - point_a,
         a: index_a,

@@ -18,7 +18,7 @@ pub(crate) struct OpenPair {
 
 /// The open pairs of a search.
 #[derive(Debug, Default)]
-pub(crate) struct OpenPairs(Vec<OpenPair>);
+pub(crate) struct UndecidedPairs(Vec<OpenPair>);
 
 impl OpenPair {
     /// Creates a pair that is undecided at one point of the path.
@@ -39,7 +39,7 @@ impl OpenPair {
     }
 }
 
-impl OpenPairs {
+impl UndecidedPairs {
     pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
@@ -51,7 +51,7 @@ impl OpenPairs {
     }
 
     /// Adds a pair of bodies in a stretch. Neighbouring stretches of the pair become one.
-    pub(crate) fn leave(&mut self, pair: PartPair, bodies: [usize; 2], stretch: &Stretch) {
+    pub(crate) fn add_or_merge(&mut self, pair: PartPair, bodies: [usize; 2], stretch: &Stretch) {
         let (from, to, segment) = (stretch.from, stretch.to, stretch.from as usize);
         let mut same = self.0.iter_mut().filter(|open| {
             open.bodies == bodies && open.segment == segment && open.from <= to && from <= open.to

@@ -13,7 +13,7 @@ pub(crate) struct PartPair {
     pub(crate) a: u32,
     pub(crate) b: u32,
     /// The places of the bounds of both parts' displacements, as seen from the nearest frame above both.
-    pub(crate) slots: [Option<u32>; 2],
+    pub(crate) displacement_indices: [Option<u32>; 2],
     /// The distance at which the pair counts as touching.
     pub(crate) margin: f64,
     /// The direction from A to B along which they were farthest apart so far; zero if there was none.
@@ -27,13 +27,13 @@ pub(crate) struct PartPairs<'c> {
     cell: &'c Cell,
     boxes: ObstacleBoxes,
     /// The pairs of the robot's own parts.
-    own: Vec<PartPair>,
+    self_pairs: Vec<PartPair>,
     /// The margin of pairs without one of their own.
     margin: f64,
     /// What is added to the margins of all pairs.
-    growth: f64,
+    margin_increase: f64,
     /// The largest margin of a pair of a part and an obstacle.
-    largest_margin: f64,
+    largest_obstacle_margin: f64,
 }
 
 impl PartPair {
@@ -50,7 +50,7 @@ impl PartPair {
         PartPair {
             a: a as u32,
             b: b as u32,
-            slots,
+            displacement_indices: slots,
             margin,
             axis: DVec3::ZERO,
             proof_distance_share: 0.0,
@@ -60,7 +60,9 @@ impl PartPair {
     /// Returns a bound of how far both parts move from the middle of the stretch, as seen from the nearest frame above both.
     #[inline(always)]
     pub(crate) fn displacement(&self, placement: &Placement) -> f64 {
-        let [a, b] = self.slots.map(|slot| placement.displacements.bound(slot));
+        let [a, b] = self
+            .displacement_indices
+            .map(|slot| placement.displacements.bound(slot));
         a + b
     }
 
@@ -83,11 +85,11 @@ impl<'c> PartPairs<'c> {
             .map(|parts| PartPair::of_robot(cell, displacements, parts));
         let mut pairs = PartPairs {
             boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
-            own: own.collect(),
+            self_pairs: own.collect(),
             cell,
             margin: 0.0,
-            growth: 0.0,
-            largest_margin: 0.0,
+            margin_increase: 0.0,
+            largest_obstacle_margin: 0.0,
         };
         pairs.update_margins();
         pairs
@@ -100,27 +102,27 @@ impl<'c> PartPairs<'c> {
     }
 
     /// Adds a distance to the margins of all pairs, instead of the one before.
-    pub(crate) fn set_growth(&mut self, growth: f64) {
-        self.growth = growth;
+    pub(crate) fn set_margin_increase(&mut self, growth: f64) {
+        self.margin_increase = growth;
         self.update_margins();
     }
 
     /// Returns what is added to the margins of all pairs.
     pub(crate) fn growth(&self) -> f64 {
-        self.growth
+        self.margin_increase
     }
 
     fn update_margins(&mut self) {
-        let (cell, margin, growth) = (self.cell, self.margin, self.growth);
-        self.largest_margin = cell.largest_obstacle_margin(margin) + growth;
-        for pair in &mut self.own {
+        let (cell, margin, growth) = (self.cell, self.margin, self.margin_increase);
+        self.largest_obstacle_margin = cell.largest_obstacle_margin(margin) + growth;
+        for pair in &mut self.self_pairs {
             pair.margin = cell.margin(pair.owners(cell.parts()), margin) + growth;
         }
     }
 
     /// Appends all pairs whose bounding boxes may come within their margins and `allowance` in the stretch that is placed.
     #[inline(always)]
-    pub(crate) fn append_near(
+    pub(crate) fn append_candidates(
         &self,
         placement: &Placement,
         allowance: f64,
@@ -132,21 +134,21 @@ impl<'c> PartPairs<'c> {
             if part.frame == 0 {
                 continue;
             }
-            let slot = placement.displacements.slot_at_base(a);
+            let slot = placement.displacements.displacement_index_at_base(a);
             let displacement = placement.displacements.bound(slot);
             let frame = &placement.frames[part.frame];
-            let growth = displacement + self.largest_margin + allowance;
+            let growth = displacement + self.largest_obstacle_margin + allowance;
             let extents = part.box_extents(frame) + DVec3::splat(growth);
-            let centre = frame.point(part.centre);
+            let centre = frame.transform_point(part.centre);
             self.boxes
                 .for_each_meeting(centre - extents, centre + extents, |obstacle| {
                     let b = robot_parts + obstacle;
                     let margin = cell.margin([part.owner, parts[b].owner], self.margin);
-                    let margin = margin + self.growth;
+                    let margin = margin + self.margin_increase;
                     pairs.push(PartPair::new([a, b], [slot, None], margin));
                 });
         }
-        pairs.extend_from_slice(&self.own);
+        pairs.extend_from_slice(&self.self_pairs);
     }
 }
 

@@ -11,12 +11,12 @@ const U: f64 = 0.5 * f64::EPSILON;
 /// matrix by at most 9. The joint's rotation is a sum of three matrices, each a product of two, whose entries are rounded
 /// by 8 units together: at most 24 for the matrix, and 8 for the quaternion of which it was made. The sine and the cosine
 /// are rounded by 2. That is less than 64. The direction in which the corners of a hull are searched is rotated once more.
-const ROTATION_PER_JOINT: f64 = 64.0;
+const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 
 /// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. For a
 /// joint that follows another one the units are those of its factor and its offset. The difference to a position in the middle of a
 /// stretch has the errors of both.
-const POSITION: f64 = 16.0;
+const POSITION_ERROR: f64 = 16.0;
 
 /// Returns a bound of the distance between points of all parts, as computed with frames along an edge, and the points
 /// themselves. The positions of the moving joints are computed from numbers of at most `positions`.
@@ -35,6 +35,7 @@ pub(crate) fn point_error(
         }
     }
     let reach = parts.iter().map(|part| part.reach).fold(0.0, greater);
-    let turn = ROTATION_PER_JOINT * (kinematics.joint_count + 2) as f64 + POSITION * angles;
-    U * (turn + POSITION) * (arms + reach)
+    let turn =
+        ROTATION_ERROR_PER_JOINT * (kinematics.joint_count + 2) as f64 + POSITION_ERROR * angles;
+    U * (turn + POSITION_ERROR) * (arms + reach)
 }

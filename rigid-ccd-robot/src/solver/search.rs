@@ -5,16 +5,18 @@
 //! stretch is halved. What is still open after a few halvings goes to the engine, pair by pair.
 
 use super::Question;
-use super::exact::ExactPairs;
-use super::measure::{Measured, Thresholds, measure, volume_gap};
-use super::open_pairs::OpenPairs;
+use super::exact::PairChains;
+use super::measure::{DistanceVerdict, Thresholds, measure, volume_gap};
+use super::open_pairs::UndecidedPairs;
 use super::part_pairs::{PartPair, PartPairs, sort_by_share};
 use super::placement::Placement;
 use super::stretch::{Step, Stretch};
 use super::time_limit::TimeLimit;
 use super::waypoints::Waypoints;
 use crate::cell::Cell;
-use crate::tuning::{LAST_DISPLACEMENT, LAST_LENGTH, LAST_LENGTH_OF_CLOSEST, MIN_HALVINGS};
+use crate::tuning::{
+    ENGINE_DISPLACEMENT, ENGINE_LENGTH_FOR_APPROACH, ENGINE_STRETCH_LENGTH, MIN_HALVINGS,
+};
 use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
 use rigid_ccd::answer::Limit;
@@ -26,7 +28,7 @@ use std::ops::Range;
 pub(crate) struct Search<'c> {
     pub(super) cell: &'c Cell,
     pub(super) pairs: PartPairs<'c>,
-    pub(super) exact: ExactPairs<'c>,
+    pub(super) exact: PairChains<'c>,
     pub(super) path: Waypoints,
     pub(super) placement: Placement,
     /// Pairs that may touch in the stretches from the whole path down to the current one.
@@ -35,7 +37,7 @@ pub(crate) struct Search<'c> {
     /// what was found.
     pub(super) suspects: Vec<PartPair>,
     /// What the engine is to decide.
-    pub(super) open_pairs: OpenPairs,
+    pub(super) open_pairs: UndecidedPairs,
     pub(super) solver: Solver,
     /// The positions at both ends of the stretch that the engine is asked about.
     pub(super) ends: [Vec<f64>; 2],
@@ -43,12 +45,12 @@ pub(crate) struct Search<'c> {
     // Of the current question.
     pub(super) question: Question,
     pub(super) time_limit: TimeLimit,
-    pub(crate) found: Found,
+    pub(crate) found: SearchResult,
 }
 
 /// What a search has found so far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
+pub(crate) struct SearchResult {
     /// The nearest pair and where it is nearest; for a question about contacts a pair in contact.
     pub(crate) nearest: Option<(f64, PartPair)>,
     /// An upper bound of the distance of that pair there, for a question about the distance.
@@ -61,8 +63,8 @@ pub(crate) struct Found {
     pub(crate) lower: f64,
 }
 
-impl Found {
-    const NOTHING: Found = Found {
+impl SearchResult {
+    const NOTHING_FOUND: SearchResult = SearchResult {
         nearest: None,
         upper: f64::INFINITY,
         end: f64::INFINITY,
@@ -77,18 +79,18 @@ impl<'c> Search<'c> {
         Search {
             cell,
             pairs: PartPairs::new(cell, &placement.displacements),
-            exact: ExactPairs::new(cell),
+            exact: PairChains::new(cell),
             path: Waypoints::default(),
             placement,
             candidates: Vec::new(),
             suspects: Vec::new(),
-            open_pairs: OpenPairs::default(),
+            open_pairs: UndecidedPairs::default(),
             solver: Solver::new(),
             ends: Default::default(),
             settings: Settings::DEFAULT,
             question: Question::AnyContact,
             time_limit: TimeLimit::NONE,
-            found: Found::NOTHING,
+            found: SearchResult::NOTHING_FOUND,
         }
     }
 
@@ -104,15 +106,15 @@ impl<'c> Search<'c> {
 
     /// Returns bounds of the least distance, after a question about it.
     pub(crate) fn distance_bounds(&self) -> (f64, f64) {
-        let Found { upper, lower, .. } = self.found;
+        let SearchResult { upper, lower, .. } = self.found;
         // Pairs are left out that stay farther apart than the upper bound at that time, less the tolerance.
         let least = upper - self.settings.tolerance - 4.0 * self.placement.rounding;
         (greater(lesser(least, lower), 0.0), upper)
     }
 
     /// Returns the number of segments of the current path.
-    pub(crate) fn segments(&self) -> usize {
-        self.path.segments()
+    pub(crate) fn segment_count(&self) -> usize {
+        self.path.segment_count()
     }
 
     /// Takes a path of at least one configuration, which the questions that follow are about. Their time starts now.
@@ -125,7 +127,7 @@ impl<'c> Search<'c> {
     /// Answers a question about a stretch of the path; the answer is in `found`.
     pub(crate) fn answer(&mut self, question: Question, stretch: Stretch) -> Result<(), Error> {
         self.question = question;
-        self.found = Found::NOTHING;
+        self.found = SearchResult::NOTHING_FOUND;
         self.candidates.clear();
         self.open_pairs.clear();
         match self.search(stretch, None)? {
@@ -136,7 +138,7 @@ impl<'c> Search<'c> {
 
     /// Returns the whole path as a stretch.
     pub(crate) fn whole_path(&self) -> Stretch {
-        Stretch::whole(self.path.segments())
+        Stretch::whole_path(self.path.segment_count())
     }
 
     /// Places the frames of all links at a point of the path, and returns them.
@@ -150,14 +152,15 @@ impl<'c> Search<'c> {
         if stretch.from >= self.found.end {
             return Ok(Continue(()));
         }
-        if let Some(limit) = self.time_limit.reached() {
+        if let Some(limit) = self.time_limit.reached_limit() {
             self.found.limit = Some((limit, lesser(stretch.from, self.open_pairs.start())));
             self.found.lower = 0.0;
             return Ok(Break(()));
         }
         let base = self.candidates.len();
         let level = self.settings.vector_instructions.simd_level();
-        let Continue(first) = vectorize!(level, _token => self.look(stretch, among)) else {
+        let Continue(first) = vectorize!(level, _token => self.measure_candidates(stretch, among))
+        else {
             return Ok(Break(()));
         };
         if self.check_suspects(stretch.middle())?.is_break() {
@@ -185,35 +188,41 @@ impl<'c> Search<'c> {
     /// Measures the candidates in the middle of a stretch, and appends those that are undecided. Returns the index of the
     /// first of these.
     #[inline(always)]
-    fn look(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> ControlFlow<(), usize> {
+    fn measure_candidates(
+        &mut self,
+        stretch: Stretch,
+        among: Option<Range<usize>>,
+    ) -> ControlFlow<(), usize> {
         self.placement.place(self.cell, &self.path, &stretch);
         let among = among.unwrap_or_else(|| {
             let first = self.candidates.len();
-            self.append_all_pairs();
+            self.append_candidates();
             first..self.candidates.len()
         });
         let first = self.candidates.len();
         self.suspects.clear();
         for k in among {
             let mut pair = self.candidates[k];
-            let is_last = self.is_last(&stretch, &pair);
+            let is_last = self.goes_to_engine(&stretch, &pair);
             let thresholds = self.thresholds(&pair);
             match measure(self.cell, &self.placement, &mut pair, thresholds, !is_last) {
-                Measured::Free => continue,
-                Measured::Near if !pair.is_convex(self.cell.parts()) => self.suspects.push(pair),
-                Measured::Near => self.keep_contact(&pair, stretch.middle())?,
-                Measured::Open(upper) if self.is_nearest(upper) => {
+                DistanceVerdict::Free => continue,
+                DistanceVerdict::Near if !pair.is_convex(self.cell.parts()) => {
+                    self.suspects.push(pair)
+                }
+                DistanceVerdict::Near => self.keep_contact(&pair, stretch.middle())?,
+                DistanceVerdict::Undecided(upper) if self.is_nearest(upper) => {
                     if pair.is_convex(self.cell.parts()) {
                         self.keep_nearest(&pair, stretch.middle(), upper);
                     } else {
                         self.suspects.push(pair);
                     }
                 }
-                Measured::Open(_) => {}
+                DistanceVerdict::Undecided(_) => {}
             }
             if is_last {
                 self.open_pairs
-                    .leave(pair, pair.owners(self.cell.parts()), &stretch);
+                    .add_or_merge(pair, pair.owners(self.cell.parts()), &stretch);
             } else {
                 self.candidates.push(pair);
             }
@@ -227,37 +236,37 @@ impl<'c> Search<'c> {
         let tolerance = self.settings.tolerance;
         match self.question {
             Question::AnyContact | Question::FirstContact => Thresholds {
-                free: pair.margin,
-                near: pair.margin + tolerance,
+                free_distance: pair.margin,
+                near_distance: pair.margin + tolerance,
             },
             // Touching hulls end the search; others are measured exactly.
             Question::ClosestApproach => Thresholds {
-                free: self.found.upper - tolerance,
-                near: 0.0,
+                free_distance: self.found.upper - tolerance,
+                near_distance: 0.0,
             },
         }
     }
 
     /// Returns whether a pair goes to the engine unless this stretch decides about it.
     #[inline(always)]
-    fn is_last(&self, stretch: &Stretch, pair: &PartPair) -> bool {
+    fn goes_to_engine(&self, stretch: &Stretch, pair: &PartPair) -> bool {
         if !stretch.is_within_segment() {
             return false;
         }
         let length = stretch.to - stretch.from;
         let is_short = match self.question {
-            Question::ClosestApproach => length <= LAST_LENGTH_OF_CLOSEST,
-            _ => length <= LAST_LENGTH,
+            Question::ClosestApproach => length <= ENGINE_LENGTH_FOR_APPROACH,
+            _ => length <= ENGINE_STRETCH_LENGTH,
         };
         is_short || {
             let displacement = pair.displacement(&self.placement);
-            stretch.halvings >= MIN_HALVINGS && displacement < LAST_DISPLACEMENT
+            stretch.halvings >= MIN_HALVINGS && displacement < ENGINE_DISPLACEMENT
         }
     }
 
     /// Appends all pairs that may come near each other in the stretch that is placed.
     #[inline(always)]
-    pub(super) fn append_all_pairs(&mut self) {
+    pub(super) fn append_candidates(&mut self) {
         let first = self.candidates.len();
         let allowance = match self.question {
             Question::AnyContact | Question::FirstContact => self.settings.tolerance,
@@ -265,7 +274,7 @@ impl<'c> Search<'c> {
         };
         let allowance = allowance + 2.0 * self.placement.rounding;
         self.pairs
-            .append_near(&self.placement, allowance, &mut self.candidates);
+            .append_candidates(&self.placement, allowance, &mut self.candidates);
         if self.question == Question::ClosestApproach {
             // The nearest bodies first: others are then farther apart than these by their bounding volumes.
             for pair in &mut self.candidates[first..] {

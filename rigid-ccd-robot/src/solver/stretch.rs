@@ -35,7 +35,7 @@ impl PathPoint {
 
 impl Stretch {
     /// Returns the whole path of a number of segments.
-    pub(crate) fn whole(segments: usize) -> Self {
+    pub(crate) fn whole_path(segments: usize) -> Self {
         Stretch {
             from: 0.0,
             to: segments as f64,

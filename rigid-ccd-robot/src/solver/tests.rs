@@ -6,7 +6,7 @@ mod questions;
 
 use super::*;
 use crate::pairs::LinkPairs;
-use crate::robot::{Joint, Link, Position, Robot};
+use crate::robot::{Joint, Link, PositionRule, Robot};
 use crate::test_robots::{random_body, random_pose, random_robot};
 use ccd_core::order::{greater, lesser};
 use rand::{RngExt, SeedableRng};

@@ -31,7 +31,7 @@ impl TimeLimit {
     }
 
     /// Returns the limit that ends the search now; `None` if it goes on.
-    pub(crate) fn reached(&self) -> Option<Limit> {
+    pub(crate) fn reached_limit(&self) -> Option<Limit> {
         if self.end.is_some_and(|end| Instant::now() >= end) {
             return Some(Limit::Deadline);
         }

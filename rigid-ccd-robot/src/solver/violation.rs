@@ -23,13 +23,13 @@ impl Search<'_> {
         self.question = Question::AnyContact;
         self.placement.place(self.cell, &self.path, stretch);
         self.candidates.clear();
-        self.append_all_pairs();
+        self.append_candidates();
         let mut pairs = std::mem::take(&mut self.candidates);
         pairs.sort_unstable_by_key(|pair| pair.owners(parts));
         let of_bodies = pairs.chunk_by(|one, other| one.owners(parts) == other.owners(parts));
         let mut is_violated = Ok(false);
         for near in of_bodies {
-            is_violated = self.are_nearer(near);
+            is_violated = self.are_bodies_nearer(near);
             if !matches!(is_violated, Ok(false)) {
                 break;
             }
@@ -39,7 +39,7 @@ impl Search<'_> {
     }
 
     /// Returns the same for two bodies in the stretch that is placed. Parts that are left out are not near each other.
-    fn are_nearer(&mut self, near: &[PartPair]) -> Result<bool, Error> {
+    fn are_bodies_nearer(&mut self, near: &[PartPair]) -> Result<bool, Error> {
         let pair = &near[0];
         let displacements = near.iter().map(|pair| pair.displacement(&self.placement));
         let displacement = displacements.fold(0.0, greater);
@@ -78,7 +78,10 @@ pub(crate) fn are_convex_parts_nearer(
     let [a, b] = parts;
     // The distance of the points, by whose hulls parts are described, for the shapes that the parts enclose.
     let distance = distance + a.radius + b.radius - a.excess - b.excess;
-    let centres = [frames[0].point(a.centre), frames[1].point(b.centre)];
+    let centres = [
+        frames[0].transform_point(a.centre),
+        frames[1].transform_point(b.centre),
+    ];
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
     let axis = first_axis(b, centres, is_obstacle);
     let vertex = |direction: DVec3| vertex(parts, &frames, direction);

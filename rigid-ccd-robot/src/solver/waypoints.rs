@@ -33,7 +33,7 @@ impl Waypoints {
     }
 
     /// Returns the number of segments between configurations.
-    pub(crate) fn segments(&self) -> usize {
+    pub(crate) fn segment_count(&self) -> usize {
         self.count.saturating_sub(1)
     }
 
@@ -45,7 +45,7 @@ impl Waypoints {
     /// Computes the positions of all joints at a point of the path.
     #[inline(always)]
     pub(crate) fn interpolate(&self, at: f64, positions: &mut Vec<f64>) {
-        let segment = PathPoint::of(at, self.segments()).segment;
+        let segment = PathPoint::of(at, self.segment_count()).segment;
         self.interpolate_in(segment, at, positions);
     }
 
@@ -77,7 +77,7 @@ impl Waypoints {
         } else if stretch.is_within_segment() {
             // The middle is at the same distance from both ends.
             let half = 0.5 * (stretch.to - stretch.from);
-            let segment = PathPoint::of(stretch.from, self.segments()).segment;
+            let segment = PathPoint::of(stretch.from, self.segment_count()).segment;
             let ends = self.at(segment).iter().zip(self.at(segment + 1));
             deviations.extend(ends.map(|(from, to)| half * (to - from).abs()));
         } else {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::robot::{Joint, Link, Position};
+use crate::robot::{Joint, Link, PositionRule};
 use rigid_ccd::trajectory;
 
 /// An SRDF file with two disabled pairs of links among other elements that MoveIt's setup assistant writes.
@@ -48,7 +48,7 @@ fn proven_pairs_are_written_and_read() {
         parent: parent.into(),
         child: child.into(),
         joint,
-        position: Position::Free,
+        position: PositionRule::Free,
     };
     let fixed = || trajectory::Joint::fixed(rigid_ccd::Pose::IDENTITY);
     let slide = trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
@@ -58,7 +58,7 @@ fn proven_pairs_are_written_and_read() {
         joint("three", "d", "e", slide.with_limits(-1.0..=1.0)),
     ];
     let robot = Robot::new(links, joints).unwrap();
-    let meetings = robot.link_meetings(1000).unwrap();
+    let meetings = robot.classify_link_contacts(1000).unwrap();
     let read = disabled_pairs(&robot.srdf("<box>", &meetings)).unwrap();
     let pairs: Vec<[&str; 3]> = read
         .iter()

@@ -5,7 +5,8 @@ use crate::Solver;
 use crate::parallel::CachePadded;
 use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{
-    Answer, Body, DistanceOracle, InputError, Instructions, OrElse, Query, Schedule, VelocityBound,
+    Answer, Body, DistanceOracle, InputError, OrElse, Query, Schedule, VectorInstructions,
+    VelocityBound,
 };
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
@@ -104,7 +105,7 @@ impl SolverKind {
     }
 
     /// Creates a solver whose backend uses the given instruction set.
-    pub fn solver(self, instructions: Instructions) -> Box<dyn Solve> {
+    pub fn solver(self, instructions: VectorInstructions) -> Box<dyn Solve> {
         match self.oracle {
             OracleKind::Direct => {
                 self.solver_with_oracle(ClosedForm::new(instructions).or_else(Gjk))

@@ -11,7 +11,7 @@ use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
-    Detail, MeshSource, Model, PatchOrder, PrepareError, STORED_EXTENSION, StoreFault,
+    Detail, MeshSource, Model, PatchOrder, PrepareError, STORED_BODY_EXTENSION, StoreFault,
     TriangleMesh, build_hull_tree, prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
@@ -143,7 +143,7 @@ fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
 }
 
 fn refuse_prepared_body(mesh: &Path) -> Result<()> {
-    if mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
+    if mesh.extension().is_some_and(|e| e == STORED_BODY_EXTENSION) {
         bail!(
             "{}: is already a prepared body; give the mesh it was made from",
             mesh.display()
@@ -181,9 +181,9 @@ impl OutputKind {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
             Some("obj") => Ok(OutputKind::Pieces),
-            Some(STORED_EXTENSION) => Ok(OutputKind::Body),
+            Some(STORED_BODY_EXTENSION) => Ok(OutputKind::Body),
             _ => bail!(
-                "--out {}: use the extension .obj for the pieces, or .{STORED_EXTENSION} for the \
+                "--out {}: use the extension .obj for the pieces, or .{STORED_BODY_EXTENSION} for the \
                  prepared body",
                 path.display()
             ),

@@ -1,7 +1,7 @@
 //! Parses options whose values are named values of a library type.
 
 use ccd_core::schedule::Shortcut;
-use ccd_core::{Instructions, StartPolicy};
+use ccd_core::{StartPolicy, VectorInstructions};
 use ccd_decomp::{Axis, PatchOrder, Unit};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
@@ -114,11 +114,11 @@ pub(super) const SHORTCUTS: &Named<Shortcut> = &[
 ];
 
 /// The sets of vector instructions of `--instructions`.
-pub(super) const VECTOR_INSTRUCTIONS: &Named<Instructions> = &[
-    ("best", Instructions::Best, "The best of this machine"),
+pub(super) const VECTOR_INSTRUCTIONS: &Named<VectorInstructions> = &[
+    ("best", VectorInstructions::Best, "The best of this machine"),
     (
         "baseline",
-        Instructions::Baseline,
+        VectorInstructions::Baseline,
         "Those that every machine of this kind has",
     ),
 ];

@@ -59,7 +59,9 @@ impl Output {
     pub(super) fn claim_table(path: &Path) -> Result<Self, OutputError> {
         let output = Output::claim(path)?;
         match &output.claim {
-            Some(claim) if claim.left_length() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() => {
+            Some(claim)
+                if claim.initial_length() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() =>
+            {
                 let problem = format!(
                     "{} has rows of an interrupted query; continue that with --resume, or delete the file",
                     claim.partial_path().display()

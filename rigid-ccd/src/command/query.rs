@@ -26,7 +26,7 @@ use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use clap::ArgMatches;
-use journal::{CHECKSUM_PREFIX, Checkpoint, options_text};
+use journal::{Checkpoint, FILE_CHECKSUM_PREFIX, options_text};
 use outputs::{ClaimedFiles, OpenedTables};
 use run::QueryRun;
 use std::io::{self, Write};
@@ -205,7 +205,7 @@ fn ignores_start_contacts(args: &QueryArgs) -> bool {
 fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> String {
     let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
     let checksums = (pair.checksums.iter())
-        .map(|(option, checksum)| (format!("{CHECKSUM_PREFIX}{option}"), checksum.clone()));
+        .map(|(option, checksum)| (format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum.clone()));
     let options = args.recorded_options(given).into_iter();
     options_text(once(version).chain(options).chain(checksums))
 }

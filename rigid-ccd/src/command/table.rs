@@ -60,7 +60,7 @@ impl TableWriter {
             };
             claim.file().rewind()?;
             let found = measure_beginning(claim.file(), written.bytes)?;
-            if found.measured() != written {
+            if found.length_and_checksum() != written {
                 return Ok(None);
             }
             claim.truncate(written.bytes)?;
@@ -105,7 +105,7 @@ impl TableWriter {
         if let Some(claim) = &mut self.output.claim {
             claim.keep_on_drop();
         }
-        Ok(self.writer.get_ref().measured())
+        Ok(self.writer.get_ref().length_and_checksum())
     }
 
     /// Renames the complete table to its final name.
@@ -125,7 +125,7 @@ impl MeasuringWriter {
         }
     }
 
-    pub(super) fn measured(&self) -> LengthAndChecksum {
+    pub(super) fn length_and_checksum(&self) -> LengthAndChecksum {
         LengthAndChecksum {
             bytes: self.bytes,
             checksum: self.checksum.clone().finalize(),

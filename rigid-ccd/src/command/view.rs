@@ -15,8 +15,8 @@ use crate::batch::{Question, SolverKind, TimedQuestion, answer_timed};
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
-use ccd_core::{Instructions, Settings};
-use ccd_view::{Group, Page};
+use ccd_core::{Settings, VectorInstructions};
+use ccd_view::{AnimationGroup, Page};
 use std::collections::{HashMap, VecDeque};
 use std::ffi::OsStr;
 use std::fs::File;
@@ -61,7 +61,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         margin: args.margin,
         clearance: None,
     };
-    let mut solver = timing.method.solver(Instructions::Best);
+    let mut solver = timing.method.solver(VectorInstructions::Best);
     for row in rows.by_ref().take(MAX_ROWS_READ) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
@@ -189,7 +189,7 @@ fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
     let page = Page {
         title: &title,
         meshes,
-        groups: vec![Group {
+        groups: vec![AnimationGroup {
             name: String::new(),
             views: vec![view],
         }],

@@ -32,7 +32,7 @@ pub struct GapOverTime {
 
 impl GapOverTime {
     /// Returns the least value of the proven lower bound; `None` without a bound.
-    pub(super) fn least(&self) -> Option<f64> {
+    pub(super) fn least_proven_gap(&self) -> Option<f64> {
         let gaps = self.gap.proven.iter().map(|[_, gap]| *gap);
         gaps.reduce(lesser)
     }
@@ -184,7 +184,7 @@ impl GapSampler<'_> {
     /// approximate them there.
     fn approach_bounds(&self, from: f64, to: f64) -> Result<ApproachBounds, InputError> {
         let [a, b] = self.movements.trajectories();
-        let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);
+        let (a, b) = (a.stretch_between(from, to)?, b.stretch_between(from, to)?);
         let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;

@@ -6,7 +6,7 @@ use crate::scene::{Impact, PairError};
 use ccd_core::HitKind;
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Feature, Motion};
-use ccd_view::{Meshes, ShownBody, ShownContact, View};
+use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
 use std::collections::HashMap;
 
 /// The colour of bodies that do not move, in CSS.
@@ -29,7 +29,7 @@ pub(crate) fn scene_view(
     bodies: &[DrawnBody<'_>],
     contacts: &[Result<Impact, PairError>],
     duration: f64,
-) -> (Meshes, View) {
+) -> (Meshes, Animation) {
     let mut meshes = Meshes::default();
     let mut known = HashMap::new();
     let shown = bodies.iter().enumerate().map(|(k, shown)| {
@@ -58,12 +58,12 @@ pub(crate) fn scene_view(
                 .start()
                 .transform_point(meshes.middle(first.mesh))
         });
-    let view = View {
+    let view = Animation {
         bodies: shown,
         contacts: hits.iter().map(|impact| contact(bodies, impact)).collect(),
         time: hits.first().map_or(0.0, |impact| impact.hit.time),
         origin: origin.to_array(),
-        ..View::new(name, &scene_verdict(bodies, contacts, duration), duration)
+        ..Animation::new(name, &scene_verdict(bodies, contacts, duration), duration)
     };
     (meshes, view)
 }

@@ -20,7 +20,7 @@ impl TimeLimits {
     }
 
     /// Returns the time left until the deadline; `None` without a deadline.
-    pub(super) fn left(&self) -> Option<Duration> {
+    pub(super) fn remaining_time(&self) -> Option<Duration> {
         let (begun, limit) = self.deadline?;
         Some(limit.saturating_sub(begun.elapsed()))
     }

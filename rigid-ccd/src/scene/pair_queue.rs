@@ -4,7 +4,7 @@ use super::event::Event;
 use super::goal::Goal;
 use super::queue_entry::QueueEntry;
 use ccd_core::order::{greater, lesser};
-use ccd_core::schedule::{BestFirst, FirstContact, Progress};
+use ccd_core::schedule::{BestFirst, FirstContactSearch, Progress};
 use ccd_core::{InputError, Query};
 use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
@@ -28,7 +28,7 @@ pub(super) struct PairQueue<'r, 'a> {
 /// A queued pair that is proven apart until a time; its search is `None` until it has begun.
 type QueuedPair<'a> = QueueEntry<Option<Search<'a>>>;
 
-type Search<'a> = Box<FirstContact<'a, Direct>>;
+type Search<'a> = Box<FirstContactSearch<'a, Direct>>;
 
 impl<'r, 'a> PairQueue<'r, 'a> {
     pub(super) fn new(
@@ -134,7 +134,7 @@ impl WorkerMemory {
     ) -> Result<Search<'a>, InputError> {
         let query = (pair_queue.query)(pair)?;
         let memory = self.spare_searches.pop().unwrap_or_default();
-        Ok(Box::new(FirstContact::new(query, memory)))
+        Ok(Box::new(FirstContactSearch::new(query, memory)))
     }
 
     fn keep_search_for_reuse(&mut self, search: Option<Search<'_>>) {

@@ -11,16 +11,16 @@ pub(super) struct TimeShiftedTrajectory<'a> {
 }
 
 impl Trajectory for TimeShiftedTrajectory<'_> {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = [from, to].map(|time| self.from + time);
-        let stretch = self.inner.stretch(first, last)?;
+        let stretch = self.inner.stretch_between(first, last)?;
         // Times are rounded, so that the body is off by its displacement in the rounding error.
         let time_error = 4.0 * UNIT_ROUNDOFF_F64 * last;
         let speed =
             length(stretch.motion.velocity()) + length(stretch.acceleration) * (last - first);
         let rounding = DeviationBound {
             shift: speed * time_error,
-            turn: length(stretch.motion.spin()) * time_error,
+            angle: length(stretch.motion.spin()) * time_error,
         };
         Ok(Stretch {
             deviation_bound: stretch.deviation_bound + rounding,

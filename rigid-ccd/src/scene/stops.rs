@@ -247,7 +247,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             self.deviation_bound_at_stop(bodies[0])? + self.deviation_bound_at_stop(bodies[1])?;
         let settings = Settings {
             margin: self.scene.settings.margin + rounding + stray,
-            deadline: self.time_limits.left(),
+            deadline: self.time_limits.remaining_time(),
             ..self.scene.settings.clone()
         };
         let query = Query::new((body(0), a), (body(1), b), duration - time, &settings)?;
@@ -276,7 +276,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             return Ok(0.0);
         }
         let (member, time) = (&self.scene.members[index], self.stops[index].time);
-        let stretch = member.movement.stretch(time, time)?;
+        let stretch = member.movement.stretch_between(time, time)?;
         Ok(stretch.deviation_bound.at(reach(member.body, &stretch)))
     }
 
@@ -293,7 +293,7 @@ fn reach(body: &Body, stretch: &Stretch) -> f64 {
 
 /// Bounds the error of the positions of a body's points when its movement continues from a rounded pose.
 fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
-    let stretch = movement.stretch(0.0, 0.0)?;
+    let stretch = movement.stretch_between(0.0, 0.0)?;
     let motion = &stretch.motion;
     let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
     let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);

@@ -1,6 +1,6 @@
 use crate::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
 use crate::{Body, Motion, Pose, Settings, Solver};
-use ccd_core::Clearance;
+use ccd_core::ClearanceVerdict;
 use ccd_core::Outcome;
 use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3};
@@ -27,7 +27,10 @@ fn bodies_beside_each_other_do_not_overlap() {
         panic!("{closest:?}")
     };
     assert!(lower <= 1e-4 && closest.outcome.upper() >= 1e-4);
-    assert_ne!(closest.outcome.clearance(5e-5), Clearance::Violated);
+    assert_ne!(
+        closest.outcome.clearance_verdict(5e-5),
+        ClearanceVerdict::Violated
+    );
     let hit = Solver::new().first_contact(a, b, 1.0).unwrap();
     assert!(matches!(hit.outcome, Outcome::Touching { .. }), "{hit:?}");
     let deep = ballistic_trajectory([0.0, 0.0, 1.4], [0.0; 3], [0.0, 0.0, 1e-3]);

@@ -161,7 +161,10 @@ impl Columns {
         let names = form.names();
         if let Some(number) = number_in_header(header, &names) {
             let known = form.known_columns_text();
-            return Err(TableError::NoHeader { number, known });
+            return Err(TableError::NoHeader {
+                number,
+                known_columns: known,
+            });
         }
         let mut cells = vec![None; names.len()];
         for (cell, column) in header.iter().enumerate() {
@@ -296,7 +299,7 @@ fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> Tab
     let of_other_form = form == TableKind::Paths && TableKind::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
-        known: form.known_columns_text(),
+        known_columns: form.known_columns_text(),
         most_similar_column: match lower.as_str() {
             "time" => Some(TIME_COLUMN_NAME.to_owned()),
             _ => (nearest.filter(|name| **name == lower || !of_other_form)).cloned(),

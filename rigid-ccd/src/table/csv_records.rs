@@ -26,7 +26,7 @@ type Reader<R> = csv::Reader<io::Chain<LineEndReader<R>, &'static [u8]>>;
 
 /// What follows the input. The line number of a row is computed from its end, so that the last row needs a line end,
 /// too. No row takes the second one, unless a quote is still open.
-const END: &[u8] = b"\n\n";
+const APPENDED_LINE_ENDS: &[u8] = b"\n\n";
 
 impl<R: Read> CsvRecords<R> {
     /// Opens the table, and reads its header as the current record.
@@ -38,7 +38,7 @@ impl<R: Read> CsvRecords<R> {
         let mut reader = csv::ReaderBuilder::new()
             .flexible(true)
             .has_headers(false)
-            .from_reader(input.chain(END));
+            .from_reader(input.chain(APPENDED_LINE_ENDS));
         let mut raw_record = csv::ByteRecord::new();
         reader.read_byte_record(&mut raw_record)?;
         let mut records = CsvRecords {
@@ -58,7 +58,7 @@ impl<R: Read> CsvRecords<R> {
     fn unclosed_quote_line(&self) -> Option<u64> {
         let (input, _) = self.reader.get_ref().get_ref();
         let (end, last_cell) = (self.reader.position(), self.raw_record.iter().next_back()?);
-        let is_open = end.byte() == input.output_byte_count() + END.len() as u64;
+        let is_open = end.byte() == input.output_byte_count() + APPENDED_LINE_ENDS.len() as u64;
         is_open.then(|| end.line() - line_end_count(last_cell))
     }
 }

@@ -33,13 +33,13 @@ pub enum TableError {
     },
     /// The first line has numbers instead of names.
     #[error(
-        "header: `{number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known}"
+        "header: `{number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known_columns}"
     )]
     NoHeader {
         /// The first number in that line.
         number: String,
         /// The known columns, as text.
-        known: &'static str,
+        known_columns: &'static str,
     },
     /// The header is not valid UTF-8.
     #[error("is not text in UTF-8; export it as CSV, in UTF-8")]
@@ -57,13 +57,13 @@ pub enum TableError {
     /// The header has a column that is not known. If it were ignored, a part of a motion could be lost silently.
     #[error(
         "header: unknown column `{column}`; {}",
-        .most_similar_column.as_ref().map_or((*.known).to_owned(), |nearest| format!("did you mean `{nearest}`?"))
+        .most_similar_column.as_ref().map_or((*.known_columns).to_owned(), |nearest| format!("did you mean `{nearest}`?"))
     )]
     UnknownColumn {
         /// The unknown name, as in the header.
         column: String,
         /// The known columns, as text.
-        known: &'static str,
+        known_columns: &'static str,
         /// The known column with the most similar name.
         most_similar_column: Option<String>,
     },

@@ -133,7 +133,7 @@ impl PathReader {
         Ok(Some(FirstRow {
             position,
             id: id.unwrap_or_else(|| index.to_string()),
-            seen,
+            has_repeated_id: seen,
         }))
     }
 
@@ -151,7 +151,12 @@ impl PathReader {
                 Err(problem) => poses = Err((position, problem)),
             }
         })?;
-        let Some(FirstRow { position, id, seen }) = read else {
+        let Some(FirstRow {
+            position,
+            id,
+            has_repeated_id: seen,
+        }) = read
+        else {
             return Ok(None);
         };
         if seen {
@@ -174,7 +179,7 @@ struct FirstRow {
     position: RowPosition,
     id: String,
     /// Whether an earlier path has the same id.
-    seen: bool,
+    has_repeated_id: bool,
 }
 
 /// Returns `row`, or an error if it cannot follow the rows before it. Its time must be later, also after the first time

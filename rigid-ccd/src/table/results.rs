@@ -185,7 +185,7 @@ impl ResultRow {
                 };
             }
             Outcome::Free { .. } => self.with_time(duration),
-            _ => match outcome.nearest() {
+            _ => match outcome.nearest_contact() {
                 Some((time, contact)) => self.with_time(time).with_contact(&contact),
                 None => self,
             },

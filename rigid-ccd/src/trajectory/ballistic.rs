@@ -25,7 +25,7 @@ use ccd_core::{
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ballistic {
-    thrown: Motion,
+    initial_motion: Motion,
     acceleration: DVec3,
 }
 
@@ -36,7 +36,7 @@ impl Ballistic {
     /// [`InputError::NotFinite`].
     pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Ballistic {
-            thrown,
+            initial_motion: thrown,
             acceleration: check_finite_vector(acceleration, "acceleration")?,
         })
     }
@@ -44,7 +44,7 @@ impl Ballistic {
 
 impl SmoothTrajectory for Ballistic {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
-        let (thrown, acceleration) = (&self.thrown, self.acceleration);
+        let (thrown, acceleration) = (&self.initial_motion, self.acceleration);
         let pose = thrown.pose(time);
         let fallen = pose.translation() + 0.5 * time * (time * acceleration);
         let start = Pose::new(fallen, pose.rotation())?;
@@ -74,13 +74,13 @@ impl SmoothTrajectory for Ballistic {
 
     /// Bounds the rounding errors of poses between two times.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
-        let (thrown, acceleration) = (&self.thrown, self.acceleration);
+        let (thrown, acceleration) = (&self.initial_motion, self.acceleration);
         let time = greater(from.abs(), to.abs());
         let turned = length(thrown.spin()) * time;
         let way = (length(thrown.velocity()) + 0.5 * time * length(acceleration)) * time;
         DeviationBound {
             shift: 16.0 * U * (length(thrown.start().translation()) + way),
-            turn: 8.0 * U * turned,
+            angle: 8.0 * U * turned,
         }
     }
 }

@@ -41,7 +41,7 @@ impl Curve {
             segments: Segments(vec![Segment {
                 from: 0.0,
                 to: duration,
-                course: points,
+                curve: points,
             }]),
         })
     }
@@ -63,7 +63,7 @@ impl Curve {
             Segment {
                 from: at(k),
                 to: at(k + 1),
-                course: vec![ends[0], inner[0], inner[1], ends[1]],
+                curve: vec![ends[0], inner[0], inner[1], ends[1]],
             }
         };
         Ok(Curve {
@@ -115,7 +115,7 @@ impl Curve {
     /// several segments.
     pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
         // A segment that only touches the interval overlaps it, too.
-        let mut overlapping = self.segments.overlapping_segments(from, to).iter();
+        let mut overlapping = self.segments.segments_between(from, to).iter();
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
             vector: segment.derivative(2, segment.share(time)),
@@ -133,8 +133,8 @@ impl Curve {
     /// Bounds the rounding error of a computed position on the curve.
     pub(super) fn rounding(&self) -> f64 {
         let lengths = self.segments.0.iter().flat_map(|segment| {
-            let degree = segment.course.len() as f64;
-            segment.course.iter().map(move |&p| length(p) * degree)
+            let degree = segment.curve.len() as f64;
+            segment.curve.iter().map(move |&p| length(p) * degree)
         });
         8.0 * U * lengths.fold(0.0, greater)
     }
@@ -157,7 +157,7 @@ impl Segment {
 
     /// Returns the control points of the derivative of the given order with respect to time; empty if it is zero.
     fn derivative_control_points(&self, order: usize) -> Vec<DVec3> {
-        let mut points = self.course.clone();
+        let mut points = self.curve.clone();
         for _ in 0..order {
             let factor = points.len().saturating_sub(1) as f64 / (self.to - self.from);
             points = points.windows(2).map(|p| factor * (p[1] - p[0])).collect();

@@ -207,7 +207,7 @@ impl SmoothTrajectory for Link<'_> {
         let turn = U * (24.0 * joints + 4.0 * angles);
         DeviationBound {
             shift: turn * arms + 8.0 * U * (base + arms),
-            turn,
+            angle: turn,
         }
     }
 }

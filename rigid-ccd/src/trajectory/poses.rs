@@ -201,9 +201,9 @@ impl Poses {
             let (before, acceleration) = self.segment_motion_at(time, time)?;
             let since = time - last.0;
             let change = before.spin().distance(motion.spin()) + acceleration * since;
-            let between = 0.5 * (deviation.turn + last.1.turn + change * since);
+            let between = 0.5 * (deviation.angle + last.1.angle + change * since);
             stray.shift = greater(stray.shift, deviation.shift);
-            stray.turn = greater(stray.turn, between);
+            stray.angle = greater(stray.angle, between);
             last = (time, deviation);
         }
         Ok(Stretch {
@@ -226,19 +226,19 @@ impl Poses {
         let turn = given.windows(2).enumerate().map(turn).fold(1.0, greater);
         DeviationBound {
             shift: 64.0 * U * place,
-            turn: 64.0 * U * turn,
+            angle: 64.0 * U * turn,
         }
     }
 }
 
 impl Trajectory for Poses {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let stretch = if self.poses_between(from, to).is_empty() {
             let (motion, acceleration) = self.segment_motion_at(from, to)?;
             let mut stretch = Stretch::exact(motion);
             // The integral of the deviation of the angular velocity is quadratic in time.
             if acceleration > 0.0 {
-                stretch.deviation_bound.turn = 0.5 * acceleration * (to - from) * (to - from);
+                stretch.deviation_bound.angle = 0.5 * acceleration * (to - from) * (to - from);
             }
             stretch
         } else {
@@ -264,6 +264,6 @@ fn deviation(motion: &Motion, pose: &Pose, centre: DVec3, time: f64) -> Deviatio
     DeviationBound {
         shift: at.distance(true_at),
         // The rotation angle is twice the angle of the quaternion, whose sine is the length of its vector part.
-        turn: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
+        angle: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
     }
 }

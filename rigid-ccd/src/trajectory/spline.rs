@@ -72,7 +72,7 @@ impl SmoothTrajectory for Spline {
     fn rounding(&self, _: f64, _: f64) -> DeviationBound {
         DeviationBound {
             shift: self.curve.rounding(),
-            turn: self.orientation_curve.rounding(),
+            angle: self.orientation_curve.rounding(),
         }
     }
 

@@ -186,7 +186,7 @@ fn angular_velocities_tell_the_number_of_turns() {
         .clone()
         .with_angular_velocities(vec![[0.0, 0.0, 0.5 * (turns + 0.3)]])
         .unwrap();
-    let stretch = nearly.stretch(0.0, 2.0).unwrap();
+    let stretch = nearly.stretch_between(0.0, 2.0).unwrap();
     assert!(
         (stretch.motion.spin().z * 2.0 - turns).abs() < 1e-12,
         "{stretch:?}"
@@ -195,7 +195,10 @@ fn angular_velocities_tell_the_number_of_turns() {
         .clone()
         .with_angular_velocities(vec![[0.0; 3]])
         .unwrap();
-    assert_eq!(zero.stretch(0.0, 2.0).unwrap().motion.spin(), DVec3::ZERO);
+    assert_eq!(
+        zero.stretch_between(0.0, 2.0).unwrap().motion.spin(),
+        DVec3::ZERO
+    );
     for bad in [
         vec![],
         vec![[0.0, 0.0, 1.0]],
@@ -309,10 +312,10 @@ fn reversed_joints_undo_joints() {
             motion,
             deviation_bound: deviation,
             ..
-        } = link.stretch(0.7, 0.7).unwrap();
+        } = link.stretch_between(0.7, 0.7).unwrap();
         let start = motion.start();
         assert!(start.translation().length() <= deviation.shift);
-        assert!(2.0 * start.rotation().xyz().length() <= deviation.turn);
+        assert!(2.0 * start.rotation().xyz().length() <= deviation.angle);
         assert!(motion.velocity().length() < 1e-12 && motion.spin().length() < 1e-12);
     }
 }
@@ -371,12 +374,12 @@ impl ChainOwningLink {
 }
 
 impl Trajectory for ChainOwningLink {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = &self.positions;
         let link = self.chain.link(self.link, first, last, 2.0)?;
         match self.seen_from {
-            Some(other) => link.seen_from(other)?.stretch(from, to),
-            None => link.stretch(from, to),
+            Some(other) => link.seen_from(other)?.stretch_between(from, to),
+            None => link.stretch_between(from, to),
         }
     }
 }
@@ -407,8 +410,8 @@ fn links_with_axes_across() {
 fn a_false_bound_is_found() {
     struct FalselyBoundedSpline(Spline);
     impl Trajectory for FalselyBoundedSpline {
-        fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-            let mut stretch = self.0.stretch(from, to)?;
+        fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+            let mut stretch = self.0.stretch_between(from, to)?;
             stretch.deviation_bound.shift *= 0.9;
             Ok(stretch)
         }
@@ -427,10 +430,13 @@ fn stretches_between_knots_accelerate() {
     let curve = Curve::b_spline(&points(&mut rng, 7), 2.0).unwrap();
     let spline = Spline::new(curve, OrientationCurve::NONE);
     for [from, to] in [[0.0, 0.5], [0.25, 0.5], [0.5, 1.0], [0.5, 0.75], [1.5, 2.0]] {
-        let stretch = spline.stretch(from, to).unwrap();
+        let stretch = spline.stretch_between(from, to).unwrap();
         assert!(stretch.acceleration != DVec3::ZERO, "{from} {to}");
     }
-    assert_eq!(spline.stretch(0.4, 0.6).unwrap().acceleration, DVec3::ZERO);
+    assert_eq!(
+        spline.stretch_between(0.4, 0.6).unwrap().acceleration,
+        DVec3::ZERO
+    );
 }
 
 #[test]

@@ -52,7 +52,11 @@ impl OrientationCurve {
             let [(from, start), (to, end)] = [two[0], two[1]];
             let spin = rotation_vector(end * start.conjugate()) / (to - from);
             let course = Turn { start, spin };
-            Segment { from, to, course }
+            Segment {
+                from,
+                to,
+                curve: course,
+            }
         };
         Ok(OrientationCurve {
             segments: Segments(keys.windows(2).map(segment).collect()),
@@ -87,7 +91,7 @@ impl OrientationCurve {
 impl Segment<Turn> {
     fn orientation_and_spin_at(&self, time: f64) -> (DQuat, DVec3) {
         let passed = greater(0.0, lesser(time, self.to) - self.from);
-        let Turn { start, spin } = self.course;
+        let Turn { start, spin } = self.curve;
         let turned = DQuat::from_scaled_axis(spin * passed) * start;
         (turned.normalize(), spin)
     }

@@ -6,7 +6,7 @@ use ccd_core::{InputError, Trajectory};
 
 /// The sample with the largest deviation relative to its bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Worst {
+pub struct WorstDeviation {
     /// The deviation divided by its bound: at most 1 for a correct trajectory.
     pub ratio: f64,
     /// The time at which the segment starts.
@@ -48,14 +48,14 @@ pub fn worst_deviation(
     reach: f64,
     draws: u64,
     seed: u64,
-) -> Result<Worst, InputError> {
+) -> Result<WorstDeviation, InputError> {
     let mut search = Search {
         trajectory,
         duration,
         reach,
         state: seed,
     };
-    let mut worst: Option<(Sample, Worst)> = None;
+    let mut worst: Option<(Sample, WorstDeviation)> = None;
     for number in 0..draws {
         let draw = match &worst {
             // Hill climbing starts at every fresh sample.
@@ -102,13 +102,13 @@ impl Search<'_> {
     fn measure(
         &self,
         &[length, from, time, arm, azimuth, height]: &Sample,
-    ) -> Result<Worst, InputError> {
+    ) -> Result<WorstDeviation, InputError> {
         // The lengths are of all orders of magnitude, down to a millionth.
         let length = self.duration * 10f64.powf(-6.0 * length);
         let from = from * (self.duration - length);
         let to = lesser(from + length, self.duration);
         let time = lesser(from + time * length, to);
-        let stretch = self.trajectory.stretch(from, to)?;
+        let stretch = self.trajectory.stretch_between(from, to)?;
         let z = 2.0 * height - 1.0;
         let (sin, cos) = (std::f64::consts::TAU * azimuth).sin_cos();
         let across = greater(0.0, 1.0 - z * z).sqrt();
@@ -122,7 +122,7 @@ impl Search<'_> {
         // The compared poses have rounding errors of one or two units in the last place.
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
-        Ok(Worst {
+        Ok(WorstDeviation {
             ratio: (deviation - rounding) / stretch.deviation_bound.at(reach),
             from,
             to,

@@ -96,7 +96,7 @@ impl Shape {
     }
 
     /// Returns the shape with all faces reversed.
-    pub fn flipped(mut self) -> Self {
+    pub fn with_reversed_faces(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
         self.mesh_class = MeshClass::TriangleSoup;
         self

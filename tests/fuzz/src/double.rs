@@ -102,7 +102,7 @@ impl Number for DoubleDouble {
     }
 
     #[inline]
-    fn rounded(self) -> f64 {
+    fn to_f64(self) -> f64 {
         self.hi
     }
 

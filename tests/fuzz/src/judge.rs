@@ -6,7 +6,7 @@ use crate::case::{Case, Expectation};
 use crate::double::DoubleDouble;
 use crate::engine::{Bodies, Method};
 use crate::nearest::{Triangle, distance, penetration_depth};
-use crate::referee::{ContactLimit, Scene, Violation};
+use crate::referee::{ContactCriterion, MarginViolation, Scene};
 use crate::solid::{PointLocation, Solid, distance_to_surface};
 use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::Unresolved;
@@ -61,7 +61,7 @@ pub struct Judge<'a> {
     rounding: f64,
     start: StartState,
     /// The closed surfaces of both bodies at the start.
-    placed: [Solid; 2],
+    solids_at_start: [Solid; 2],
     volume_kinds: [Volume; 2],
 }
 
@@ -77,7 +77,7 @@ impl<'a> Judge<'a> {
             scene,
             rounding,
             start,
-            placed,
+            solids_at_start: placed,
             volume_kinds: volumes,
         }
     }
@@ -91,7 +91,7 @@ impl<'a> Judge<'a> {
         let until = times.fold(0.0, larger);
         let (evidence, proven) = self
             .scene
-            .first_time_below(self.contact_limit(given), until);
+            .first_time_below(self.contact_criterion(given), until);
         let mut faults = Vec::new();
         for (k, one) in given.iter().enumerate() {
             let found = self.faults_of_answer(one, evidence).into_iter();
@@ -112,7 +112,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns the limits of distance and of penetration depth at which the bodies count as nearer than allowed.
-    fn contact_limit(&self, given: &[MethodAnswer<'_>]) -> ContactLimit {
+    fn contact_criterion(&self, given: &[MethodAnswer<'_>]) -> ContactCriterion {
         let margin = self.case.config.margin;
         let tolerance = given
             .iter()
@@ -121,7 +121,7 @@ impl<'a> Judge<'a> {
         let begun = self.start.distance <= margin + tolerance;
         match self.case.config.start {
             StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
-                ContactLimit {
+                ContactCriterion {
                     threshold: self.required_distance(margin),
                     depth: self.rounding,
                 }
@@ -131,7 +131,7 @@ impl<'a> Judge<'a> {
                     Outcome::Free { proven_gap } => Some(proven_gap),
                     _ => None,
                 });
-                ContactLimit {
+                ContactCriterion {
                     threshold: gaps.fold(margin, larger),
                     depth: 0.0,
                 }
@@ -139,18 +139,23 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn faults_of_answer(&self, given: &MethodAnswer<'_>, evidence: Option<Violation>) -> Faults {
+    fn faults_of_answer(
+        &self,
+        given: &MethodAnswer<'_>,
+        evidence: Option<MarginViolation>,
+    ) -> Faults {
         let answer = &given.answer;
         let mut faults = self.check_expected_outcome(&answer.outcome);
         let mut say = |fault, text| faults.push((fault, text));
         let margin = self.case.config.margin;
         let proven = self.proven_free_until(&answer.outcome);
         let before = evidence.filter(|e| e.time < proven || proven == self.case.duration);
-        let below_margin =
-            |e: &Violation| !(e.distance > 0.0) || e.distance < self.required_distance(margin);
+        let below_margin = |e: &MarginViolation| {
+            !(e.distance > 0.0) || e.distance < self.required_distance(margin)
+        };
         let early = before.filter(below_margin);
-        let known = |e: Violation| {
-            let Violation {
+        let known = |e: MarginViolation| {
+            let MarginViolation {
                 time,
                 distance,
                 depth,
@@ -318,7 +323,7 @@ impl<'a> Judge<'a> {
         let [a, b] = self.piece_triangles(bodies, contact, time)?;
         let pairs = a
             .iter()
-            .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
+            .flat_map(|s| b.iter().map(move |t| distance(s, t).to_f64()));
         Some(pairs.fold(f64::INFINITY, smaller))
     }
 
@@ -374,14 +379,14 @@ impl<'a> Judge<'a> {
             .as_ref()
             .map(|both| both.each_ref().map(|s| &s[..]))
         {
-            Some([[s], [t]]) => !(penetration_depth(s, t).rounded() > 0.0),
+            Some([[s], [t]]) => !(penetration_depth(s, t).to_f64() > 0.0),
             _ => false,
         }
     }
 
     fn is_inside(&self, p: [f64; 3], outer: usize) -> bool {
         let point = Vector::from_array(p) - self.scene.snapshots(0.0)[0].centre;
-        let solid = &self.placed[outer];
+        let solid = &self.solids_at_start[outer];
         // Points are given in world coordinates, rounded.
         let near = 1e-12 * larger(self.scene.scale, Vector(p).max_absolute_component());
         solid.locate(point) != PointLocation::Outside

@@ -95,7 +95,7 @@ fn clamp_to_unit_interval<N: Number>(x: N) -> N {
 #[inline]
 fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     let ([x, y, z], [u, v, w]) = (long.0, short.0);
-    let [a, b, c] = [x, y, z].map(|x| x.rounded().abs());
+    let [a, b, c] = [x, y, z].map(|x| x.to_f64().abs());
     if a >= b && a >= c {
         x / u
     } else if b >= c {
@@ -109,7 +109,7 @@ fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
 fn offset_between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
     let n = p.scaled_edge_vector.cross(q.scaled_edge_vector);
     let square = n.dot(n);
-    if !(square.rounded() > 0.0) {
+    if !(square.to_f64() > 0.0) {
         return None;
     }
     let w = q.from - p.from;

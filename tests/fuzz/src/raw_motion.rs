@@ -164,7 +164,7 @@ pub struct Snapshot {
 impl ExactMotion {
     pub fn snapshot_at(&self, t: f64) -> Snapshot {
         let centre = self.start + self.velocity * DoubleDouble::new(t);
-        let columns = if self.rate.rounded() > 0.0 {
+        let columns = if self.rate.to_f64() > 0.0 {
             let (sin, cos) = (self.rate * DoubleDouble::new(t)).sin_cos();
             let n = self.axis;
             let [a, b, c] = self.columns;
@@ -181,7 +181,7 @@ impl ExactMotion {
 
     /// Returns the velocity in the world, rounded to f64, of the point at `arm` from the centre.
     pub fn point_velocity(&self, arm: Vector<f64>) -> Vector<f64> {
-        self.velocity.rounded() + self.axis.rounded().cross(arm) * self.rate.rounded()
+        self.velocity.to_f64() + self.axis.to_f64().cross(arm) * self.rate.to_f64()
     }
 }
 

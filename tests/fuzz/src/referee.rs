@@ -46,7 +46,7 @@ pub struct Scene {
 
 /// A time at which the bodies are nearer than allowed, with their distance and penetration depth.
 #[derive(Clone, Copy, Debug)]
-pub struct Violation {
+pub struct MarginViolation {
     pub time: f64,
     pub distance: f64,
     pub depth: f64,
@@ -61,7 +61,7 @@ impl MovingBody {
             .map(|t| Ball::ball_around(t, &track))
             .collect();
         let corners: Vec<Vector<DoubleDouble>> = triangles.iter().flatten().copied().collect();
-        let reaches = corners.iter().map(|p| p.length().rounded());
+        let reaches = corners.iter().map(|p| p.length().to_f64());
         let reach = reaches.fold(0.0, larger);
         MovingBody {
             whole: Ball::ball_around(&corners, &track),
@@ -91,19 +91,15 @@ impl Ball {
     fn ball_around(points: &[Vector<DoubleDouble>], track: &ExactMotion) -> Self {
         let sum = points.iter().skip(1).fold(points[0], |sum, &p| sum + p);
         let middle = sum * DoubleDouble::new(1.0 / points.len() as f64);
-        let far = |r, &p: &Vector<DoubleDouble>| larger(r, (p - middle).length().rounded());
+        let far = |r, &p: &Vector<DoubleDouble>| larger(r, (p - middle).length().to_f64());
         let radius = points.iter().fold(0.0, far);
         let arms = points
             .iter()
-            .fold(0.0, |r, p| larger(r, p.length().rounded()));
+            .fold(0.0, |r, p| larger(r, p.length().to_f64()));
         Ball {
             middle,
             radius: radius * (1.0 + 1e-9),
-            arm: if track.rate.rounded() > 0.0 {
-                arms
-            } else {
-                0.0
-            },
+            arm: if track.rate.to_f64() > 0.0 { arms } else { 0.0 },
         }
     }
 }
@@ -119,9 +115,9 @@ impl Scene {
         let sides = [side(0), side(1)];
         let way = (sides[0].track.start - sides[1].track.start)
             .length()
-            .rounded();
-        let travel = |s: &MovingBody| s.track.velocity.length().rounded() * case.duration;
-        let turn = |s: &MovingBody| 1.0 + s.track.rate.rounded() * case.duration;
+            .to_f64();
+        let travel = |s: &MovingBody| s.track.velocity.length().to_f64() * case.duration;
+        let turn = |s: &MovingBody| 1.0 + s.track.rate.to_f64() * case.duration;
         let scale = way
             + travel(&sides[0])
             + travel(&sides[1])
@@ -164,7 +160,7 @@ impl Scene {
             .fold(f64::INFINITY, |best, &(d, ..)| smaller(best, d));
         let noise = RELATIVE_RECHECK_DISTANCE * self.scale;
         let nearest = near.into_iter().filter(|&(d, ..)| d <= best + noise);
-        let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).rounded());
+        let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).to_f64());
         exact.fold(f64::INFINITY, smaller)
     }
 
@@ -176,7 +172,7 @@ impl Scene {
     ) -> Vec<(f64, usize, usize)> {
         let rounded = |all: &[Triangle<DoubleDouble>]| -> Vec<(Triangle<f64>, Vector<f64>)> {
             let middle = |t: &Triangle<f64>| (t[0] + t[1] + t[2]) * (1.0 / 3.0);
-            let rounded = all.iter().map(|t| t.map(Vector::rounded));
+            let rounded = all.iter().map(|t| t.map(Vector::to_f64));
             rounded.map(|t| (t, middle(&t))).collect()
         };
         let (a, b) = (rounded(a), rounded(b));
@@ -202,7 +198,7 @@ impl Scene {
         let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a
             .iter()
-            .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
+            .flat_map(|s| b.iter().map(move |t| distance(s, t).to_f64()));
         pairs.fold(f64::INFINITY, smaller)
     }
 
@@ -211,9 +207,9 @@ impl Scene {
         let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a.iter().flat_map(|s| {
             b.iter().map(move |t| {
-                let flat = |t: &Triangle<DoubleDouble>| t.map(Vector::rounded);
+                let flat = |t: &Triangle<DoubleDouble>| t.map(Vector::to_f64);
                 if penetration_depth(&flat(s), &flat(t)) > 0.0 {
-                    penetration_depth(s, t).rounded()
+                    penetration_depth(s, t).to_f64()
                 } else {
                     0.0
                 }
@@ -224,14 +220,18 @@ impl Scene {
 
     /// Returns the earliest time found, up to `until`, at which the bodies are nearer than the limit allows. The flag
     /// is true if none was missed, except for f64's rounding.
-    pub fn first_time_below(&self, limit: ContactLimit, until: f64) -> (Option<Violation>, bool) {
+    pub fn first_time_below(
+        &self,
+        limit: ContactCriterion,
+        until: f64,
+    ) -> (Option<MarginViolation>, bool) {
         Search::new(self, limit, until).run()
     }
 }
 
 /// The conditions under which bodies count as nearer than allowed.
 #[derive(Clone, Copy, Debug)]
-pub struct ContactLimit {
+pub struct ContactCriterion {
     /// The distance below which the bodies are nearer than allowed.
     pub threshold: f64,
     /// The penetration depth of triangles above which the bodies are nearer than allowed.

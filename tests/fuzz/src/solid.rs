@@ -22,21 +22,21 @@ pub struct Solid {
     /// For each triangle, the index of the first triangle of its connected part.
     parts: Vec<usize>,
     /// Whether two parts touch or cross each other. Points in several crossing parts are doubtful.
-    crossing: bool,
+    has_crossing_parts: bool,
 }
 
 impl Solid {
     pub fn new(triangles: Vec<Triangle<DoubleDouble>>) -> Self {
         let parts = parts(&triangles);
         let pairs = (0..parts.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let meet = |i: usize, j: usize| !(distance(&triangles[i], &triangles[j]).rounded() > 0.0);
+        let meet = |i: usize, j: usize| !(distance(&triangles[i], &triangles[j]).to_f64() > 0.0);
         let crossing = pairs
             .into_iter()
             .any(|(i, j)| parts[i] != parts[j] && meet(i, j));
         Solid {
             triangles,
             parts,
-            crossing,
+            has_crossing_parts: crossing,
         }
     }
 
@@ -67,7 +67,7 @@ impl Solid {
             .values()
             .any(|&(winding, crossed)| winding != 0 && crossed % 2 == 0);
         match around {
-            _ if repeated || self.crossing && around > 1 => PointLocation::Doubtful,
+            _ if repeated || self.has_crossing_parts && around > 1 => PointLocation::Doubtful,
             around if around % 2 == 1 => PointLocation::Inside,
             _ => PointLocation::Outside,
         }
@@ -116,7 +116,7 @@ fn crossing(
         .fold(0.0, |m, &v| larger(m, (v - p).max_absolute_component()));
     let grazing = 1e-18 * size * size;
     let sides = [0, 1, 2].map(|k| {
-        let side = (t[k] - p).cross(t[(k + 1) % 3] - p).dot(ray).rounded();
+        let side = (t[k] - p).cross(t[(k + 1) % 3] - p).dot(ray).to_f64();
         i32::from(side > grazing) - i32::from(side < -grazing)
     });
     if sides.contains(&1) && sides.contains(&-1) {
@@ -144,7 +144,7 @@ fn parts(triangles: &[Triangle<DoubleDouble>]) -> Vec<usize> {
         let mut changed = false;
         for (k, t) in triangles.iter().enumerate() {
             for p in t {
-                let position = p.0.map(|x| (x.rounded() + 0.0).to_bits());
+                let position = p.0.map(|x| (x.to_f64() + 0.0).to_bits());
                 let first = at.entry(position).or_insert(group[k]);
                 changed |= *first != group[k];
                 group[k] = group[k].min(*first);
@@ -159,7 +159,7 @@ fn parts(triangles: &[Triangle<DoubleDouble>]) -> Vec<usize> {
 
 /// Returns the distance from a point to a surface.
 pub fn distance_to_surface(p: Vector<DoubleDouble>, triangles: &[Triangle<DoubleDouble>]) -> f64 {
-    let apart = triangles.iter().map(|t| distance(&[p; 3], t).rounded());
+    let apart = triangles.iter().map(|t| distance(&[p; 3], t).to_f64());
     apart.fold(f64::INFINITY, smaller)
 }
 

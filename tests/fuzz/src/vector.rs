@@ -15,7 +15,7 @@ pub trait Number:
     + Neg<Output = Self>
 {
     fn from_f64(x: f64) -> Self;
-    fn rounded(self) -> f64;
+    fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
 }
 
@@ -26,7 +26,7 @@ impl Number for f64 {
     }
 
     #[inline]
-    fn rounded(self) -> f64 {
+    fn to_f64(self) -> f64 {
         self
     }
 
@@ -46,8 +46,8 @@ impl<N: Number> Vector<N> {
     }
 
     #[inline]
-    pub fn rounded(self) -> Vector<f64> {
-        self.map_components(N::rounded)
+    pub fn to_f64(self) -> Vector<f64> {
+        self.map_components(N::to_f64)
     }
 
     /// Applies a function to each component. Unlike `map` of arrays, compilers unroll it.
@@ -100,13 +100,13 @@ impl<N: Number> Vector<N> {
     pub fn unit(self) -> Option<Self> {
         let v = self.scaled_to_about_one();
         let length = v.dot(v).sqrt();
-        (length.rounded() > 0.1).then(|| v * (N::from_f64(1.0) / length))
+        (length.to_f64() > 0.1).then(|| v * (N::from_f64(1.0) / length))
     }
 
     /// Returns the largest absolute value of a component, rounded.
     #[inline]
     pub fn max_absolute_component(self) -> f64 {
-        let Vector([x, y, z]) = self.map_components(|x| x.rounded().abs());
+        let Vector([x, y, z]) = self.map_components(|x| x.to_f64().abs());
         larger(larger(x, y), z)
     }
 }

@@ -3,7 +3,7 @@
 use ccd_core::order::lesser;
 use ccd_core::{Body, MovingBody, Trajectory};
 use ccd_tests::checks::CheckResult;
-use ccd_tests::courses::{self, KINDS};
+use ccd_tests::courses::{self, TRAJECTORY_KINDS};
 use ccd_tests::law;
 use ccd_tests::solids::Solid;
 use rand::RngExt;
@@ -26,7 +26,7 @@ pub(super) struct Scene {
 impl Scene {
     pub(super) fn draw(rng: &mut Pcg64) -> Self {
         let solids = [(); 2].map(|()| Solid::draw(rng, 0.7));
-        let kinds = [(); 2].map(|()| rng.random_range(0..KINDS.len()));
+        let kinds = [(); 2].map(|()| rng.random_range(0..TRAJECTORY_KINDS.len()));
         Scene {
             bodies: [0, 1].map(|k| solids[k].body()),
             trajectories: kinds.map(|kind| courses::draw(rng, kind, SCENE_RADIUS)),

@@ -50,7 +50,7 @@ pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
 
 /// Returns T21: T1 with a cube that has faces of no area, repeated faces and reversed faces.
 fn degenerate_cube() -> Scene {
-    let mut mesh: Mesh = cuboid(DVec3::splat(0.5)).mesh.flipped();
+    let mut mesh: Mesh = cuboid(DVec3::splat(0.5)).mesh.with_reversed_faces();
     let clean = mesh.faces.clone();
     mesh.faces.extend(clean.iter().map(|f| [f[0], f[0], f[1]]));
     mesh.faces.extend(clean.iter().map(|f| [f[2]; 3]));

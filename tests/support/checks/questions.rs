@@ -5,7 +5,7 @@ use crate::law;
 use crate::query::Bodies;
 use crate::referee::Finding;
 use ccd_core::order::lesser;
-use ccd_core::{Answer, Clearance, Contact, Outcome};
+use ccd_core::{Answer, ClearanceVerdict, Contact, Outcome};
 
 impl Judge<'_> {
     /// Checks an answer to whether the bodies touch at all: no contact is missed or false, and the contact is as
@@ -99,7 +99,7 @@ impl Judge<'_> {
             Outcome::Overlapping { .. } => return self.check(answer, bodies),
             _ => {}
         }
-        if let Some((time, contact)) = outcome.nearest() {
+        if let Some((time, contact)) = outcome.nearest_contact() {
             let gap = self.referee.gap(time);
             law!(
                 gap <= upper + rounding || self.may_overlap(time, &contact),
@@ -107,7 +107,7 @@ impl Judge<'_> {
             );
         }
         law!(
-            outcome.clearance(required) != Clearance::Unverified
+            outcome.clearance_verdict(required) != ClearanceVerdict::Unverified
                 || upper - lower <= answer.tolerance && upper <= required + answer.tolerance,
             "{required} is not verified within {lower} and {upper}"
         );
@@ -181,7 +181,7 @@ impl Judge<'_> {
     /// apart.
     fn may_overlap(&self, time: f64, contact: &Contact) -> bool {
         let touched = match self.finding {
-            Finding::Hit { lo, .. } | Finding::TooNear { lo } => time >= lo,
+            Finding::Hit { lo, .. } | Finding::Graze { lo } => time >= lo,
             Finding::ContactAtStart => true,
             Finding::Free { .. } | Finding::Undecided { .. } => false,
         };
@@ -195,7 +195,7 @@ impl Judge<'_> {
         match self.finding {
             Finding::Hit { .. } => 0.0,
             Finding::Free { gap } => lesser(gap, least),
-            Finding::ContactAtStart | Finding::TooNear { .. } | Finding::Undecided { .. } => least,
+            Finding::ContactAtStart | Finding::Graze { .. } | Finding::Undecided { .. } => least,
         }
     }
 }

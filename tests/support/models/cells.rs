@@ -136,8 +136,8 @@ impl CellGrid<'_> {
         let mut numbers = HashMap::new();
         let mut vertices = Vec::new();
         let mut top = Vec::new();
-        for i in 0..self.rows.step_count() {
-            for j in (0..self.columns.step_count()).filter(|&j| (self.is_filled)(i, j)) {
+        for i in 0..self.rows.cell_count() {
+            for j in (0..self.columns.cell_count()).filter(|&j| (self.is_filled)(i, j)) {
                 let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
                 // Vertex k + 1 is above vertex k of the bottom.
                 let [a, b, c, d] = corners.map(|(i, j)| {

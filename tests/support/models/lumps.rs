@@ -41,7 +41,7 @@ pub fn dented_cube(half: f64, depth: f64) -> Shape {
 /// Returns a solid with a cavity, as two shells of which the inner one is reversed.
 pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
     let mut mesh = outer.mesh.clone();
-    mesh.append(&inner.mesh.clone().flipped());
+    mesh.append(&inner.mesh.clone().with_reversed_faces());
     Shape::from_closed_mesh(mesh)
 }
 

@@ -91,7 +91,7 @@ pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
             .collect(),
         faces: grid_faces(GridExtent::Wrapping(rings), GridExtent::Wrapping(sides)),
     };
-    Shape::from_closed_mesh(mesh.flipped())
+    Shape::from_closed_mesh(mesh.with_reversed_faces())
 }
 
 /// Returns a tube around a trefoil knot, of about unit size, with `rings` sections of `sides` vertices.

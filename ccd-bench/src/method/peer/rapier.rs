@@ -33,7 +33,7 @@ pub struct TwoBodySimulation {
 }
 
 /// The largest distance at which a hit is reported, as a multiple of the allowed error.
-const MAX_HIT_DISTANCE_IN_ERRORS: f64 = 1.25;
+const MAX_HIT_DISTANCE_PER_ERROR: f64 = 1.25;
 /// The fraction of A's motion from which a step counts as not stopped; it is below 1 because poses are rounded.
 const MIN_COMPLETE_FRACTION: f64 = 1.0 - 1e-9;
 
@@ -61,7 +61,7 @@ impl TwoBodySimulation {
     fn set_query(&mut self, query: &Motions, tolerance: f64) {
         let parameters = &mut self.world.integration_parameters;
         parameters.dt = query.duration;
-        parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_DISTANCE_IN_ERRORS;
+        parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_DISTANCE_PER_ERROR;
         self.world.bodies[self.b].set_position(pose_at(&query.b, 0.0), true);
         let a = &mut self.world.bodies[self.a];
         let centre = to_parry_vector(query.a.centre());

@@ -90,7 +90,7 @@ impl Contact {
             return Reply::new(claim, 0);
         }
         // A body that does not rotate encloses the other's motion in its frame without loss.
-        let order = if courses[0].rate < courses[1].rate {
+        let order = if courses[0].angular_speed < courses[1].angular_speed {
             [1, 0]
         } else {
             [0, 1]
@@ -190,8 +190,8 @@ impl Search<'_> {
         }
         let open = match open_pair([a.content, b.content], size) {
             OpenedPair::Triangles(leaves) => return self.first_touch_of_leaves(leaves, interval),
-            OpenedPair::OfA(children) => children.map(|child| [child, nodes[1]]),
-            OpenedPair::OfB(children) => children.map(|child| [nodes[0], child]),
+            OpenedPair::ChildrenOfA(children) => children.map(|child| [child, nodes[1]]),
+            OpenedPair::ChildrenOfB(children) => children.map(|child| [nodes[0], child]),
         };
         self.stack
             .extend(open.map(|nodes| NodePair { nodes, interval }));

@@ -98,8 +98,9 @@ impl DynamicChecker {
 impl Solver for DynamicChecker {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-        let speed =
-            |course: &RivalMotion, reach: f64| course.velocity.length() + course.rate * reach;
+        let speed = |course: &RivalMotion, reach: f64| {
+            course.velocity.length() + course.angular_speed * reach
+        };
         let reach_a = self.radius_cache_a.radius_about(a.centre, &self.trees.a);
         let reach_b = self.radius_cache_b.radius_about(b.centre, &self.trees.b);
         let mut task = QueryTask {

@@ -17,7 +17,7 @@ pub struct RivalMotion {
     /// The unit axis of rotation in the world frame; any axis if the body does not rotate.
     pub axis: DVec3,
     /// The rate of rotation in radians per unit of time.
-    pub rate: f64,
+    pub angular_speed: f64,
 }
 
 /// A rigid placement of a body: `x ↦ rotation x + translation`.
@@ -40,13 +40,13 @@ impl RivalMotion {
             velocity: motion.velocity(),
             start_orientation: orientation,
             axis: motion.spin().try_normalize().unwrap_or(DVec3::Z),
-            rate,
+            angular_speed: rate,
         }
     }
 
     /// Returns the placement of the body at a time.
     pub fn placement_at(&self, time: f64) -> Placement {
-        let turn = DMat3::from_quat(DQuat::from_axis_angle(self.axis, self.rate * time));
+        let turn = DMat3::from_quat(DQuat::from_axis_angle(self.axis, self.angular_speed * time));
         let rotation = turn * self.start_orientation;
         Placement {
             rotation,

@@ -10,6 +10,7 @@ use super::obb_tree::ObbTree;
 /// The result is infinite for bodies at rest.
 pub(super) fn resolution(courses: &[RivalMotion; 2], trees: &[ObbTree; 2], tolerance: f64) -> f64 {
     let straight = (courses[0].velocity - courses[1].velocity).length();
-    let turning = |k: usize| courses[k].rate * trees[k].radius_bound_about(courses[k].centre);
+    let turning =
+        |k: usize| courses[k].angular_speed * trees[k].radius_bound_about(courses[k].centre);
     tolerance / (straight + turning(0) + turning(1))
 }

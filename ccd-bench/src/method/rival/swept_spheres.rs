@@ -186,7 +186,7 @@ impl RssTreePair {
         let sizes = [a.diameter_bound(), b.diameter_bound()];
         match open_pair([a.content, b.content], sizes) {
             OpenedPair::Triangles(leaves) => PairChildren::Triangles(leaves),
-            OpenedPair::OfA(below) => PairChildren::Pairs(below.map(|a| {
+            OpenedPair::ChildrenOfA(below) => PairChildren::Pairs(below.map(|a| {
                 let child = &self.a.nodes[a as usize].placement;
                 let placement = pair.placement.relative_to(child);
                 RssNodePair {
@@ -195,7 +195,7 @@ impl RssTreePair {
                     ..*pair
                 }
             })),
-            OpenedPair::OfB(below) => PairChildren::Pairs(below.map(|b| {
+            OpenedPair::ChildrenOfB(below) => PairChildren::Pairs(below.map(|b| {
                 let child = &self.b.nodes[b as usize].placement;
                 let placement = compose(&pair.placement, child);
                 RssNodePair {

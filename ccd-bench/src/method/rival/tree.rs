@@ -5,9 +5,9 @@ use super::triangles_apart::Triangle;
 /// What a traversal of two trees examines in place of a pair of nodes.
 pub(super) enum OpenedPair {
     /// The children of A's node, each with B's node.
-    OfA([u32; 2]),
+    ChildrenOfA([u32; 2]),
     /// The children of B's node, each with A's node.
-    OfB([u32; 2]),
+    ChildrenOfB([u32; 2]),
     /// The triangles of two leaves.
     Triangles([u32; 2]),
 }
@@ -18,10 +18,10 @@ pub(super) fn open_pair([a, b]: [NodeContent; 2], [size_a, size_b]: [f64; 2]) ->
     match (a, b) {
         (NodeContent::Triangle(a), NodeContent::Triangle(b)) => OpenedPair::Triangles([a, b]),
         (NodeContent::Children(below), NodeContent::Children(_)) if size_a > size_b => {
-            OpenedPair::OfA(below)
+            OpenedPair::ChildrenOfA(below)
         }
-        (_, NodeContent::Children(below)) => OpenedPair::OfB(below),
-        (NodeContent::Children(below), NodeContent::Triangle(_)) => OpenedPair::OfA(below),
+        (_, NodeContent::Children(below)) => OpenedPair::ChildrenOfB(below),
+        (NodeContent::Children(below), NodeContent::Triangle(_)) => OpenedPair::ChildrenOfA(below),
     }
 }
 

@@ -21,7 +21,7 @@ pub struct Journal {
 }
 
 /// The name of the file that describes the program and settings of the measurements in a folder.
-const STAMP_FILE: &str = "measured-with.txt";
+const FINGERPRINT_FILE: &str = "measured-with.txt";
 const CHART_FILE: &str = "chart.csv";
 const TRIALS_FILE: &str = "trials.csv";
 
@@ -38,7 +38,7 @@ impl Journal {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         let chart = folder.join(CHART_FILE);
         let claim = Claim::new(chart.clone()).with_context(|| chart.display().to_string())?;
-        let stamp_file = folder.join(STAMP_FILE);
+        let stamp_file = folder.join(FINGERPRINT_FILE);
         if !fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp) {
             for name in [CHART_FILE, TRIALS_FILE] {
                 let path = folder.join(name);
@@ -119,7 +119,7 @@ impl Journal {
 }
 
 /// Returns a line of text that identifies this build of the program by a checksum.
-pub fn program_stamp() -> String {
+pub fn program_fingerprint() -> String {
     let program = std::env::current_exe().and_then(fs::read);
     let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
     format!("program {program:08x}\n")

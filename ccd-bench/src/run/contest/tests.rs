@@ -3,7 +3,7 @@ use crate::method::Method;
 use crate::method::guarded::MethodPrograms;
 use crate::method::solver::ContactClaim;
 use crate::scene::model::cuboid;
-use crate::scene::{ModelCache, PieceKind, listings};
+use crate::scene::{ModelCache, PieceKind, scene_descriptions};
 use crate::truth::Truth;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
@@ -67,7 +67,7 @@ fn claims_get_expected_verdicts(
 }
 
 fn small_scene() -> Scene {
-    let listing = listings()
+    let listing = scene_descriptions()
         .unwrap()
         .into_iter()
         .find(|listing| listing.name == "knot216")

@@ -3,10 +3,10 @@ use std::collections::HashSet;
 
 #[test]
 fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
-    let listings = listings().unwrap();
-    let names: HashSet<&str> = listings.iter().map(|l| l.name.as_str()).collect();
-    assert_eq!(names.len(), listings.len());
-    for listing in &listings {
+    let scene_descriptions = scene_descriptions().unwrap();
+    let names: HashSet<&str> = scene_descriptions.iter().map(|l| l.name.as_str()).collect();
+    assert_eq!(names.len(), scene_descriptions.len());
+    for listing in &scene_descriptions {
         assert!(
             listing.model_from_name(&listing.a).is_ok()
                 && listing.model_from_name(&listing.b).is_ok()
@@ -29,9 +29,9 @@ fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
 
 #[test]
 fn missing_data_is_named_in_the_error() {
-    let mut listing = listings().unwrap().remove(0);
+    let mut listing = scene_descriptions().unwrap().remove(0);
     listing.rows = Some(0..10_000);
-    let make = |listing: &SceneListing| {
+    let make = |listing: &SceneDescription| {
         format!(
             "{:#}",
             listing.make_scene(&mut ModelCache::default()).unwrap_err()

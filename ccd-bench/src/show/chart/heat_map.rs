@@ -113,7 +113,7 @@ const STOPPED_PROCESS_COLOUR: RGBColor = COLOURS[6];
 pub struct HeatCell {
     fill_colour: RGBColor,
     text_colour: RGBColor,
-    lines: [String; 2],
+    text_lines: [String; 2],
     /// The length of the bar, as a share of the cell's width.
     bar_fraction: f64,
 }
@@ -127,7 +127,7 @@ impl HeatCell {
         HeatCell {
             fill_colour: fill,
             text_colour: ink,
-            lines: [word.to_owned(), limit],
+            text_lines: [word.to_owned(), limit],
             bar_fraction: share,
         }
     }
@@ -145,7 +145,7 @@ impl HeatCell {
         HeatCell {
             fill_colour: GROWTH_COLOURS[darkness],
             text_colour: if darkness < 2 { TEXT_COLOUR } else { WHITE },
-            lines: [String::new(), number],
+            text_lines: [String::new(), number],
             bar_fraction: 0.0,
         }
     }
@@ -224,7 +224,7 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCe
     let centred = text_style(SMALLEST_FONT_SIZE)
         .color(&cell.text_colour)
         .pos(Pos::new(HPos::Center, VPos::Center));
-    for (line, down) in cell.lines.iter().zip([5.0, 13.5]) {
+    for (line, down) in cell.text_lines.iter().zip([5.0, 13.5]) {
         draw_text(sheet, line, (x + 0.5 * width, y + down), &centred)?;
     }
     Ok(())

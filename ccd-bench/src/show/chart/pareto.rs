@@ -17,9 +17,9 @@ use plotters::prelude::*;
 /// The least error on the axis; smaller ones are due to rounding, and are drawn at the edge.
 const MIN_DRAWN_ERROR: f64 = 1e-12;
 /// The number of planes side by side, and their height in pixels.
-const PLANES_PER_ROW_AND_HEIGHT: (usize, f64) = (3, 260.0);
+const PLOTS_PER_ROW_AND_HEIGHT: (usize, f64) = (3, 260.0);
 /// The width of a method's lane in the strip of unsafe methods, and the least width of the strip, in pixels.
-const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
+const UNSAFE_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 
 /// Returns the SVG text of the chart, with a plane for each measured scene; `None` if there are no times.
 pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
@@ -60,8 +60,8 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
         );
     }
     let title = "Time against error: lower left is better";
-    let rows = scenes.len().div_ceil(PLANES_PER_ROW_AND_HEIGHT.0);
-    let bottom = HEAD_HEIGHT + PLANES_PER_ROW_AND_HEIGHT.1 * rows as f64;
+    let rows = scenes.len().div_ceil(PLOTS_PER_ROW_AND_HEIGHT.0);
+    let bottom = HEAD_HEIGHT + PLOTS_PER_ROW_AND_HEIGHT.1 * rows as f64;
     let height = bottom + footer_height(&shown, &remarks);
     let svg = draw_svg(title, (CHART_WIDTH, height), |sheet| {
         draw_header(
@@ -72,7 +72,7 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
         )?;
         let (panels, _) = sheet.split_vertically(to_drawing_units(bottom));
         let (_, panels) = panels.split_vertically(to_drawing_units(HEAD_HEIGHT));
-        let panels = panels.split_evenly((rows, PLANES_PER_ROW_AND_HEIGHT.0));
+        let panels = panels.split_evenly((rows, PLOTS_PER_ROW_AND_HEIGHT.0));
         for (scene, panel) in scenes.iter().zip(&panels) {
             draw_scene(charts, panel, scene, &plane, &shown)?;
         }
@@ -92,8 +92,8 @@ fn draw_scene(
     let strip = match hollow.len() {
         0 => 0.0,
         lanes => greater(
-            LANE_AND_STRIP_WIDTHS.1,
-            LANE_AND_STRIP_WIDTHS.0 * (lanes as f64 + 1.0),
+            UNSAFE_STRIP_WIDTHS.1,
+            UNSAFE_STRIP_WIDTHS.0 * (lanes as f64 + 1.0),
         ),
     };
     let width = panel.dim_in_pixel().0 as i32;
@@ -116,7 +116,7 @@ fn draw_scene(
     // Unsafe methods have a time alone, and a lane each: at 10, 100 and so on of a logarithmic axis.
     let lane = |number: usize| 10f64.powi(number as i32 + 1);
     let strip = strip.titled("unsafe", bold.color(&WARNING_COLOUR))?;
-    let mut beside = plane.empty_plane_beside(&strip, 1.0..lane(hollow.len()))?;
+    let mut beside = plane.empty_plot_beside(&strip, 1.0..lane(hollow.len()))?;
     beside.plotting_area().fill(&WARNING_COLOUR.mix(0.08))?;
     for (number, (method, style)) in hollow.iter().enumerate() {
         for cell in charts.cells_of(scene, method.name) {

@@ -58,7 +58,7 @@ pub(super) fn decade_range(values: impl Iterator<Item = f64>) -> Option<Range<f6
 impl PlotAxes {
     /// Draws the axes of the plane on a sheet.
     pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<PlaneContext<'a, 's>> {
-        let mut drawn = self.empty_plane_beside(sheet, self.x.0.clone())?;
+        let mut drawn = self.empty_plot_beside(sheet, self.x.0.clone())?;
         drawn
             .configure_mesh()
             .max_light_lines(1)
@@ -78,7 +78,7 @@ impl PlotAxes {
 
     /// Prepares a plane with the same vertical axis, but without numbers and grid lines, such as a strip beside this
     /// plane.
-    pub(super) fn empty_plane_beside<'a, 's>(
+    pub(super) fn empty_plot_beside<'a, 's>(
         &self,
         sheet: &'a Sheet<'s>,
         x: Range<f64>,

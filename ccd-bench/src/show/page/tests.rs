@@ -1,11 +1,13 @@
 use super::*;
-use crate::scene::{ModelCache, listings};
+use crate::scene::{ModelCache, scene_descriptions};
 use serde_json::Value;
 
 /// Returns the page of the smallest scene, with a table whose names contain HTML.
 fn page() -> String {
-    let listings = listings().unwrap();
-    let listing = listings.iter().find(|listing| listing.name == "knot216");
+    let scene_descriptions = scene_descriptions().unwrap();
+    let listing = scene_descriptions
+        .iter()
+        .find(|listing| listing.name == "knot216");
     let scene = listing
         .unwrap()
         .make_scene(&mut ModelCache::default())
@@ -15,7 +17,7 @@ fn page() -> String {
         header: vec!["name & kind".to_owned()],
         rows: vec![vec!["{{style}}".to_owned()]],
     };
-    let views = Views::new(&[scene]).unwrap();
+    let views = SceneAnimations::new(&[scene]).unwrap();
     page_html("<svg></svg>", &views, &[table]).unwrap()
 }
 

@@ -14,7 +14,7 @@ pub(super) fn families() -> Vec<Family> {
             .with_parameter("angle to parallel", negative_powers_of_ten(1..=15)),
         family("edge across edge", edge_across_edge)
             .with_parameter("angle to parallel", negative_powers_of_ten(1..=15)),
-        family("flat approach", cube_at_flat_angle)
+        family("flat approach", cube_at_grazing_angle)
             .with_parameter("angle to the face", negative_powers_of_ten(1..=12)),
         family("cubes that hardly meet", barely_overlapping_cubes)
             .with_parameter("overlap", negative_powers_of_ten(1..=15)),
@@ -87,7 +87,7 @@ fn slightly_rotating_cube(turn: f64) -> Result<FamilyStep> {
 }
 
 /// Makes a cube that flies down to a slab at a small angle, and meets it halfway through its flight.
-fn cube_at_flat_angle(angle: f64) -> Result<FamilyStep> {
+fn cube_at_grazing_angle(angle: f64) -> Result<FamilyStep> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));

@@ -26,7 +26,7 @@ pub(super) fn families() -> Vec<Family> {
             .with_parameter("layers", powers_of_ten(0..=4)),
         family("slab with a sliver", cube_onto_sliver)
             .with_parameter("width of the sliver", negative_powers_of_ten(0..=12)),
-        family("field of solids", field_of_solids).with_parameter("solids", doubled(2..=12)),
+        family("field of solids", cube_onto_cube_field).with_parameter("solids", doubled(2..=12)),
         family("cones tip onto tip", tip_onto_tip)
             .with_parameter("way aside", negative_powers_of_ten(1..=12)),
     ]
@@ -76,7 +76,7 @@ fn cube_onto_sliver(width: f64) -> Result<FamilyStep> {
 }
 
 /// Makes a cube that falls onto one mesh of many cubes, every other one of which is inside out.
-fn field_of_solids(count: f64) -> Result<FamilyStep> {
+fn cube_onto_cube_field(count: f64) -> Result<FamilyStep> {
     // The cube covers the middle of the field, where at least four others are.
     let step = FamilyStep::new(cube()?, cube_grid_half_inside_out(count as u32)?);
     let expected = contact_at(0.625, 1e-14);

@@ -41,7 +41,7 @@ fn names_agree_with_a_scan_of_all_facets() {
     let piece = pieces.get(0);
     // The piece belongs to no list, so that nothing is stored.
     let bare = Piece {
-        side_table_row: None,
+        cache_table_row: None,
         ..piece
     };
     assert!(

@@ -7,7 +7,7 @@ use crate::tests::scene::{SoupKind, pieces, rng, soup};
 
 fn assert_refused(nodes: &[super::HierarchyNode], pieces: usize) -> usize {
     match Hierarchy::new(nodes.to_vec(), pieces) {
-        Err(InputError::BadHierarchy { at }) => at,
+        Err(InputError::BadHierarchy { index: at }) => at,
         other => panic!("{nodes:?} made {other:?}"),
     }
 }

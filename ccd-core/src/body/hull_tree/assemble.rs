@@ -138,7 +138,7 @@ fn check_and_make_inner_node<'a>(
     let has_uniform_radius = even(left) && even(right);
     let numbered = [0, 1].map(|k| NumberedChild {
         node: children[k].1,
-        common_numbers: &identity.child_point_numbers[k],
+        point_numbers: &identity.child_point_numbers[k],
     });
     let radius = greater(left.radius, right.radius);
     Ok(Node {

@@ -2,18 +2,18 @@
 
 use crate::body::facets::{edges_of, fan_triangles};
 use crate::body::piece::Piece;
-use crate::body::support::Support;
-use crate::math::exact::{first_point_below_exact_range, side};
+use crate::body::support::SupportMap;
+use crate::math::exact::{first_point_below_exact_range, side_of_plane};
 use glam::DVec3;
 use std::cmp::Ordering;
 
 /// Builds the search structure for extremal points of a hull with many points. Edges are climbed if they are proven to
 /// be those of the hull. Otherwise a tree is searched, which uses no facets.
-pub(crate) fn build_support_map(hull: &Piece<'_>) -> Support {
+pub(crate) fn build_support_map(hull: &Piece<'_>) -> SupportMap {
     if is_convex(hull) {
-        Support::new(hull.points, hull.facets)
+        SupportMap::new(hull.points, hull.facets)
     } else {
-        Support::from_points(hull.points)
+        SupportMap::from_points(hull.points)
     }
 }
 
@@ -41,7 +41,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
         }
     }
     let position = |triangle: &[u32; 3]| triangle.map(|v| hull.points[v as usize]);
-    let behind = |triangle: &[u32; 3]| side(position(triangle), middle).is_lt();
+    let behind = |triangle: &[u32; 3]| side_of_plane(position(triangle), middle).is_lt();
     on_facets.into_iter().all(|on| on)
         && triangles.iter().all(behind)
         && is_locally_convex(&triangles, position)
@@ -53,14 +53,14 @@ fn are_coplanar(points: &[DVec3], corners: &[u32]) -> bool {
     let position = |&v: &u32| points[v as usize];
     let first = [0, 1, 2].map(|k| position(&corners[k]));
     let mut others = corners[3..].iter().map(position);
-    others.all(|p| side(first, p).is_eq())
+    others.all(|p| side_of_plane(first, p).is_eq())
 }
 
 /// Returns whether a facet is a convex polygon: seen from the point `middle` behind it, no corner is reflex.
 fn is_convex_polygon(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
     let position = |k: usize| points[corners[k % corners.len()] as usize];
     let fan = |k: usize| [position(k), position(k + 1), position(k + 2)];
-    (0..corners.len()).all(|k| side(fan(k), middle).is_le())
+    (0..corners.len()).all(|k| side_of_plane(fan(k), middle).is_le())
 }
 
 /// Returns whether the surface is locally convex: the neighbour across every edge is not in front of the triangle's
@@ -80,7 +80,7 @@ fn is_locally_convex(triangles: &[[u32; 3]], position: impl Fn(&[u32; 3]) -> [DV
         let next = across(edge);
         next.is_some_and(|next| {
             let mut corners = position(next).into_iter();
-            corners.all(|p| side(position(triangle), p).is_le())
+            corners.all(|p| side_of_plane(position(triangle), p).is_le())
         })
     };
     once && sides.iter().all(bends)
@@ -100,7 +100,7 @@ fn covers_one_direction_once(
     for triangle in triangles {
         let [a, b, c] = position(triangle);
         let sides = [[a, b], [b, c], [c, a]];
-        let past = sides.map(|[from, to]| side([middle, to, from], target));
+        let past = sides.map(|[from, to]| side_of_plane([middle, to, from], target));
         if past.into_iter().all(Ordering::is_lt) {
             met += 1;
         } else if !past.into_iter().any(Ordering::is_gt) {

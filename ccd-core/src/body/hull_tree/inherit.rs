@@ -67,7 +67,7 @@ impl FacetData {
 pub(super) struct NumberedChild<'a> {
     pub(super) node: &'a Node<'a>,
     /// The common number of each of the child's points.
-    pub(super) common_numbers: &'a [u32],
+    pub(super) point_numbers: &'a [u32],
 }
 
 /// Returns the origin, class and mesh faces of each facet of a hull, taken from the children's facets.
@@ -104,15 +104,15 @@ struct ChildFacet<'a> {
 
 impl ChildFacet<'_> {
     /// Returns the common numbers of the facet's corners.
-    fn common_corner_numbers(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
+    fn corner_numbers(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
         self.corners
             .iter()
-            .map(|&v| self.child.common_numbers[v as usize])
+            .map(|&v| self.child.point_numbers[v as usize])
     }
 
     fn edges(&self) -> impl Iterator<Item = (u32, u32)> + Clone {
-        self.common_corner_numbers()
-            .zip(self.common_corner_numbers().cycle().skip(1))
+        self.corner_numbers()
+            .zip(self.corner_numbers().cycle().skip(1))
     }
 
     fn mesh_faces(&self) -> Vec<Face> {
@@ -140,7 +140,7 @@ struct ChildFacets<'a> {
 }
 
 /// The corners of the front and the back face of a hull that is a single triangle, in the order of each face.
-const TRIANGLE_SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
+const FRONT_AND_BACK_CORNERS: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> ChildFacets<'a> {
     /// Creates the lookup for a child; `positions` is the number of common numbers.
@@ -149,14 +149,14 @@ impl<'a> ChildFacets<'a> {
         single_triangle: Option<&'a FacetData>,
         positions: usize,
     ) -> Self {
-        let sides = TRIANGLE_SIDES.iter().map(|corners| &corners[..]);
+        let sides = FRONT_AND_BACK_CORNERS.iter().map(|corners| &corners[..]);
         let loops = child
             .node
             .facets
             .iter()
             .chain(sides.filter(|_| single_triangle.is_some()));
         let edges = loops.zip(0..).flat_map(|(corners, k)| {
-            let id = |v: u32| child.common_numbers[v as usize];
+            let id = |v: u32| child.point_numbers[v as usize];
             edges_of(corners).map(move |(from, to)| ((id(from), id(to)), k))
         });
         ChildFacets {
@@ -171,7 +171,7 @@ impl<'a> ChildFacets<'a> {
         let (corners, facet) = match node.facets.get(k) {
             Some(corners) => (corners, node.facet_data.get(k)?),
             None => (
-                &TRIANGLE_SIDES.get(k - node.facets.len())?[..],
+                &FRONT_AND_BACK_CORNERS.get(k - node.facets.len())?[..],
                 self.single_triangle_data?,
             ),
         };
@@ -212,13 +212,12 @@ fn is_same_loop(part: &ChildFacet<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
     }
-    let first = part.common_corner_numbers().next();
+    let first = part.corner_numbers().next();
     let Some(start) = other.iter().position(|&v| Some(v) == first) else {
         return false;
     };
     let (end, begin) = other.split_at(start);
-    part.common_corner_numbers()
-        .eq(begin.iter().chain(end).copied())
+    part.corner_numbers().eq(begin.iter().chain(end).copied())
 }
 
 /// Returns whether two convex polygons together tile a facet of the hull. Edges that run both ways are dropped. The

@@ -2,7 +2,7 @@
 
 use super::loops::PolygonList;
 use crate::body::facets::fan_triangles;
-use crate::math::exact::{is_degenerate, side, side_of_line_along};
+use crate::math::exact::{is_degenerate, side_of_line_along, side_of_plane};
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -54,10 +54,12 @@ impl<'a> PreparedHull<'a> {
         // The facets whose planes contain the point, which is behind all others.
         let mut level = vec![0; positions.len()];
         for &triangle in &self.fan_triangles {
-            tree.for_each_not_behind(triangle, |k| match side(triangle, positions[k as usize]) {
-                Ordering::Less => {}
-                Ordering::Equal => level[k as usize] += 1,
-                Ordering::Greater => outside[k as usize] = true,
+            tree.for_each_not_behind(triangle, |k| {
+                match side_of_plane(triangle, positions[k as usize]) {
+                    Ordering::Less => {}
+                    Ordering::Equal => level[k as usize] += 1,
+                    Ordering::Greater => outside[k as usize] = true,
+                }
             });
         }
         (0..positions.len()).find(|&k| {
@@ -88,7 +90,7 @@ fn is_on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
 /// Returns whether a triangle is in the plane of a polygon, with the same orientation.
 pub(super) fn is_coplanar_and_cooriented(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
     projectable_corners(polygon).is_some_and(|(fan, axis)| {
-        let in_plane = |&p: &DVec3| side(fan, p).is_eq();
+        let in_plane = |&p: &DVec3| side_of_plane(fan, p).is_eq();
         let turn = |[a, b, c]: [DVec3; 3]| side_of_line_along(axis, [a, b], c);
         let same_side = turn(fan).is_gt() == turn(triangle).is_gt();
         same_side && triangle.iter().all(in_plane)
@@ -112,7 +114,7 @@ fn is_in_polygon(corners: &[DVec3], point: DVec3) -> bool {
     };
     let [a, b, c] = fan;
     let front = side_of_line_along(axis, [a, b], c);
-    let in_plane = |p: &DVec3| side(fan, *p).is_eq();
+    let in_plane = |p: &DVec3| side_of_plane(fan, *p).is_eq();
     if !(in_plane(&point) && corners.iter().all(in_plane)) {
         return false;
     }

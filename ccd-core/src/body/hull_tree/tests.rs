@@ -328,12 +328,12 @@ fn nodes_that_are_no_hierarchy_are_refused() {
     let refused = |nodes: &[HullNode]| HullTree::new(&pieces, nodes).unwrap_err();
     let root = |children| HullNode::Inner(children, box_hull(0.0, 3.0));
     let missing = refused(&[HullNode::Leaf(0)]);
-    assert_eq!(missing, InputError::BadHierarchy { at: 1 }.into());
+    assert_eq!(missing, InputError::BadHierarchy { index: 1 }.into());
     let twice = refused(&[root([1, 2]), HullNode::Leaf(1), HullNode::Leaf(1)]);
-    assert_eq!(twice, InputError::BadHierarchy { at: 1 }.into());
+    assert_eq!(twice, InputError::BadHierarchy { index: 1 }.into());
     let cycle = refused(&[root([1, 0]), HullNode::Leaf(0)]);
-    assert_eq!(cycle, InputError::BadHierarchy { at: 0 }.into());
-    assert_eq!(refused(&[]), InputError::BadHierarchy { at: 0 }.into());
+    assert_eq!(cycle, InputError::BadHierarchy { index: 0 }.into());
+    assert_eq!(refused(&[]), InputError::BadHierarchy { index: 0 }.into());
 }
 
 #[test]

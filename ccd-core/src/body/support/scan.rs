@@ -32,7 +32,7 @@ impl SupportScan {
     /// Returns the index of the point that is farthest along a direction; the first one if several are equally far.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal_point`](crate::Support::extremal_point).
+    /// The guarantee of [`SupportMap::extremal_point`](crate::SupportMap::extremal_point).
     ///
     /// # Complexity
     /// Linear in the number of points.

@@ -53,7 +53,7 @@ impl SupportTable {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal_point`](crate::Support::extremal_point), provided that the facets are those of
+    /// The guarantee of [`SupportMap::extremal_point`](crate::SupportMap::extremal_point), provided that the facets are those of
     /// the hull.
     #[inline]
     pub fn extremal_point(&self, direction: DVec3) -> u32 {

@@ -174,19 +174,19 @@ fn directions_are_their_own_nearest_and_none_is_far() {
 fn many_corners_with_facets_are_climbed_others_looked_at() {
     let large = paraboloid_grid(40);
     assert!(matches!(
-        Support::new(large.get(0).points, large.get(0).facets),
-        Support::Climb(_)
+        SupportMap::new(large.get(0).points, large.get(0).facets),
+        SupportMap::Climb(_)
     ));
     let bare = Piece::from_points(large.points());
     assert!(matches!(
-        Support::new(bare.points, bare.facets),
-        Support::Scan(_)
+        SupportMap::new(bare.points, bare.facets),
+        SupportMap::Scan(_)
     ));
     assert!(SupportTable::new(bare.points, bare.facets).is_none());
     let small = paraboloid_grid(2);
     assert!(matches!(
-        Support::new(small.get(0).points, small.get(0).facets),
-        Support::Scan(_)
+        SupportMap::new(small.get(0).points, small.get(0).facets),
+        SupportMap::Scan(_)
     ));
 }
 

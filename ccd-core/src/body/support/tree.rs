@@ -84,7 +84,7 @@ impl SupportTree {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal_point`](crate::Support::extremal_point), for any points.
+    /// The guarantee of [`SupportMap::extremal_point`](crate::SupportMap::extremal_point), for any points.
     ///
     /// # Complexity
     /// About logarithmic in the number of points of a curved surface; linear if all are equally far.

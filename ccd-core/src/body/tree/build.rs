@@ -67,7 +67,7 @@ impl PieceRanges {
         if order.len() == pieces {
             Ok(PieceRanges { order, node_ranges })
         } else {
-            Err(InputError::BadHierarchy { at: order.len() })
+            Err(InputError::BadHierarchy { index: order.len() })
         }
     }
 

@@ -27,7 +27,7 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
 /// Returns whether a point is certainly farther than `reach` from all triangles of the body's surface.
 pub(crate) fn is_far_from_surface(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     let is_far = |triangle| is_triangle_certainly_farther(triangle, point, reach);
-    leaves_near(tree, point, reach).all(|leaf| leaf.all_triangles(pieces, is_far))
+    leaves_near(tree, point, reach).all(|leaf| leaf.all_triangles_satisfy(pieces, is_far))
 }
 
 /// A leaf of the tree that a search finds: one piece, or several triangles with a common box.
@@ -39,7 +39,7 @@ pub(super) enum Leaf {
 
 impl Leaf {
     /// Returns whether a test holds for all triangles of the body's surface on the leaf's pieces.
-    pub(super) fn all_triangles(
+    pub(super) fn all_triangles_satisfy(
         self,
         pieces: &Pieces,
         mut test: impl FnMut([DVec3; 3]) -> bool,

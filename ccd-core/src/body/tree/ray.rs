@@ -70,7 +70,7 @@ fn sum_signed_crossings_along(
     };
     let mut add = |triangle| found.add(triangle, start).is_some();
     leaves_in(tree, |node| may_hit(node, start.from, along))
-        .all(|leaf| leaf.all_triangles(pieces, &mut add))
+        .all(|leaf| leaf.all_triangles_satisfy(pieces, &mut add))
         .then_some(found)
 }
 

@@ -9,7 +9,7 @@ use crate::rounding::RAY_BOX_WIDENING_F64;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{random_box_corners, random_direction};
-use crate::tests::worst::{WorstCaseSearch, share};
+use crate::tests::worst::{WorstCaseSearch, error_share};
 
 /// Searches for the largest rounding error of a box's projection on a direction, as a share of its allowance, the
 /// widening.
@@ -25,7 +25,8 @@ fn worst_box() {
         };
         let body = Body::polytope(of).ok()?;
         let problem =
-            Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
+            Problem::of_moving_bodies((&body, still), (&ball, still), 1.0, &Settings::DEFAULT)
+                .ok()?;
         let node = BoundingVolume::new(&problem.a, 0, &Frame::IDENTITY);
         let along = points[tape.index_below(8)] - points[tape.index_below(8)];
         let n =
@@ -40,7 +41,7 @@ fn worst_box() {
             (height - middle - reach).get()
         };
         let worst = points.iter().map(|&p| lost(p));
-        Some(share(worst.fold(f64::NEG_INFINITY, greater), allowed))
+        Some(error_share(worst.fold(f64::NEG_INFINITY, greater), allowed))
     });
     found.assert_tight_bound(400.0);
 }

@@ -120,7 +120,7 @@ impl NearSurface<'_> {
         let place = position_bits(point);
         *self.corner_indices.entry((place, id)).or_insert_with(|| {
             self.corners.push(Corner {
-                position: self.body_to_a.point(point),
+                position: self.body_to_a.transform_point(point),
                 position_bits: place,
                 id,
             });

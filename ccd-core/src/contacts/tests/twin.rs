@@ -23,7 +23,7 @@ pub(super) struct ExpectedPairs {
 }
 
 impl Mesh {
-    pub(super) fn soup(triangles: Vec<Triangle>) -> Self {
+    pub(super) fn from_triangles(triangles: Vec<Triangle>) -> Self {
         Mesh {
             faces: (0..triangles.len() as u32)
                 .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])

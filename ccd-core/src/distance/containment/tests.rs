@@ -30,7 +30,7 @@ fn containment_overlap(a: &Body, b: &Body) -> Option<Overlap> {
 
 fn containment_of(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Option<Outcome> {
     let moving = |body| MovingBody::from((body, Motion::still(Pose::IDENTITY)));
-    let problem = Problem::about(moving(a), moving(b), 1.0, &Settings::DEFAULT).unwrap();
+    let problem = Problem::of_moving_bodies(moving(a), moving(b), 1.0, &Settings::DEFAULT).unwrap();
     containment_at_start(&problem, touching, &mut Vec::new())
 }
 
@@ -274,7 +274,7 @@ fn points_near_very_long_faces_are_decided() {
 fn outcome_of_plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Option<Outcome> {
     let cube = solid(&cube(1.0, n));
     let plate = Body::cuboid([x, 1e-33, z]).unwrap();
-    let problem = Problem::about(
+    let problem = Problem::of_moving_bodies(
         (&plate, Motion::still(Pose::at(at).unwrap())),
         (&cube, Motion::STILL),
         1.0,
@@ -317,7 +317,7 @@ fn only_thin_pieces_are_examined_beside_edges() {
     let examined = |piece: Body| {
         let motion = Motion::still(Pose::at(4.0 * DVec3::X).unwrap());
         let (a, b) = ((&cube, Motion::STILL), (&piece, motion));
-        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let mut pieces = Vec::new();
         assert_eq!(containment_at_start(&problem, &[[0, 0]], &mut pieces), None);
         pieces

@@ -126,7 +126,7 @@ fn boxes_intersect(b_to_a: Frame) -> bool {
     let claim = Claim {
         axis: b_to_a.translation,
         a: named(middle),
-        b: named(b_to_a.inverse_point(middle)),
+        b: named(b_to_a.inverse_transform_point(middle)),
     };
     intersects_decidedly(&pair, &claim)
 }
@@ -164,7 +164,7 @@ fn boxes_overlap_by_more_than_rounding_or_not() {
         // The pair is seen from A, which is turned about x itself.
         let a = Frame::from(Pose::new(DVec3::ZERO, turned(DVec3::X)).unwrap());
         let b = Frame::from(Pose::new(pose.unwrap().translation(), turned(DVec3::Y)).unwrap());
-        boxes_intersect(a.from_frame(&b))
+        boxes_intersect(a.transform_from(&b))
     };
     assert!(!crossed(1e-9));
     assert!(crossed(-1e-3));
@@ -329,7 +329,7 @@ fn balls_that_touch_exactly_do_not_intersect() {
 /// edges within either plane.
 fn overlaps_by_separating_axes(pair: &PiecePair<'_>) -> bool {
     let a = PieceFeatures::from_piece(&pair.a, |p| p);
-    let b = PieceFeatures::from_piece(&pair.b, |p| pair.b_to_a.point(p));
+    let b = PieceFeatures::from_piece(&pair.b, |p| pair.b_to_a.transform_point(p));
     let across = |p: &[DoubleDouble3], q: &[DoubleDouble3]| -> Vec<DoubleDouble3> {
         let crossed = p.iter().flat_map(|e| q.iter().map(|f| e.cross(*f)));
         crossed.collect()

@@ -36,7 +36,7 @@ pub(crate) fn improve_axis(
 /// the vector perpendicular to it and a single edge, the normals of faces, and the normal of two edges.
 fn axes(pair: &PiecePair<'_>, checked: &CheckedClaim) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
-    let axis_in_b = pair.b_to_a.inverse_vector(checked.axis);
+    let axis_in_b = pair.b_to_a.inverse_transform_vector(checked.axis);
     let on_a = Feature::at_combination(&pair.a, &checked.claim.a, checked.axis);
     let on_b =
         Feature::at_combination(&pair.b, &checked.claim.b, axis_in_b).rotated(pair.b_to_a.rotation);

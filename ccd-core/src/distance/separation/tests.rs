@@ -5,7 +5,7 @@ use super::*;
 use crate::body::Body;
 use crate::body::piece::ConvexCombination;
 use crate::body::piece::Piece;
-use crate::body::support::Support;
+use crate::body::support::SupportMap;
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::pose::{Frame, Pose};
 use crate::tests::nearest::{Triangle, nearest_points};
@@ -21,7 +21,7 @@ fn random_triangle_pair(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
     let pair = scene::two_random_triangles(rng);
     let pose = Pose::new(random_point_in_ball(rng, 0.5), random_rotation(rng)).unwrap();
     let frame = Frame::from(pose);
-    let distance = nearest_points(&pair[0], &pair[1].map(|p| frame.point(p))).distance;
+    let distance = nearest_points(&pair[0], &pair[1].map(|p| frame.transform_point(p))).distance;
     (pair[0], pair[1], frame, distance)
 }
 
@@ -201,7 +201,7 @@ fn features_have_better_axes_than_near_points() {
         let distance = random_power_of_ten(&mut rng, -4.0, -1.0);
         let (a, b) = couples[k % 3];
         let b_to_a = Frame::from(Pose::new(DVec3::ZERO, random_rotation(&mut rng)).unwrap());
-        let b = b.map(|p| b_to_a.inverse_vector(p + distance * DVec3::Z));
+        let b = b.map(|p| b_to_a.inverse_transform_vector(p + distance * DVec3::Z));
         let pair = PiecePair {
             a: Piece::from_points(&a),
             b: Piece::from_points(&b),
@@ -234,7 +234,10 @@ fn facets_have_better_axes_than_corners_across_them() {
         let tip = [[0.0, 0.0, 0.0], [8.0, 1.0, 4.0], [-8.0, 1.0, 4.0]].map(DVec3::from);
         let tip = tip.map(|p| p + (1.0 + distance) * DVec3::Z);
         let a_to_b = Frame::from(Pose::new(DVec3::ZERO, random_rotation(&mut rng)).unwrap());
-        let turned = base.points.iter().map(|&p| a_to_b.inverse_vector(p));
+        let turned = base
+            .points
+            .iter()
+            .map(|&p| a_to_b.inverse_transform_vector(p));
         let turned: Vec<DVec3> = turned.collect();
         let b = Piece {
             points: &turned,
@@ -272,7 +275,7 @@ fn searches_for_extremal_points_change_no_gap() {
     let mut apart = 0;
     for _ in 0..500 {
         let points = [round(&mut rng), round(&mut rng)];
-        let supports = [0, 1].map(|k| Support::from_points(&points[k]));
+        let supports = [0, 1].map(|k| SupportMap::from_points(&points[k]));
         let pose = Pose::new(
             random_point_in_ball(&mut rng, 3.0),
             random_rotation(&mut rng),

@@ -146,7 +146,7 @@ fn check_contact_bounds(problem: &Problem<'_>, s: f64, contact: &Contact) {
         side.body
             .pieces()
             .triangle(piece as usize)
-            .map(|p| frame.point(p))
+            .map(|p| frame.transform_point(p))
     };
     let (a, b) = (
         placed(&problem.a, contact.piece_a),
@@ -294,7 +294,8 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
         };
         let motion = Motion::new(at, speed * DVec3::Z, DVec3::ZERO).unwrap();
         let still = Motion::still(Pose::IDENTITY);
-        let problem = Problem::about(moving(&spike, motion), moving(&flat, still), 1.0, &config);
+        let problem =
+            Problem::of_moving_bodies(moving(&spike, motion), moving(&flat, still), 1.0, &config);
         solve(&problem.unwrap()).outcome
     };
     for height in [0.0, 1e-8, 1e-4, 9e-4] {
@@ -373,7 +374,7 @@ fn a_million_groups_of_pairs_wait_at_once() {
         let rising = Motion::new(Pose::IDENTITY, DVec3::Z, DVec3::ZERO).unwrap();
         let motions = [rising, Motion::still(Pose::IDENTITY)];
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
-        solve(&Problem::about(moving(0), moving(1), 1.0, &config).unwrap())
+        solve(&Problem::of_moving_bodies(moving(0), moving(1), 1.0, &config).unwrap())
     };
     // Every plate meets the one above it at once.
     let exact = 0.5 * step;
@@ -426,7 +427,7 @@ fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
         moving(&field, Motion::still(Pose::IDENTITY)),
     );
     for (a, b) in [(large, field), (field, large)] {
-        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let answer = solve(&problem);
         assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
         let Stats {

@@ -12,7 +12,7 @@ use std::time::Duration;
 /// Creates the problem of two equal balls at rest, with limits.
 fn limited_problem<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
     let still = (ball, Motion::STILL);
-    Problem::about(still, still, 1.0, settings).unwrap()
+    Problem::of_moving_bodies(still, still, 1.0, settings).unwrap()
 }
 
 fn ball() -> Body {

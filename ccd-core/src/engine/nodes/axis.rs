@@ -9,7 +9,7 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 pub(crate) struct AxesX8<L: Simd> {
     pub(crate) n: Vec3x8<L>,
     pub(crate) gap: f32x8<L>,
-    pub(crate) split_extent: f32x8<L>,
+    pub(crate) child_extent: f32x8<L>,
     pub(crate) other_extent: f32x8<L>,
 }
 
@@ -70,7 +70,7 @@ pub(crate) fn axis_along<L: Simd, C: Children, P: OtherNode>(
     AxesX8 {
         n: v * unit,
         gap: axis.gap * unit,
-        split_extent: axis.split_extent * unit,
+        child_extent: axis.child_extent * unit,
         other_extent: axis.other_extent * unit,
     }
 }
@@ -81,7 +81,7 @@ impl<L: Simd> AxesX8<L> {
         AxesX8 {
             n,
             gap: n.dot(offset) - split_reach - other_reach,
-            split_extent: split_reach,
+            child_extent: split_reach,
             other_extent: other_reach,
         }
     }
@@ -101,7 +101,7 @@ fn wider_gap_axis<L: Simd>(a: AxesX8<L>, b: AxesX8<L>) -> AxesX8<L> {
     AxesX8 {
         n: select_vectors(pick, b.n, a.n),
         gap: pick.select(b.gap, a.gap),
-        split_extent: pick.select(b.split_extent, a.split_extent),
+        child_extent: pick.select(b.child_extent, a.child_extent),
         other_extent: pick.select(b.other_extent, a.other_extent),
     }
 }

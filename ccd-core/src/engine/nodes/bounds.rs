@@ -45,7 +45,7 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
     let revisit = widest.gap - motion.slack - (radius + other.radius()) * REVISIT_DISTANCE;
-    let split_child = (widest.split_extent + radius * ADDED_THICKNESS_PER_RADIUS)
+    let split_child = (widest.child_extent + radius * ADDED_THICKNESS_PER_RADIUS)
         - (widest.other_extent + ADDED_THICKNESS_PER_RADIUS * other.radius());
     let mut free = pairs
         .fixed_plane_free_times(widest)

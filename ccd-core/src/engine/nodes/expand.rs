@@ -173,9 +173,9 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             rotation,
             rotation_f32: rotation.narrow(),
             centre: centre.as_vec3(),
-            other_centre,
+            other_rotation_centre: other_centre,
             motion: self,
-            members,
+            header: members,
         };
         match self.other_body.body.tree().get(self.split.other_node) {
             NodeOrTriangle::Node(node) => group_view.bound(group, &group_view.other_box(node)),
@@ -190,14 +190,14 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 /// The relative motion in coordinates about the origin of a group.
 struct GroupMotion<'m, L: Simd> {
     motion: &'m RelativeMotion<'m, L>,
-    members: &'m GroupHeader,
+    header: &'m GroupHeader,
     /// The rotation from the other body's frame to the split body's frame.
     rotation: PackedMatrix<L>,
     /// The same rotation in f32, by columns.
     rotation_f32: [f32x4<L>; 3],
     /// The centre of rotation of the split body, relative to the group's origin.
     centre: Vec3,
-    other_centre: PackedVector<L>,
+    other_rotation_centre: PackedVector<L>,
 }
 
 impl<L: Simd> GroupMotion<'_, L> {
@@ -207,7 +207,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             ClosingRate::FromMotion => self.motion_in_f32(other.centre(), other.radius()),
             ClosingRate::UnitRate => self.motion_at_unit_rate(other.centre(), other.radius()),
         };
-        let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.members.count);
+        let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.header.count);
         bound_eight_pairs(self.motion.level, group, other, &motion, lanes)
     }
 
@@ -232,8 +232,9 @@ impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn to_group_point(&self, point: DVec3) -> PackedVector<L> {
         let level = self.motion.level;
-        let arm = PackedVector::new(level, point) - self.motion.relative_path.other_centre(level);
-        self.rotation * arm + self.other_centre
+        let arm = PackedVector::new(level, point)
+            - self.motion.relative_path.other_rotation_centre(level);
+        self.rotation * arm + self.other_rotation_centre
     }
 
     #[inline(always)]
@@ -285,7 +286,7 @@ impl<L: Simd> GroupMotion<'_, L> {
                 is_turning: true,
                 spin: self.motion.relative_state.spin.as_vec3(),
                 rate,
-                centre: self.other_centre.as_vec3(),
+                centre: self.other_rotation_centre.as_vec3(),
             },
             None => BodyRotation::NONE,
         }
@@ -295,7 +296,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_rotation(), self.other_rotation());
-        let reach = self.members.reach;
+        let reach = self.header.reach;
         let common = self.motion.node_context;
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
@@ -344,7 +345,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
         let [x, y, z] = centre.abs().to_array();
         let rounding = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
-            + GAP_ERROR_PER_RADIUS_F32 * (radius + self.members.reach);
+            + GAP_ERROR_PER_RADIUS_F32 * (radius + self.header.reach);
         (rounding + self.motion.node_context.rounding).next_up()
     }
 }

@@ -22,7 +22,7 @@ pub(crate) struct Siblings {
     /// The pairs for which a second visit is better than a split, as bits.
     revisit_mask: u8,
     /// The number of times that the pair was advanced since it was removed from the pairs of its split; 0 before that.
-    times_advanced: u8,
+    advance_count: u8,
 }
 
 /// The next step for a pair whose clock has run out.
@@ -60,7 +60,7 @@ impl Siblings {
             split_child_mask: 1,
             other_is_piece: false,
             revisit_mask: 0,
-            times_advanced: 0,
+            advance_count: 0,
         }
     }
 
@@ -75,7 +75,7 @@ impl Siblings {
             split_child_mask: expansion.bounds.split_child_mask,
             other_is_piece: expansion.bounds.other_is_piece,
             revisit_mask: expansion.bounds.revisit_mask,
-            times_advanced: 0,
+            advance_count: 0,
         }
     }
 
@@ -129,8 +129,8 @@ impl Siblings {
 
     /// Returns how many times the pair was advanced since it was removed from the pairs of its split; 0 before that.
     #[inline]
-    pub(crate) fn times_advanced(&self) -> usize {
-        usize::from(self.times_advanced)
+    pub(crate) fn advance_count(&self) -> usize {
+        usize::from(self.advance_count)
     }
 
     /// Removes the pair with the least clock, and returns it as a group of one pair, whose clock is `clock`.
@@ -138,7 +138,7 @@ impl Siblings {
         Siblings {
             free_times: FreeTimes::single_in_lane(self.free_times.finish_least_lane()),
             start_clock: clock,
-            times_advanced: self.times_advanced.saturating_add(1),
+            advance_count: self.advance_count.saturating_add(1),
             ..*self
         }
     }

@@ -250,7 +250,7 @@ impl<'a> Heights<'a> {
     fn lowest_track(&self, direction: DVec3) -> Track {
         let index = self
             .piece
-            .extremal_point(self.frame.inverse_vector(-direction));
+            .extremal_point(self.frame.inverse_transform_vector(-direction));
         self.track_and_arm(self.piece.points[index as usize]).0
     }
 

@@ -6,7 +6,7 @@ use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
 use crate::problem::{Problem, WhichBody};
-use crate::rounding::APPROACH_DECREASE;
+use crate::rounding::MIN_APPROACH;
 use crate::touching_plane::TouchingPlane;
 use crate::tuning::MIN_RESTING_SLACK;
 use glam::DVec3;
@@ -29,12 +29,13 @@ impl TouchingPlane {
         let problem = given.as_ref().unwrap_or(problem);
         let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
         let [frame_a, frame_b] = &snapshot.frames;
-        let from = frame_a.inverse_point(problem.to_local_point(contact.separation.witness_a));
+        let from =
+            frame_a.inverse_transform_point(problem.to_problem_point(contact.separation.witness_a));
         let gap = snapshot.gap_along_normal(normal, from);
-        let resting = APPROACH_DECREASE * problem.rounding;
+        let resting = MIN_APPROACH * problem.rounding;
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
-            normals: [frame_a, frame_b].map(|frame| frame.inverse_vector(normal)),
+            normals: [frame_a, frame_b].map(|frame| frame.inverse_transform_vector(normal)),
             least_gap: gap - resting,
         })
     }
@@ -52,7 +53,7 @@ impl Snapshot<'_> {
         ids: [u32; 2],
         from: DVec3,
     ) -> Option<TouchingPlaneState> {
-        let resting = APPROACH_DECREASE * self.problem.rounding;
+        let resting = MIN_APPROACH * self.problem.rounding;
         let of = |plane_body: WhichBody| {
             let normal = self.plane_normal(plane_body)?;
             let gap = self.gap_along_normal(normal, from);
@@ -106,14 +107,14 @@ impl Snapshot<'_> {
 
     /// Returns the gap of the pieces along a unit vector in the problem's coordinates, minus rounding.
     fn gap_along_normal(&self, normal: DVec3, from: DVec3) -> f64 {
-        self.gap_along(self.frames[0].inverse_vector(normal), from)
+        self.gap_along(self.frames[0].inverse_transform_vector(normal), from)
     }
 
     /// Returns whether the plane with this normal has the solids of the two pieces on different sides. Two pieces that
     /// both lie in the plane are apart on either side of it, wherever the solids are.
     fn is_plane_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
-        let in_one_plane = self.gap_along_normal(-normal, from)
-            >= -2.0 * APPROACH_DECREASE * self.problem.rounding;
+        let in_one_plane =
+            self.gap_along_normal(-normal, from) >= -2.0 * MIN_APPROACH * self.problem.rounding;
         if !in_one_plane {
             return true;
         }

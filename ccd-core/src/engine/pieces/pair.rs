@@ -11,7 +11,7 @@ use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::APPROACH_DECREASE;
+use crate::rounding::MIN_APPROACH;
 use crate::settings::StartPolicy;
 use glam::DVec3;
 
@@ -202,12 +202,12 @@ impl<C: Default + Clone> Pair<C> {
         let start = improve_axis(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting = start.upper <= problem.contact_distance()
-            && start.lower >= -APPROACH_DECREASE * problem.rounding;
+            && start.lower >= -MIN_APPROACH * problem.rounding;
         if !resting {
             return None;
         }
         Some(ContactRule::InContactAtStart {
-            floor: start.lower - APPROACH_DECREASE * problem.rounding,
+            floor: start.lower - MIN_APPROACH * problem.rounding,
         })
     }
 }
@@ -230,7 +230,7 @@ pub(crate) fn contact(
     checked: &CheckedClaim,
 ) -> Contact {
     let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
-    let world = |x: DVec3| problem.to_world_point(a_to_world.point(x));
+    let world = |x: DVec3| problem.to_world_point(a_to_world.transform_point(x));
     let feature = |side: &BodyWithPath<'_>, piece: u32, point: &ConvexCombination| {
         side.body.feature(piece, point)
     };

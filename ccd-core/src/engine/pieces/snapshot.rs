@@ -12,11 +12,11 @@ use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::{APPROACH_DECREASE, RATE_ERROR_F64};
+use crate::rounding::{MIN_APPROACH, RATE_ERROR_F64};
 use crate::shortcuts::Shortcut;
 use crate::shortcuts::turning_pieces::{MovingPiece, PiecePastTurningPlane};
 use crate::tuning::{
-    ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_RESTING_SLACK, ROTATION_GAP_SHARE,
+    ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_RESTING_SLACK, MIN_ROTATION_GAP_SHARE,
     SUFFICIENT_FIRST_FREE_TIME,
 };
 use glam::DVec3;
@@ -47,7 +47,7 @@ impl<'p> Snapshot<'p> {
         clock: f64,
     ) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
-        let b_to_a = frames[0].from_frame(&frames[1]);
+        let b_to_a = frames[0].transform_from(&frames[1]);
         Snapshot {
             problem,
             frames,
@@ -164,7 +164,7 @@ impl<'p> Snapshot<'p> {
             rate += match bound {
                 VelocityBound::Sound => sound_bound(&motion, n, reach),
                 VelocityBound::Published => published_bound(&motion, n, |c| {
-                    let farthest = piece.extremal_position(frame.inverse_vector(c));
+                    let farthest = piece.extremal_position(frame.inverse_transform_vector(c));
                     frame.rotation * (farthest - side.path.centre)
                 }),
             };
@@ -186,7 +186,7 @@ impl<'p> Snapshot<'p> {
     pub(crate) fn relative_overlap_along_centre_line(&self) -> Option<f64> {
         let pair = &self.pieces;
         let ((a, radius_a), (b, radius_b)) = (pair.a.bounding_ball()?, pair.b.bounding_ball()?);
-        let axis = unit(pair.b_to_a.point(b) - a)?;
+        let axis = unit(pair.b_to_a.transform_point(b) - a)?;
         let gap = separation::support_gap(pair, axis, a) - pair.a.radius - pair.b.radius;
         Some(-gap / lesser(radius_a, radius_b))
     }
@@ -213,7 +213,7 @@ impl<'p> Snapshot<'p> {
             }
         };
         // This includes pieces that have passed the plane by the rounding of resting.
-        let in_one_plane = slack(-checked.axis) >= -APPROACH_DECREASE * rounding;
+        let in_one_plane = slack(-checked.axis) >= -MIN_APPROACH * rounding;
         if !in_one_plane {
             return anyhow();
         }
@@ -270,13 +270,14 @@ impl<'p> Snapshot<'p> {
         checked: &CheckedClaim,
         kept: f64,
     ) -> Option<SeparatingPlane> {
-        let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
+        let [a, b] =
+            [checked.witness_a, checked.witness_b].map(|w| self.frames[0].transform_point(w));
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
             - self.problem.b.path.velocity_at(b, self.clock);
         let nearest = (b - a).dot(velocity) / velocity.length_squared();
         let way = b - a - velocity * nearest.clamp(0.0, self.time_left());
         let normal = unit(way)?;
-        let axis = self.frames[0].inverse_vector(normal);
+        let axis = self.frames[0].inverse_transform_vector(normal);
         let slack = self.gap_along(axis, checked.witness_a) - kept;
         (slack > 0.0).then_some(SeparatingPlane { normal, slack })
     }
@@ -294,7 +295,7 @@ impl<'p> Snapshot<'p> {
         }
         let [a, b] = members;
         let uses_up =
-            |relative_speed: f64| relative_speed * free > ROTATION_GAP_SHARE * plane.slack;
+            |relative_speed: f64| relative_speed * free > MIN_ROTATION_GAP_SHARE * plane.slack;
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.relative_speed_bound)

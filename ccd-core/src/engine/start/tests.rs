@@ -48,7 +48,7 @@ fn with_two_tori<R>(
     let torus = body(&torus(cuts.segments_around_axis, cuts.segments_around_tube));
     let moving =
         |x: f64| MovingBody::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
-    then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
+    then(&Problem::of_moving_bodies(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
 /// The numbers of segments of a torus around its axis and around its tube.
@@ -267,7 +267,7 @@ fn single_pieces_are_measured_once() {
         margin: 10.0,
         ..Settings::DEFAULT
     };
-    let answer = solve(&Problem::about(moving(4.0), moving(0.0), 1.0, &config).unwrap());
+    let answer = solve(&Problem::of_moving_bodies(moving(4.0), moving(0.0), 1.0, &config).unwrap());
     let Outcome::Touching { contact } = answer.outcome else {
         panic!("{answer:?}");
     };

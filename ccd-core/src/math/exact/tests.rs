@@ -9,9 +9,18 @@ fn the_last_bit_decides() {
         dvec3(0.1, 0.7, 0.1),
     ];
     let above = f64::from_bits(0.1f64.to_bits() + 1);
-    assert_eq!(side(triangle, dvec3(1e5, 1e5, 0.1)), Ordering::Equal);
-    assert_eq!(side(triangle, dvec3(1e5, 1e5, above)), Ordering::Greater);
-    assert_eq!(side(triangle, dvec3(0.2, 0.2, 0.0)), Ordering::Less);
+    assert_eq!(
+        side_of_plane(triangle, dvec3(1e5, 1e5, 0.1)),
+        Ordering::Equal
+    );
+    assert_eq!(
+        side_of_plane(triangle, dvec3(1e5, 1e5, above)),
+        Ordering::Greater
+    );
+    assert_eq!(
+        side_of_plane(triangle, dvec3(0.2, 0.2, 0.0)),
+        Ordering::Less
+    );
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{
     RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation, rng,
 };
-use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
 use glam::{DMat3, DVec3};
 
 #[test]
@@ -42,14 +42,18 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
             let truth = motion.pose(s * duration).transform_point(point) - origin;
             let scale = 1e-14 * (10.0 + turn);
             assert!(
-                frame.point(point).distance(truth) < scale,
+                frame.transform_point(point).distance(truth) < scale,
                 "{motion:?} at {s}"
             );
-            assert!(path.centre_at(s).distance(frame.point(motion.centre())) < scale);
+            assert!(
+                path.centre_at(s)
+                    .distance(frame.transform_point(motion.centre()))
+                    < scale
+            );
             // The velocity is the limit of displacement over time.
             let step = 1e-6;
-            let moved = path.frame(s + step).point(point) - frame.point(point);
-            let velocity = path.velocity_at(frame.point(point), s);
+            let moved = path.frame(s + step).transform_point(point) - frame.transform_point(point);
+            let velocity = path.velocity_at(frame.transform_point(point), s);
             let error = (moved / step).distance(velocity);
             assert!(
                 error < 1e-5 * (1.0 + turn * turn) + 1e-7 * (10.0 + turn),
@@ -58,7 +62,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
         }
         // Points move at their distance from the axis times the rate, the farthest one the fastest.
         let points = [point, random_point_in_ball(&mut rng, 3.0)];
-        let place = |x| path.frame(0.4).point(x);
+        let place = |x| path.frame(0.4).transform_point(x);
         let fastest = points.map(|x| path.velocity_at(place(x), 0.4).distance(path.velocity));
         let expected = greater(fastest[0], fastest[1]);
         let found = path.rate * path.max_distance_from_axis(&points);
@@ -125,7 +129,7 @@ fn worst_part() {
             let error = exact_position(&part, share_of_time, x) - exact_position(&path, s, x);
             let way = path.centre_at(0.0).length() + path.speed_bound();
             let allowed = position_rounding(x.distance(path.centre), path.rate, way);
-            Some(share(error.length().get(), allowed))
+            Some(error_share(error.length().get(), allowed))
         },
     );
     found.assert_tight_bound(100.0);

@@ -42,7 +42,7 @@ fn distances_change_by_no_more_than_said() {
             .map(|path| position_rounding(reach, path.rate, 10.0))
             .sum::<f64>();
         let distance = |s: f64| {
-            let [a, b] = [0, 1].map(|k| paths[k].frame(s).point(points[k]));
+            let [a, b] = [0, 1].map(|k| paths[k].frame(s).transform_point(points[k]));
             a.distance(b)
         };
         let bodies = [0, 1].map(|k| PathWithRadius {
@@ -50,7 +50,7 @@ fn distances_change_by_no_more_than_said() {
             reach,
         });
         let mut before = 0.0;
-        for period in Period::all_fitting_twice(bodies) {
+        for period in Period::within_half_duration(bodies) {
             assert!(
                 period.length >= before && period.length <= 0.5,
                 "{period:?}"

@@ -71,11 +71,27 @@ fn frames_undo_and_combine() {
         });
         let [a, b] = poses.map(Frame::from);
         let point = random_point_in_ball(&mut rng, 3.0);
-        assert!(a.point(point).distance(poses[0].transform_point(point)) < 1e-14);
-        assert!(a.inverse_point(a.point(point)).distance(point) < 1e-14);
-        assert!(a.inverse_vector(a.rotation * point).distance(point) < 1e-14);
-        let b_to_a = a.from_frame(&b);
-        assert!(a.point(b_to_a.point(point)).distance(b.point(point)) < 1e-13);
+        assert!(
+            a.transform_point(point)
+                .distance(poses[0].transform_point(point))
+                < 1e-14
+        );
+        assert!(
+            a.inverse_transform_point(a.transform_point(point))
+                .distance(point)
+                < 1e-14
+        );
+        assert!(
+            a.inverse_transform_vector(a.rotation * point)
+                .distance(point)
+                < 1e-14
+        );
+        let b_to_a = a.transform_from(&b);
+        assert!(
+            a.transform_point(b_to_a.transform_point(point))
+                .distance(b.transform_point(point))
+                < 1e-13
+        );
     }
     assert_eq!(Frame::from(Pose::IDENTITY), Frame::IDENTITY);
 }

@@ -5,7 +5,7 @@ use crate::math::simd::{PackedMatrix, PackedVector, padded_columns};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
-use crate::settings::Instructions;
+use crate::settings::VectorInstructions;
 use crate::tests::scene::{
     Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation,
     rng,
@@ -53,7 +53,7 @@ fn relative_state_of_point<L: Simd>(
         acceleration,
         spin,
     } = view.state_at(level, s);
-    let point = rotation * (PackedVector::new(level, point) - view.other_centre(level));
+    let point = rotation * (PackedVector::new(level, point) - view.other_rotation_centre(level));
     let acceleration = acceleration.unwrap_or(PackedVector::new(level, DVec3::ZERO));
     [
         offset + point + view.centre(level),
@@ -75,15 +75,17 @@ fn each_body_sees_what_the_frames_of_both_say() {
             let view = RelativePath::new(own, other);
             for s in [0.0, 1.0, rng.random_range(0.0..1.0)] {
                 let x = random_point_in_ball(&mut rng, 3.0);
-                let [best, plain] = [Instructions::Best, Instructions::Baseline]
+                let [best, plain] = [VectorInstructions::Best, VectorInstructions::Baseline]
                     .map(|set| vectorize!(set.simd_level(), level => relative_state_of_point(level, &view, s, x)));
                 assert_eq!(best, plain);
                 let frame = own.frame(s);
                 let expected = [
-                    frame.from_frame(&other.frame(s)).point(x),
-                    frame.inverse_vector(own.centre_velocity_at(s) - other.centre_velocity_at(s)),
-                    frame.inverse_vector(own.acceleration - other.acceleration),
-                    frame.inverse_vector(other.spin),
+                    frame.transform_from(&other.frame(s)).transform_point(x),
+                    frame.inverse_transform_vector(
+                        own.centre_velocity_at(s) - other.centre_velocity_at(s),
+                    ),
+                    frame.inverse_transform_vector(own.acceleration - other.acceleration),
+                    frame.inverse_transform_vector(other.spin),
                 ];
                 let scale = 1e-14 * (30.0 + own.rate + other.rate);
                 let scales = [scale, scale, scale, scale * (1.0 + other.rate)];
@@ -106,7 +108,7 @@ fn packed_products_are_those_of_the_library() {
             random_point_in_ball(&mut rng, 5.0),
             random_point_in_ball(&mut rng, 5.0),
         );
-        let products = |set: Instructions| {
+        let products = |set: VectorInstructions| {
             vectorize!(set.simd_level(), level => {
                 let columns = padded_columns(frame.rotation).map(|column| PackedVector::load(level, &column));
                 let matrix = PackedMatrix::new(columns);
@@ -115,7 +117,7 @@ fn packed_products_are_those_of_the_library() {
             })
         };
         let expected = [frame.rotation * v, v + w, v - w, -v, v * w.x];
-        assert_eq!(products(Instructions::Best), expected);
-        assert_eq!(products(Instructions::Baseline), expected);
+        assert_eq!(products(VectorInstructions::Best), expected);
+        assert_eq!(products(VectorInstructions::Baseline), expected);
     }
 }

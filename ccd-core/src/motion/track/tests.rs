@@ -12,7 +12,7 @@ use crate::tests::double::DoubleDouble;
 use crate::tests::scene::{
     Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, rng,
 };
-use crate::tests::worst::{WorstCaseSearch, share};
+use crate::tests::worst::{WorstCaseSearch, error_share};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
@@ -339,7 +339,7 @@ fn worst_least_until() {
         };
         let allowance = RATE_ERROR_F64 * swing.get() * (1.0 + turn);
         let above = (DoubleDouble::from(least) + DoubleDouble::from(allowance) - exact).get();
-        (swing.get() > 0.0 && horizon > 0.0).then(|| share(above, allowance))
+        (swing.get() > 0.0 && horizon > 0.0).then(|| error_share(above, allowance))
     });
     found.assert_tight_bound(30.0);
 }
@@ -360,7 +360,7 @@ fn worst_bend() {
         let [p, q, omega] = [track.p, track.q, track.angular_speed].map(DoubleDouble::from);
         let exact = omega * omega * (p * p + q * q).sqrt();
         let lost = exact - DoubleDouble::from(track.second_derivative());
-        (exact.get() > 0.0).then(|| share(lost.get(), RATE_ERROR_F64 * exact.get()))
+        (exact.get() > 0.0).then(|| error_share(lost.get(), RATE_ERROR_F64 * exact.get()))
     });
     found.assert_tight_bound(16.0);
 }

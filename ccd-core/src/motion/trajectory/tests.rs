@@ -11,7 +11,7 @@ use glam::DVec3;
 /// Returns the largest sampled deviation in a stretch of points at the distance `reach` from the centre, divided by its
 /// bound.
 fn largest_deviation_share(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
-    let stretch = trajectory.stretch(from, to).unwrap();
+    let stretch = trajectory.stretch_between(from, to).unwrap();
     let bound = stretch.deviation_bound.at(reach);
     let centre = stretch.motion.centre();
     let mut rng = rng((1e6 * from) as u64);
@@ -52,10 +52,10 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
         let spin = random_power_of_ten(&mut rng, -2.0, 3.0) * random_direction(&mut rng);
         let [velocity, centre] = [(); 2].map(|()| random_point_in_ball(&mut rng, 3.0));
         let motion = Motion::about(start.unwrap(), velocity, spin, centre).unwrap();
-        let whole = motion.stretch(0.0, 1.0).unwrap();
+        let whole = motion.stretch_between(0.0, 1.0).unwrap();
         assert_eq!(whole, Stretch::exact(motion));
         let from = rng.random_range(0.0..1.0);
-        let later = motion.stretch(from, 1.0).unwrap();
+        let later = motion.stretch_between(from, 1.0).unwrap();
         assert!(later.deviation_bound.at(1.0) < 1e-10);
         // The compared poses are rounded, too, by about as much.
         assert!(largest_deviation_share(&motion, from, 1.0, 1.0) <= 2.0);
@@ -67,11 +67,11 @@ fn no_turn_is_no_stray_at_any_reach() {
     assert_eq!(DeviationBound::NONE.at(f64::INFINITY), 0.0);
     let shifted = DeviationBound {
         shift: 2.0,
-        turn: 0.0,
+        angle: 0.0,
     };
     assert_eq!(shifted.at(f64::INFINITY), 2.0);
     let turned = DeviationBound {
-        turn: 0.5,
+        angle: 0.5,
         ..shifted
     };
     assert_eq!(turned.at(4.0), 4.0);
@@ -82,7 +82,7 @@ fn what_is_no_bound_bounds_nothing() {
     for no_bound in [f64::NAN, -1e-300, -1.0] {
         let turned = DeviationBound {
             shift: 1.0,
-            turn: no_bound,
+            angle: no_bound,
         };
         assert!(turned.at(2.0).is_nan());
     }
@@ -114,7 +114,7 @@ fn deviations_after_times_whose_square_is_zero_are_bounded() {
         angular_acceleration: acceleration,
     }
     .deviation_bound_after(time);
-    for bound in [stray.shift, stray.turn] {
+    for bound in [stray.shift, stray.angle] {
         assert!((0.5e-20..0.500_001e-20).contains(&bound), "{bound:e}");
     }
 }

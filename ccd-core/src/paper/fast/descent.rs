@@ -1,9 +1,9 @@
 //! Computes the distance of two bodies at one clock by a descent from the last front. This is Algorithm 3 of the paper
 //! `[FAST06]`.
 
-use super::front::{Front, FrontPair, Node};
 use super::hull_pair::{FeatureOwners, HullTreePair};
 use super::reach::AxisDistanceCache;
+use super::traversal_tree::{Node, TraversalPair, TraversalTree};
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -24,7 +24,7 @@ pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) hulls: HullTreePair<'p>,
     pub(super) bound: VelocityBound,
-    pub(super) front: &'s mut Front<O::Cache>,
+    pub(super) traversal_tree: &'s mut TraversalTree<O::Cache>,
     pub(super) axis_distance_cache: &'s mut AxisDistanceCache,
     pub(super) proven_facts: &'s ProvenFacts,
     pub(super) oracle: &'s mut O,
@@ -58,11 +58,11 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             contact: None,
             open_pairs: BinaryHeap::new(),
         };
-        for at in self.front.leaf_indices() {
-            if self.front.node(at).stays_apart() {
+        for at in self.traversal_tree.leaf_indices() {
+            if self.traversal_tree.node(at).stays_apart() {
                 continue;
             }
-            self.measure(&snapshot, at, &mut found)?;
+            self.measure_pair(&snapshot, at, &mut found)?;
         }
         while let Some(OpenPair {
             lower,
@@ -73,22 +73,22 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             if lower >= found.distance_bound {
                 break;
             }
-            let Some(first) = self.front.split(self.hulls, at) else {
+            let Some(first) = self.traversal_tree.split(self.hulls, at) else {
                 continue;
             };
-            self.measure(&snapshot, first, &mut found)?;
-            self.measure(&snapshot, first + 1, &mut found)?;
+            self.measure_pair(&snapshot, first, &mut found)?;
+            self.measure_pair(&snapshot, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
             return ControlFlow::Break(self.proven_facts.contact(self.problem, contact, s));
         }
-        let next = self.front.clock();
+        let next = self.traversal_tree.clock();
         self.merge_far_pairs(&snapshot, &mut found, next)?;
         ControlFlow::Continue(next)
     }
 
     /// Measures a pair in the front, and updates its clock and the results of the descent.
-    fn measure(
+    fn measure_pair(
         &mut self,
         snapshot: &Snapshot<'p>,
         at: u32,
@@ -100,19 +100,19 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
                 reason,
             ));
         }
-        match self.front.node(at).front_pair {
-            FrontPair::Nodes(_) => {
+        match self.traversal_tree.node(at).traversal_pair {
+            TraversalPair::Nodes(_) => {
                 self.measure_nodes(snapshot, at, found);
                 ControlFlow::Continue(())
             }
-            FrontPair::Pieces(_) => self.measure_pieces(snapshot, at, found),
+            TraversalPair::Pieces(_) => self.measure_pieces(snapshot, at, found),
         }
     }
 
     fn measure_nodes(&mut self, snapshot: &Snapshot<'p>, at: u32, found: &mut DescentState) {
         let (problem, s) = (self.problem, snapshot.clock);
-        let node = self.front.node(at);
-        let FrontPair::Nodes(cache) = &mut node.front_pair else {
+        let node = self.traversal_tree.node(at);
+        let TraversalPair::Nodes(cache) = &mut node.traversal_pair else {
             return;
         };
         let snapshot = snapshot.with_pieces(self.hulls.hulls(node.pair));
@@ -121,12 +121,12 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         // here.
         if depth.is_some_and(|depth| depth > MIN_OVERLAP_TO_SPLIT) {
             self.meter.stats.point_evaluations += snapshot.pieces.evaluations_per_search();
-            found.open_pairs.push(node.reset_unmeasured(at, s));
+            found.open_pairs.push(node.reset_unmeasured_pair(at, s));
             return;
         }
         let Some(checked) = snapshot.query_oracle(self.oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
-            found.open_pairs.push(node.reset_unmeasured(at, s));
+            found.open_pairs.push(node.reset_unmeasured_pair(at, s));
             return;
         };
         let reaches = self
@@ -163,8 +163,8 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         found: &mut DescentState,
     ) -> ControlFlow<Outcome> {
         let (problem, bound, s) = (self.problem, self.bound, snapshot.clock);
-        let node = self.front.node(at);
-        let FrontPair::Pieces(pair) = &mut node.front_pair else {
+        let node = self.traversal_tree.node(at);
+        let TraversalPair::Pieces(pair) = &mut node.traversal_pair else {
             return ControlFlow::Continue(());
         };
         let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
@@ -208,17 +208,17 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             return ControlFlow::Continue(());
         }
         let distance = found.distance_bound;
-        for (at, first) in self.front.joinable_pairs() {
-            let far = [first, first + 1]
-                .into_iter()
-                .all(|child| self.front.node(child).lower >= JOIN_DISTANCE_RATIO * distance);
-            if !far || self.front.node(at).join_distance <= distance {
+        for (at, first) in self.traversal_tree.joinable_pairs() {
+            let far = [first, first + 1].into_iter().all(|child| {
+                self.traversal_tree.node(child).lower >= JOIN_DISTANCE_RATIO * distance
+            });
+            if !far || self.traversal_tree.node(at).join_distance <= distance {
                 continue;
             }
-            self.measure(snapshot, at, found)?;
-            let node = self.front.node(at);
+            self.measure_pair(snapshot, at, found)?;
+            let node = self.traversal_tree.node(at);
             if node.lower >= distance && node.clock >= next {
-                self.front.join_children(at);
+                self.traversal_tree.join_children(at);
             } else {
                 node.join_distance = distance / JOIN_DISTANCE_RATIO;
             }
@@ -229,7 +229,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
 
 impl<C> Node<C> {
     /// Resets an unmeasured pair so that it is split whatever its distance, and returns its entry for the heap.
-    fn reset_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
+    fn reset_unmeasured_pair(&mut self, at: u32, s: f64) -> OpenPair {
         (self.lower, self.feature_owners, self.clock) =
             (f64::NEG_INFINITY, FeatureOwners::BothBridges, s);
         let lower = self.lower;

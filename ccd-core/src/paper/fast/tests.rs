@@ -115,7 +115,7 @@ impl Scene {
 
     fn problem(&self) -> Problem<'_> {
         let moving = |k: usize| MovingBody::from((&self.bodies[k], self.motions[k]));
-        Problem::about(moving(0), moving(1), 1.0, &self.settings).unwrap()
+        Problem::of_moving_bodies(moving(0), moving(1), 1.0, &self.settings).unwrap()
     }
 }
 
@@ -128,7 +128,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     let placed = [&problem.a, &problem.b].map(|side| {
         let frame = side.path.frame(s);
         let balls = side.body.pieces().iter();
-        let placed = balls.map(|ball| (frame.point(ball.points[0]), ball.radius));
+        let placed = balls.map(|ball| (frame.transform_point(ball.points[0]), ball.radius));
         placed.collect::<Vec<_>>()
     });
     let [a, b] = &placed;
@@ -213,7 +213,8 @@ fn trees_spare_most_pairs_of_pieces() {
     let still = Motion::still(Pose::IDENTITY);
     let moving = |k: usize, motion| MovingBody::from((&bodies[k], motion));
     let config = Settings::DEFAULT;
-    let problem = Problem::about(moving(0, motion), moving(1, still), 1.5, &config).unwrap();
+    let problem =
+        Problem::of_moving_bodies(moving(0, motion), moving(1, still), 1.5, &config).unwrap();
     let answer = solve(&problem);
     assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
     assert!(answer.stats.oracle_calls < 100, "{:?}", answer.stats);
@@ -231,7 +232,7 @@ fn a_brief_motion_splits_nothing_that_stays_apart() {
             Motion::new(pose, -speed * DVec3::Z, 1e-3 * DVec3::X).unwrap(),
         ));
         let other = MovingBody::from((&bodies[1], still));
-        let problem = Problem::about(moving, other, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(moving, other, 1.0, &Settings::DEFAULT).unwrap();
         let answer = solve(&problem);
         assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
         answer.stats.oracle_calls
@@ -349,7 +350,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
     let ball = Body::sphere(0.25).unwrap();
     let above = Pose::at(DVec3::new(0.25, 0.25, 2.25)).unwrap();
     let falling = Motion::new(above, -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
-    let problem = Problem::about(
+    let problem = Problem::of_moving_bodies(
         MovingBody::from((&ball, falling)),
         MovingBody::from((&soup, Motion::still(Pose::IDENTITY))),
         1.0,
@@ -389,7 +390,7 @@ fn contacts_at_the_start_are_reported_or_let_go() {
             start,
             ..Settings::DEFAULT
         };
-        solve(&Problem::about(moving, still, 1.0, &config).unwrap()).outcome
+        solve(&Problem::of_moving_bodies(moving, still, 1.0, &config).unwrap()).outcome
     };
     let touching = outcome(1.0, StartPolicy::Report);
     assert!(matches!(touching, Outcome::Touching { .. }), "{touching:?}");

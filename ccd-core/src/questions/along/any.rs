@@ -17,14 +17,19 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        search_contact(&mut AnyContact(self), WantedContact::Any, query, oracle)
+        search_contact(
+            &mut AnyContactSchedule(self),
+            WantedContact::Any,
+            query,
+            oracle,
+        )
     }
 }
 
 /// The schedule that answers with any contact of a stretch's motions instead of the first one.
-struct AnyContact<'s, O: DistanceOracle>(&'s mut DepthFirst<O>);
+struct AnyContactSchedule<'s, O: DistanceOracle>(&'s mut DepthFirst<O>);
 
-impl<O: DistanceOracle> EngineSchedule<O> for AnyContact<'_, O> {
+impl<O: DistanceOracle> EngineSchedule<O> for AnyContactSchedule<'_, O> {
     fn handles_accelerations(&self) -> bool {
         true
     }

@@ -16,7 +16,7 @@ use crate::query::span::Span;
 use crate::questions::closest::required::RequiredClearance;
 use crate::questions::closest::{FartherThanCutoff, meet_after_start};
 use crate::questions::depth_first::DepthFirst;
-use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
+use crate::tuning::{MAX_DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
 use found::{LeastDistanceSoFar, StretchDistance};
 use std::ops::ControlFlow;
 
@@ -112,7 +112,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         Ok(())
     }
 
-    fn measure_suitable_length(
+    fn suitable_length_by_measurement(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
@@ -254,7 +254,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
                 distance_at_time.stretch_length(motions),
                 motions.length_for_rate(distance_at_time.rate.abs()),
             ),
-            None => motions.length_for_deviation(DEVIATION_SHARE * query.settings.tolerance),
+            None => motions.length_for_deviation(MAX_DEVIATION_SHARE * query.settings.tolerance),
         };
         Ok(stretches.cut_out_around(motions.span, time, length))
     }
@@ -300,7 +300,7 @@ struct DeviationLimitAndRate {
 
 impl DeviationLimitAndRate {
     fn stretch_length(&self, motions: &StretchMotions) -> f64 {
-        motions.length_for_deviation(DEVIATION_SHARE * self.deviation_limit)
+        motions.length_for_deviation(MAX_DEVIATION_SHARE * self.deviation_limit)
     }
 
     /// Returns whether the distance increases from the given end of the stretch towards its middle.

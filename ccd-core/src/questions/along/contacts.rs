@@ -1,7 +1,7 @@
 //! Searches for the first or any contact along trajectories, one stretch of time after the other.
 
 use super::drive::{Question, search_stretches};
-use super::lengths::{choose_next_length, measure_suitable_length};
+use super::lengths::{choose_next_length, suitable_length_by_measurement};
 use super::motions::StretchMotions;
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Contact, Limit, Outcome};
@@ -34,11 +34,11 @@ pub(super) fn search_contact<O: DistanceOracle, S: EngineSchedule<O>>(
 ) -> Result<Answer, InputError> {
     let mut search = ContactSearch {
         schedule,
-        wanted,
+        wanted_contact: wanted,
         gap: f64::INFINITY,
         margin: query.settings.margin,
         tolerance: query.settings.tolerance,
-        undecided_time: f64::INFINITY,
+        undecided_containment_time: f64::INFINITY,
     };
     search_stretches(&mut search, query, oracle)
 }
@@ -53,12 +53,12 @@ pub(super) enum WantedContact {
 /// A search for a contact, with the gap and the tolerance that are proven for the stretches searched so far.
 struct ContactSearch<'s, S> {
     schedule: &'s mut S,
-    wanted: WantedContact,
+    wanted_contact: WantedContact,
     gap: f64,
     margin: f64,
     tolerance: f64,
     /// The first time at which it is undecided whether one body is inside the other.
-    undecided_time: f64,
+    undecided_containment_time: f64,
 }
 
 impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, S> {
@@ -70,14 +70,14 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
         self.schedule.handles_accelerations()
     }
 
-    fn measure_suitable_length(
+    fn suitable_length_by_measurement(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
         time: f64,
         oracle: &mut O,
     ) -> Result<Option<f64>, InputError> {
-        measure_suitable_length(stretches, motions, time, oracle, self.schedule.scratch())
+        suitable_length_by_measurement(stretches, motions, time, oracle, self.schedule.scratch())
     }
 
     fn search_stretch(
@@ -87,7 +87,7 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
-        if self.wanted == WantedContact::First {
+        if self.wanted_contact == WantedContact::First {
             // The stretches before a contact may not be examined again.
             self.record_gap(motions, problem.proven_gap());
         }
@@ -98,11 +98,12 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
         };
         if stretches.accepts_contact(motions)? {
             let found = self.contact_answer(stretches, motions, answer.outcome)?;
-            return Ok(match (self.wanted, found.outcome) {
+            return Ok(match (self.wanted_contact, found.outcome) {
                 (WantedContact::First, _) => ControlFlow::Break(found),
                 // One body is inside the other: they have met before, or overlap at the start.
                 (WantedContact::Any, Outcome::Unresolved(known)) => {
-                    self.undecided_time = lesser(self.undecided_time, known.safe_until);
+                    self.undecided_containment_time =
+                        lesser(self.undecided_containment_time, known.safe_until);
                     ControlFlow::Continue(())
                 }
                 (WantedContact::Any, _) => ControlFlow::Break(touching_as_contact(found)),
@@ -111,7 +112,7 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
         let (span, time) = (motions.span, motions.query_time(seen.0));
         let scratch = self.schedule.scratch();
         let length = choose_next_length(stretches, motions, seen, oracle, scratch)?;
-        let is_cut = match self.wanted {
+        let is_cut = match self.wanted_contact {
             WantedContact::First => cut_after(stretches, span, time, length),
             WantedContact::Any => stretches.cut_out_around(span, time, 2.0 * length),
         };
@@ -137,8 +138,12 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
         stretches: &mut WaitingStretches<'_, '_>,
         _: &mut O,
     ) -> Result<Answer, InputError> {
-        if self.undecided_time.is_finite() {
-            return Ok(self.unresolved(stretches, self.undecided_time, Limit::Undecided));
+        if self.undecided_containment_time.is_finite() {
+            return Ok(self.unresolved(
+                stretches,
+                self.undecided_containment_time,
+                Limit::Undecided,
+            ));
         }
         let proven_gap = greater(self.gap, self.margin);
         Ok(self.answer(stretches, Outcome::Free { proven_gap }))
@@ -229,7 +234,7 @@ impl<S> ContactSearch<'_, S> {
         limit: Limit,
     ) -> Answer {
         let until = lesser(
-            lesser(safe_until, self.undecided_time),
+            lesser(safe_until, self.undecided_containment_time),
             stretches.earliest_time(),
         );
         self.answer(stretches, Outcome::unresolved(until, limit))

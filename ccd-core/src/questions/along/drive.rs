@@ -32,7 +32,7 @@ pub(super) trait Question<O: DistanceOracle> {
 
     /// Measures the bodies at the time where a stretch adjoins a proven stretch, and returns the length that suits the
     /// stretch; `None` if the measurement does not tell.
-    fn measure_suitable_length(
+    fn suitable_length_by_measurement(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         motions: &StretchMotions,
@@ -104,7 +104,7 @@ fn search_waiting<O: DistanceOracle, Q: Question<O>>(
         // A stretch that is probably too long is cut without a search.
         if let Some(time) = stretches.end_at_proven_stretch_if_too_long(&motions)
             && let Some(length) =
-                question.measure_suitable_length(stretches, &motions, time, oracle)?
+                question.suitable_length_by_measurement(stretches, &motions, time, oracle)?
             && motions.is_worth_a_cut(length)
             && stretches.cut_out_around(motions.span, time, 2.0 * length)
         {

@@ -99,9 +99,9 @@ impl ReversedTrajectory<'_> {
 }
 
 impl Trajectory for ReversedTrajectory<'_> {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let (first, last) = (self.reversed_time(to), self.reversed_time(from));
-        let stretch = self.original.stretch(first, last)?;
+        let stretch = self.original.stretch_between(first, last)?;
         let end = stretch.with_start_at(last - first)?;
         // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
         let off = 2.0 * UNIT_ROUNDOFF_F64 * self.duration;
@@ -109,7 +109,7 @@ impl Trajectory for ReversedTrajectory<'_> {
         let moved = DeviationBound {
             // The speed is largest at an end.
             shift: greater(before, after) * off,
-            turn: length(stretch.motion.spin()) * off,
+            angle: length(stretch.motion.spin()) * off,
         };
         let rounding = end.rounding_of_moved_start(last - first);
         let Stretch { motion, .. } = end;

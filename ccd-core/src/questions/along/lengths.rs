@@ -10,11 +10,11 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::settings::QuerySettings;
-use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
+use crate::tuning::{MAX_DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
 
 /// Measures the bodies at one end of a stretch, and returns the length that suits the stretch; `None` if the bodies
 /// overlap, or if a limit is reached.
-pub(super) fn measure_suitable_length<O: DistanceOracle>(
+pub(super) fn suitable_length_by_measurement<O: DistanceOracle>(
     stretches: &mut WaitingStretches<'_, '_>,
     motions: &StretchMotions,
     time: f64,
@@ -53,7 +53,7 @@ pub(super) fn choose_next_length<O: DistanceOracle>(
     };
     Ok(match seen {
         Some(seen) => length_from_distance(query, motions, seen),
-        None => motions.length_for_deviation(DEVIATION_SHARE * query.settings.tolerance),
+        None => motions.length_for_deviation(MAX_DEVIATION_SHARE * query.settings.tolerance),
     })
 }
 
@@ -75,8 +75,11 @@ fn length_from_distance(
     let nearest = 2.0 * gap / approach;
     // Written so that NaN is no time.
     if nearest > 0.0 {
-        lesser(motions.length_for_deviation(DEVIATION_SHARE * gap), nearest)
+        lesser(
+            motions.length_for_deviation(MAX_DEVIATION_SHARE * gap),
+            nearest,
+        )
     } else {
-        motions.length_for_deviation((1.0 - DEVIATION_SHARE) * gap)
+        motions.length_for_deviation((1.0 - MAX_DEVIATION_SHARE) * gap)
     }
 }

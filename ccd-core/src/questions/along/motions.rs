@@ -11,7 +11,7 @@ use crate::query::Query;
 use crate::query::span::Span;
 use crate::rounding::RETIMED_POSE_ERROR_F64;
 use crate::settings::{QuerySettings, StartPolicy};
-use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, MIN_TOLERANCE_PER_DEVIATION};
+use crate::tuning::{MAX_CUT_LENGTH_SHARE, MAX_DEVIATION_SHARE, MIN_TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
 
 /// The approximate motions of both bodies in a stretch of time, with their deviations.
@@ -26,7 +26,7 @@ pub(super) struct StretchMotions {
 impl StretchMotions {
     pub(super) fn new(query: &Query<'_>, span: Span) -> Result<Self, InputError> {
         let bodies = [&query.a, &query.b];
-        let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.end));
+        let [a, b] = bodies.map(|body| body.movement.stretch_between(span.from, span.end));
         let stretches = [a?, b?];
         let stray = |k: usize| {
             let centre = stretches[k].motion.centre();
@@ -74,12 +74,12 @@ impl StretchMotions {
             * (stray / self.total_deviation_bound).powf(1.0 / self.deviation_exponent())
     }
 
-    /// Estimates the length of the stretch whose deviation is `DEVIATION_SHARE` times its change of distance, if the
+    /// Estimates the length of the stretch whose deviation is `MAX_DEVIATION_SHARE` times its change of distance, if the
     /// distance changes at `rate`.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole
-            * (DEVIATION_SHARE * rate * whole / self.total_deviation_bound)
+            * (MAX_DEVIATION_SHARE * rate * whole / self.total_deviation_bound)
                 .powf(1.0 / (self.deviation_exponent() - 1.0))
     }
 
@@ -95,7 +95,7 @@ impl StretchMotions {
 
     /// Returns whether a part of the given length is so much shorter than the stretch that a cut is worthwhile.
     pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
-        length < MAX_CUT_SHARE * self.span.length()
+        length < MAX_CUT_LENGTH_SHARE * self.span.length()
     }
 
     /// Returns the rate at which the bodies approach each other at a contact of the motions.
@@ -137,12 +137,12 @@ impl StretchMotions {
     fn motion_tolerance(&self, whole: f64) -> f64 {
         // Written so that without deviations the result is the whole tolerance, to the last bit.
         let left = whole - 4.0 * self.total_deviation_bound;
-        if self.total_deviation_bound == 0.0 || left >= (1.0 - 4.0 * DEVIATION_SHARE) * whole {
+        if self.total_deviation_bound == 0.0 || left >= (1.0 - 4.0 * MAX_DEVIATION_SHARE) * whole {
             return left;
         }
         // Too little is left for a contact. Distances blurred by deviations need not be known better.
         let least = greater(
-            (1.0 - 4.0 * DEVIATION_SHARE) * whole,
+            (1.0 - 4.0 * MAX_DEVIATION_SHARE) * whole,
             MIN_TOLERANCE_PER_DEVIATION * self.total_deviation_bound,
         );
         greater(least, LEAST_TOLERANCE)

@@ -12,7 +12,9 @@ use crate::motion::trajectory::Trajectory;
 use crate::query::span::Span;
 use crate::query::{MovingBody, Query};
 use crate::settings::QuerySettings;
-use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_CUT_SHARE};
+use crate::tuning::{
+    CUT_DEVIATION_RATIO, MAX_BUDGET_PARTS, MAX_DEVIATION_SHARE, MIN_CUT_LENGTH_SHARE,
+};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
@@ -155,7 +157,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// share of the tolerance, or a cut would not reduce them.
     pub(super) fn accepts_contact(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         Ok(
-            motions.total_deviation_bound <= DEVIATION_SHARE * self.query.settings.tolerance
+            motions.total_deviation_bound <= MAX_DEVIATION_SHARE * self.query.settings.tolerance
                 || self.is_limited_by_rounding(motions)?,
         )
     }
@@ -286,7 +288,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         let Some([early, late]) = self.split_span(span, 0.5 * whole) else {
             return false;
         };
-        let half = 0.5 * greater(length, MIN_CUT_SHARE * whole);
+        let half = 0.5 * greater(length, MIN_CUT_LENGTH_SHARE * whole);
         let [first, last] = [time - half, time + half];
         // Written so that NaN, or a length lost to rounding, gives a half of the stretch.
         let is_part = length < 0.5 * whole && first < time && last > time;
@@ -319,7 +321,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
             corner.filter(is_within)
         };
         let whole = span.length();
-        let length = greater(MIN_CUT_SHARE * whole, lesser(length, 0.5 * whole));
+        let length = greater(MIN_CUT_LENGTH_SHARE * whole, lesser(length, 0.5 * whole));
         let corner = corner(&self.query.a).or_else(|| corner(&self.query.b));
         let at = Some(corner.unwrap_or(span.from + length)).filter(is_within)?;
         let (mut before, mut after) = (Span { end: at, ..span }, Span { from: at, ..span });

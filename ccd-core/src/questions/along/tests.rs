@@ -243,8 +243,8 @@ struct MotionAsSmoothTrajectory(Motion);
 struct MotionAsTrajectory(Motion);
 
 impl Trajectory for MotionAsTrajectory {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        self.0.stretch(from, to)
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        self.0.stretch_between(from, to)
     }
 }
 

@@ -64,7 +64,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
             };
         }
         let frame = &snapshot.frames[0];
-        let [on_a, on_b] = [checked.witness_a, checked.witness_b].map(|w| frame.point(w));
+        let [on_a, on_b] = [checked.witness_a, checked.witness_b].map(|w| frame.transform_point(w));
         let velocity = self.problem.b.path.velocity_at(on_b, clock)
             - self.problem.a.path.velocity_at(on_a, clock);
         Some(DistanceAndRate {

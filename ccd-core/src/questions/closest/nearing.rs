@@ -179,7 +179,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
         if let Some(limit) = self.first_failure {
             return Ok(self.unresolved_outcome(problem, limit));
         }
-        match self.proven_facts.finish(problem) {
+        match self.proven_facts.final_outcome(problem) {
             overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
             Outcome::Free { proven_gap } => self.least_distance_outcome(problem, proven_gap),
             Outcome::Unresolved(known) => Ok(self.unresolved_outcome(problem, known.limit)),

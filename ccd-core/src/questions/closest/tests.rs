@@ -5,7 +5,7 @@ mod excess;
 mod required;
 
 use super::*;
-use crate::answer::Clearance;
+use crate::answer::ClearanceVerdict;
 use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::EngineSchedule;
@@ -126,17 +126,23 @@ fn a_clearance_is_kept_violated_or_unknown() {
         let scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
         let outcome = closest_approach_answer(&scene.problem()).outcome;
         let (lower, upper) = (outcome.lower(), outcome.upper());
-        assert_eq!(outcome.clearance(upper.next_up()), Clearance::Violated);
-        assert_ne!(outcome.clearance(f64::NAN), Clearance::Kept);
+        assert_eq!(
+            outcome.clearance_verdict(upper.next_up()),
+            ClearanceVerdict::Violated
+        );
+        assert_ne!(outcome.clearance_verdict(f64::NAN), ClearanceVerdict::Kept);
         // Bodies that may touch keep no clearance.
         if lower > 0.0 {
-            assert_eq!(outcome.clearance(lower), Clearance::Kept);
+            assert_eq!(outcome.clearance_verdict(lower), ClearanceVerdict::Kept);
         } else {
-            assert_ne!(outcome.clearance(0.0), Clearance::Kept);
+            assert_ne!(outcome.clearance_verdict(0.0), ClearanceVerdict::Kept);
         }
         if lower < upper {
             let between = 0.5 * (lower + upper);
-            assert_eq!(outcome.clearance(between), Clearance::Unverified);
+            assert_eq!(
+                outcome.clearance_verdict(between),
+                ClearanceVerdict::Unverified
+            );
         }
     }
 }
@@ -158,7 +164,7 @@ fn budgets_end_a_search_with_what_was_seen() {
             let outcome = closest_approach_answer(&problem).outcome;
             let Outcome::Unresolved(Unresolved {
                 lower,
-                nearest,
+                nearest_contact: nearest,
                 limit: reason,
                 ..
             }) = outcome

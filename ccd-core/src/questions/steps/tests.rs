@@ -114,7 +114,8 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
                 let slow = Motion::about(motion.start(), velocity, DVec3::ZERO, motion.centre());
                 (&scene.bodies[k], slow.unwrap())
             };
-            let problem = Problem::about(slowed(0), slowed(1), duration, &scene.settings).unwrap();
+            let problem =
+                Problem::of_moving_bodies(slowed(0), slowed(1), duration, &scene.settings).unwrap();
             let mut search = SteppedSearch::new(problem, BestFirst::default());
             for exponent in [-320, -17, -9, -3, -1, -1, -1] {
                 let until = duration * rng.random_range(0.5..1.5) * 10f64.powi(exponent);
@@ -136,7 +137,7 @@ fn a_body_inside_the_other_is_no_body_apart() {
     let flies = Motion::new(Pose::IDENTITY, DVec3::X, DVec3::ZERO).unwrap();
     for motion in [Motion::STILL, flies] {
         let [a, b] = [(&ball, motion), (&room, Motion::STILL)];
-        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).unwrap();
         for until in [0.0, 1e-9, 0.1, 2.0] {
             let mut search = SteppedSearch::new(problem.clone(), BestFirst::default());
             let progress = search.advance(&mut ExhaustiveOracle, until);

@@ -99,7 +99,7 @@ fn shares_are_shares() {
     for share in [
         SKIPPED_PAIR_ALLOWANCE,
         ARM_INCREASE_PER_DISTANCE,
-        ROTATION_GAP_SHARE,
+        MIN_ROTATION_GAP_SHARE,
         SUFFICIENT_FIRST_FREE_TIME,
         MIN_NEWTON_GROWTH,
         MIN_RESTING_SLACK,

@@ -7,11 +7,11 @@ use super::{ErrorShares, error_shares, far_body, random_motion};
 use crate::math::order::greater;
 use crate::motion::relative::RelativePath;
 use crate::problem::Problem;
-use crate::settings::{Instructions, Settings};
+use crate::settings::{Settings, VectorInstructions};
 use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{RngExt, random_direction, random_power_of_ten};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
 use crate::{Body, Motion};
 use glam::DVec3;
 
@@ -175,12 +175,12 @@ fn worst_places_between_poses() {
         let frame = [&problem.a, &problem.b][k].path.frame(s);
         let off = |p: &DVec3| {
             let exact = ends[k].place(DoubleDouble::from(s), *p) - origin;
-            (DoubleDouble3::from(frame.point(*p)) - exact)
+            (DoubleDouble3::from(frame.transform_point(*p)) - exact)
                 .length()
                 .get()
         };
         let off = scene.bodies[k].pieces().points().iter().map(off);
-        Some(share(off.fold(0.0, greater), problem.rounding))
+        Some(error_share(off.fold(0.0, greater), problem.rounding))
     });
     found.assert_tight_bound(100.0);
 }
@@ -196,12 +196,12 @@ fn worst_places_of_accelerating_bodies() {
         let frame = [&problem.a, &problem.b][k].path.frame(s);
         let off = |p: &DVec3| {
             let exact = scene.place(k, s, *p) - origin;
-            (DoubleDouble3::from(frame.point(*p)) - exact)
+            (DoubleDouble3::from(frame.transform_point(*p)) - exact)
                 .length()
                 .get()
         };
         let off = scene.bodies[k].pieces().points().iter().map(off);
-        Some(share(off.fold(0.0, greater), problem.rounding))
+        Some(error_share(off.fold(0.0, greater), problem.rounding))
     });
     found.assert_tight_bound(100.0);
 }
@@ -220,7 +220,7 @@ fn worst_views() {
         let sides = [&problem.a, &problem.b];
         let (from, to) = (sides[own], sides[1 - own]);
         let view = RelativePath::new(&from.path, &to.path);
-        let level = Instructions::Baseline.simd_level();
+        let level = VectorInstructions::Baseline.simd_level();
         let [x, y] = [from, to].map(|side| side.body.pieces().points()[0]);
         let arm = y - to.path.centre;
         let found = crate::vectorize!(level, level => {
@@ -232,7 +232,7 @@ fn worst_views() {
             - (DoubleDouble3::from(x) - DoubleDouble3::from(from.path.centre));
         let exact = scene.place(1 - own, s, y) - scene.place(own, s, x);
         let off = (found.length() - exact.length()).get().abs();
-        Some(share(off, problem.rounding))
+        Some(error_share(off, problem.rounding))
     });
     found.assert_tight_bound(100.0);
 }

@@ -9,7 +9,7 @@ use crate::rounding::{
 };
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::rational::{Exact3, error_of};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
 use glam::{DMat3, DVec3};
 
 /// The range of binary exponents of random coordinates, from 1e-100 up to the accepted maximum of 1e12.
@@ -32,7 +32,7 @@ fn axis(tape: &mut RandomCase) -> Option<DVec3> {
     unit(tape.vector(-60..=0).into())
 }
 
-fn absolute_sum(v: DVec3) -> f64 {
+fn one_norm(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
@@ -41,8 +41,8 @@ fn height_f64() {
     let found = WorstCaseSearch::new("HEIGHT_F64", 40_000).search(|tape| {
         let (n, x) = (axis(tape)?, DVec3::from(tape.vector(COORDINATE_EXPONENTS)));
         let exact = Exact3::from_coordinates(n).dot(&Exact3::from_coordinates(x));
-        let allowed = HEIGHT_ERROR_F64 * absolute_sum(n) * x.abs().max_element();
-        Some(share(error_of(n.dot(x), &exact), allowed))
+        let allowed = HEIGHT_ERROR_F64 * one_norm(n) * x.abs().max_element();
+        Some(error_share(error_of(n.dot(x), &exact), allowed))
     });
     found.assert_tight_bound(3.0);
 }
@@ -55,8 +55,8 @@ fn sign_f64_of_a_product() {
         let way = corner - from;
         let exact = Exact3::from_coordinates(n)
             .dot(&Exact3::from_coordinates(corner).minus(&Exact3::from_coordinates(from)));
-        let allowed = DETERMINANT_ERROR_F64 * absolute_sum(way) + f64::MIN_POSITIVE;
-        Some(share(error_of(n.dot(way), &exact), allowed))
+        let allowed = DETERMINANT_ERROR_F64 * one_norm(way) + f64::MIN_POSITIVE;
+        Some(error_share(error_of(n.dot(way), &exact), allowed))
     });
     found.assert_tight_bound(12.0);
 }
@@ -69,9 +69,8 @@ fn sign_f64_of_a_ray_and_an_edge() {
         let [a, b, c] = [from, p, q].map(Exact3::from_coordinates);
         let exact = Exact3::from_coordinates(n).dot(&b.minus(&a).cross(&c.minus(&a)));
         let (p, q) = (p - from, q - from);
-        let allowed =
-            DETERMINANT_ERROR_F64 * (absolute_sum(p) * absolute_sum(q)) + f64::MIN_POSITIVE;
-        Some(share(error_of(n.dot(p.cross(q)), &exact), allowed))
+        let allowed = DETERMINANT_ERROR_F64 * (one_norm(p) * one_norm(q)) + f64::MIN_POSITIVE;
+        Some(error_share(error_of(n.dot(p.cross(q)), &exact), allowed))
     });
     found.assert_tight_bound(9.0);
 }
@@ -85,9 +84,9 @@ fn sign_f64_of_three_corners() {
         let [a, b, c] = of.map(|p| Exact3::from_coordinates(p).minus(&start));
         let exact = a.dot(&b.cross(&c));
         let [a, b, c] = of.map(|p| p - from);
-        let allowed = DETERMINANT_ERROR_F64 * (absolute_sum(a) * absolute_sum(b) * absolute_sum(c))
-            + f64::MIN_POSITIVE;
-        Some(share(error_of(a.dot(b.cross(c)), &exact), allowed))
+        let allowed =
+            DETERMINANT_ERROR_F64 * (one_norm(a) * one_norm(b) * one_norm(c)) + f64::MIN_POSITIVE;
+        Some(error_share(error_of(a.dot(b.cross(c)), &exact), allowed))
     });
     found.assert_tight_bound(9.0);
 }
@@ -104,7 +103,7 @@ fn height_rounding_of_points() {
         let [a, b, c, x] = [a, b, c, x].map(Exact3::from_coordinates);
         let exact = b.minus(&a).cross(&c.minus(&a)).dot(&x.minus(&a));
         let height = normal.dot(point) - normal.dot(foot);
-        Some(share(
+        Some(error_share(
             error_of(height, &exact),
             height_rounding([u, v], reach),
         ))
@@ -136,7 +135,7 @@ fn height_rounding_of_boxes() {
                 .to_f64()
                 .value()
         };
-        Some(share(
+        Some(error_share(
             greater(lacks(x), lacks(y)),
             height_rounding([u, v], reach),
         ))
@@ -150,7 +149,7 @@ fn frame_f64() {
     let found = WorstCaseSearch::new("FRAME_F64", 20_000).search(|tape| {
         let points: [DVec3; 4] = [(); 4].map(|()| tape.vector(-40..=0).into());
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
-        Some(share(orthonormality_error(&frame), FRAME_ERROR_F64))
+        Some(error_share(orthonormality_error(&frame), FRAME_ERROR_F64))
     });
     found.assert_tight_bound(200.0);
 }
@@ -185,7 +184,7 @@ fn units_and_lengths() {
             let off = DoubleDouble::from(length(v) * up) - scaled.length();
             let of_unit = DoubleDouble3::from(n).length() - DoubleDouble::from(1.0);
             let error = greater(off.get().abs() / exact, of_unit.get().abs());
-            Some(share(error, 4.0 * UNIT_ROUNDOFF_F64))
+            Some(error_share(error, 4.0 * UNIT_ROUNDOFF_F64))
         });
         found.assert_tight_bound(looseness);
     }
@@ -210,7 +209,7 @@ fn least_rounding() {
             (error / &unit / &unit).to_f64().value().abs()
         });
         let worst = off.into_iter().fold(0.0, greater);
-        Some(share(worst, bound * 2f64.powi(500) * 2f64.powi(500)))
+        Some(error_share(worst, bound * 2f64.powi(500) * 2f64.powi(500)))
     });
     // The allowance is far above the error, as its derivation says.
     found.assert_tight_bound(f64::INFINITY);
@@ -234,7 +233,7 @@ fn turns_f64() {
         // Angles that cancel are off by the last digits of their terms.
         let most = [from, width, ahead].map(f64::abs).into_iter();
         let allowed = TURN_COUNT_WIDENING * (1.0 + most.fold(turns.abs(), greater));
-        Some(share(off, allowed))
+        Some(error_share(off, allowed))
     });
     found.assert_tight_bound(1e8);
 }

@@ -92,7 +92,7 @@ fn balls_are_told_apart_up_to_the_gap() {
             let place = nearest * (gap + excess * 4.0 * rounded);
             let pose = Pose::at(place - along * before).unwrap();
             let motion = Motion::new(pose, along * (before + after), DVec3::ZERO).unwrap();
-            let problem = Problem::about(
+            let problem = Problem::of_moving_bodies(
                 (&balls[0], motion),
                 (&balls[1], Motion::STILL),
                 1.0,

@@ -44,7 +44,7 @@ fn flat_nodes_stay_apart_for_their_free_time() {
         };
         let falling = (&bodies[0], Motion::new(falling, velocity, spin).unwrap());
         let lying = (&bodies[1], Motion::still(lying));
-        let problem = Problem::about(falling, lying, 1.0, &config).unwrap();
+        let problem = Problem::of_moving_bodies(falling, lying, 1.0, &config).unwrap();
         let free = free_time(&problem, [0, 0], 0.0);
         if free > 0.0 {
             proven += 1;

@@ -10,7 +10,7 @@ use crate::rounding::BOX_EXTENT_ERROR_F32;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{random_box_corners, random_direction};
-use crate::tests::worst::{WorstCaseSearch, share};
+use crate::tests::worst::{WorstCaseSearch, error_share};
 use glam::DVec3;
 
 /// Searches for the point of a body that lies farthest outside its placed box, as a share of the allowance for
@@ -27,7 +27,8 @@ fn worst_reach_of_a_box() {
         };
         let body = Body::polytope(of).ok()?;
         let problem =
-            Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
+            Problem::of_moving_bodies((&body, still), (&ball, still), 1.0, &Settings::DEFAULT)
+                .ok()?;
         let node = PlacedNode::new(&problem.a, 0, 0.0);
         let along = points[tape.index_below(8)] - points[tape.index_below(8)];
         let n =
@@ -39,7 +40,7 @@ fn worst_reach_of_a_box() {
         let highest = points.iter().map(height).reduce(DoubleDouble::max)?;
         let allowed = BOX_EXTENT_ERROR_F32 * node.radius;
         let reach = DoubleDouble::from(node.extent_along(n)) - DoubleDouble::from(allowed);
-        Some(share((highest - reach).get(), allowed))
+        Some(error_share((highest - reach).get(), allowed))
     });
     found.assert_tight_bound(20.0);
 }

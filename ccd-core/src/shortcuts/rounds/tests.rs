@@ -8,7 +8,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::query::Query;
 use crate::schedule::Schedule;
-use crate::schedule::{BestFirst, DepthFirst, FirstContact, Naive, Progress};
+use crate::schedule::{BestFirst, DepthFirst, FirstContactSearch, Naive, Progress};
 use crate::settings::Settings;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{
@@ -39,7 +39,7 @@ fn gap([a, b]: [&Motion; 2], time: f64) -> f64 {
 fn checked_contact_time(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
     let ball = Body::sphere(1.0).unwrap();
     let [a, b] = motions.map(|motion| (&ball, *motion));
-    let problem = Problem::about(a, b, duration, config).unwrap();
+    let problem = Problem::of_moving_bodies(a, b, duration, config).unwrap();
     let until = match solve(&problem).outcome {
         Outcome::Contact { time, contact } => {
             let near = gap(motions, time);
@@ -141,7 +141,8 @@ fn answers_of_many_turns_hold_at_sampled_times() {
     let (mut hits, mut late, mut misses, mut repeated) = (0, 0, 0, 0);
     for number in 0..400 {
         let ([a, b], motions, config) = scene(&mut rng, number);
-        let problem = Problem::about((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
+        let problem =
+            Problem::of_moving_bodies((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
         if distance(&problem, 0.0) < 2.0 * config.tolerance + config.margin {
             continue;
         }
@@ -192,7 +193,8 @@ fn the_naive_schedule_agrees() {
     let (mut hits, mut misses) = (0, 0);
     for number in 0..150 {
         let ([a, b], motions, config) = scene(&mut rng, number);
-        let problem = Problem::about((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
+        let problem =
+            Problem::of_moving_bodies((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
         let twin = Naive::default()
             .answer_first_contact(&problem, &mut ExhaustiveOracle)
             .outcome;
@@ -233,7 +235,7 @@ fn steps_lead_to_the_same_answer() {
         let whole = BestFirst::default()
             .first_contact(&query, &mut ExhaustiveOracle)
             .unwrap();
-        let mut search = FirstContact::new(query, BestFirst::default());
+        let mut search = FirstContactSearch::new(query, BestFirst::default());
         let mut until = 0.0;
         let answer = loop {
             until += rng.random_range(0.0..1.0) * [1e-3, 0.5][rng.random_range(0..2)];
@@ -268,7 +270,7 @@ fn a_thousand_turns_cost_what_one_does() {
                 (&a, turn(first, 1.0, turns)),
                 (&b, turn(second, ratio, turns)),
             ];
-            let answer = solve(&Problem::about(a, b, 1.0, &config).unwrap());
+            let answer = solve(&Problem::of_moving_bodies(a, b, 1.0, &config).unwrap());
             matches!(answer.outcome, Outcome::Free { .. }).then_some(answer.stats.work())
         };
         if let (Some(few), Some(many)) = (work(4.0), work(1_000.0)) {
@@ -293,7 +295,8 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
         let ratio = [0.0, 0.5, 1.0, 0.4][number % 4];
         let problem = |turns: f64| {
             let moving = (&a, turn(first, turns));
-            Problem::about(moving, (&b, turn(second, ratio * turns)), 1.0, &config).unwrap()
+            Problem::of_moving_bodies(moving, (&b, turn(second, ratio * turns)), 1.0, &config)
+                .unwrap()
         };
         let [few, many] = [20.0, 1_000.0].map(|turns| {
             let problem = problem(turns);

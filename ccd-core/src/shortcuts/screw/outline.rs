@@ -25,7 +25,7 @@ pub(crate) struct Outline {
     /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
     /// to them.
     rounding_lengths: [f64; 2],
-    tilt: f64,
+    helix_slope: f64,
 }
 
 /// The linear approximation of `ζ` near a node, with bounds of its deviation from `ζ`.
@@ -38,7 +38,7 @@ pub(crate) struct ZetaApproximation {
     pub(crate) zeta_gradient: DVec3,
     pub(crate) zeta_nonlinearity_bound: f64,
     pub(crate) rounding_lengths: [f64; 2],
-    pub(crate) tilt: f64,
+    pub(crate) helix_slope: f64,
 }
 
 impl Outline {
@@ -65,7 +65,7 @@ impl Outline {
             inner_corners: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
             zeta_nonlinearity_bound: linear.zeta_nonlinearity_bound,
             rounding_lengths: linear.rounding_lengths,
-            tilt: linear.tilt,
+            helix_slope: linear.helix_slope,
         })
     }
 
@@ -77,7 +77,7 @@ impl Outline {
             (&self.inner_corners, &self.outer_corners)
         };
         let slack = n.y.abs() * self.zeta_nonlinearity_bound
-            + profile_rounding(n.abs().to_array(), self.rounding_lengths, self.tilt);
+            + profile_rounding(n.abs().to_array(), self.rounding_lengths, self.helix_slope);
         let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
         let high = most
             .iter()

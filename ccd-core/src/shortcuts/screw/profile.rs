@@ -150,7 +150,7 @@ impl Profile {
             zeta_gradient: ahead,
             zeta_nonlinearity_bound: twist,
             rounding_lengths: [arm, node.radius],
-            tilt: axis.advance / distance,
+            helix_slope: axis.advance / distance,
         };
         profile.outline = Outline::new(node, &linear);
         if let Some(outline) = &profile.outline {

@@ -90,7 +90,7 @@ fn sampled_least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, ne
         let all = 0..pieces.len();
         let below = all.filter(|&k| id == 0 || k + 1 == id as usize);
         below
-            .map(|k| pieces.triangle(k).map(|x| frame.point(x)))
+            .map(|k| pieces.triangle(k).map(|x| frame.transform_point(x)))
             .collect()
     };
     let distance = |s: f64| {
@@ -178,7 +178,8 @@ fn later_turns_count() {
     for (turns, apart) in [(1.0, true), (2.0, false)] {
         let config = Settings::DEFAULT;
         let moving = (&moving, turn(turns));
-        let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
+        let problem =
+            Problem::of_moving_bodies(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
         let mut profiles = ProfileCache::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
@@ -220,7 +221,8 @@ fn any_number_of_turns_is_one_look() {
             turns * TAU * DVec3::Z,
         );
         let moving = (&moving, spin.unwrap());
-        let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
+        let problem =
+            Problem::of_moving_bodies(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
         let mut profiles = ProfileCache::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
@@ -239,7 +241,7 @@ fn what_is_no_screw_has_no_profiles() {
     };
     let config = Settings::DEFAULT;
     let is_screw = |a: Motion, b: Motion| {
-        let problem = Problem::about((&cube, a), (&cube, b), 1.0, &config).unwrap();
+        let problem = Problem::of_moving_bodies((&cube, a), (&cube, b), 1.0, &config).unwrap();
         Screw::for_problem(&problem, &mut ProfileCache::default()).is_some()
     };
     let still = Motion::STILL;
@@ -300,7 +302,7 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
         ];
         let [moving, still] = bodies.map(|triangles| body(&triangles));
         let turning = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1.7 * axis).unwrap();
-        let problem = Problem::about(
+        let problem = Problem::of_moving_bodies(
             (&moving, turning),
             (&still, Motion::STILL),
             1.0,

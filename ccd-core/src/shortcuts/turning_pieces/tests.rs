@@ -106,10 +106,11 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     let towards = if rng.random_bool(0.5) {
         random_direction(rng)
     } else {
-        (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
-            .normalize()
+        (other.frame.transform_point(other.piece.points[0])
+            - own.frame.transform_point(own.piece.points[0]))
+        .normalize()
     };
-    let local = own.frame.inverse_vector(towards);
+    let local = own.frame.inverse_transform_vector(towards);
     let gap_at = |s: f64| {
         let PiecePair { a, b, b_to_a } = Snapshot::new(problem, 0, 0, s).pieces;
         let in_a = match holder {
@@ -243,7 +244,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         } else {
             (plate, ball)
         };
-        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
         let plane = SeparatingPlane { normal, slack: 0.3 };

@@ -1,5 +1,5 @@
 use super::*;
-use crate::exact::predicates::side;
+use crate::exact::predicates::side_of_plane;
 use ccd_core::glam::dvec3;
 use proptest::prelude::*;
 
@@ -20,7 +20,10 @@ fn check(points: &[DVec3], hull: &ExactHull) -> Result<(), TestCaseError> {
         let triangle = [a, b, c].map(|v| points[v as usize]);
         prop_assert!(!is_degenerate(triangle));
         for &p in points {
-            prop_assert!(side(triangle, p) != Ordering::Greater, "{p} is outside");
+            prop_assert!(
+                side_of_plane(triangle, p) != Ordering::Greater,
+                "{p} is outside"
+            );
         }
     }
     edges.sort_unstable();
@@ -34,7 +37,7 @@ fn check(points: &[DVec3], hull: &ExactHull) -> Result<(), TestCaseError> {
 proptest! {
     #[test]
     fn hulls_are_closed_and_hold_all_points(points in coarse_grid_points()) {
-        let in_plane = |t: [DVec3; 3]| points.iter().all(|&p| side(t, p) == Ordering::Equal);
+        let in_plane = |t: [DVec3; 3]| points.iter().all(|&p| side_of_plane(t, p) == Ordering::Equal);
         let all_flat = points.iter().all(|&a| points.iter().all(|&b| {
             points.iter().all(|&c| in_plane([a, b, c]))
         }));

@@ -3,7 +3,7 @@
 //! Without `tobj`: it numbers vertices by first use and object by object, does not say where an error is, and took
 //! more code around it than the statements `v` and `f` take.
 
-use crate::mesh::content::{Content, Layout};
+use crate::mesh::content::{Content, Geometry};
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
@@ -147,7 +147,7 @@ impl ObjReader {
                     line: polygons.face_line_numbers.get(face).copied(),
                     vertex,
                     vertices,
-                    base: 1,
+                    first_vertex_number: 1,
                 });
             }
         }
@@ -159,7 +159,7 @@ impl ObjReader {
         Ok(Content {
             unit: None,
             part_names: labels.names,
-            layout: Layout::FaceList(self.polygons, labels.group_of_face),
+            geometry: Geometry::FaceList(self.polygons, labels.group_of_face),
         })
     }
 }

@@ -18,7 +18,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let bytes = &without_lone_text_returns(bytes);
+    let bytes = &text_cr_to_lf(bytes);
     check_unique_names(bytes)?;
     let mut reader = Reader::new(&bytes[..]);
     let header = Parser::<PlyElement>::new()
@@ -50,7 +50,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
     check_no_trailing_bytes(reader.get_ref())?;
     if header.encoding == Encoding::Ascii {
-        check_number_count_of_lines(payload, first_line, &header)?;
+        check_values_per_line(payload, first_line, &header)?;
     }
     Ok(polygons)
 }
@@ -69,17 +69,17 @@ fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
 }
 
 /// Converts lone carriage returns to line feeds, except in a binary payload.
-fn without_lone_text_returns(bytes: &[u8]) -> Cow<'_, [u8]> {
+fn text_cr_to_lf(bytes: &[u8]) -> Cow<'_, [u8]> {
     const END_HEADER: &[u8] = b"end_header\r";
     let end = bytes
         .windows(END_HEADER.len())
         .position(|window| window == END_HEADER);
     match (bytes, end.map(|end| end + END_HEADER.len())) {
         ([b'p', b'l', b'y', b'\r', next, ..], Some(end)) if *next != b'\n' => {
-            let mut header = text::without_lone_returns(bytes[..end].into()).into_owned();
+            let mut header = text::lone_cr_to_lf(bytes[..end].into()).into_owned();
             let is_text = header.windows(12).any(|window| window == b"format ascii");
             if is_text {
-                header.extend_from_slice(&text::without_lone_returns(bytes[end..].into()));
+                header.extend_from_slice(&text::lone_cr_to_lf(bytes[end..].into()));
             } else {
                 header.extend_from_slice(&bytes[end..]);
             }
@@ -127,11 +127,7 @@ fn check_no_trailing_bytes(rest: &[u8]) -> Result<(), MeshFault> {
 }
 
 /// Checks that no text line has more numbers than properties, because the library skips further numbers.
-fn check_number_count_of_lines(
-    payload: &[u8],
-    first: usize,
-    header: &Header,
-) -> Result<(), MeshFault> {
+fn check_values_per_line(payload: &[u8], first: usize, header: &Header) -> Result<(), MeshFault> {
     let mut lines = (first..).zip(payload.split(|&byte| byte == b'\n'));
     for element in header.elements.values() {
         for (number, line) in lines.by_ref().take(element.count) {

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 /// Converts a text to UTF-8 with line feeds, without a byte order mark.
 ///
 /// UTF-16 is recognised by its mark. Invalid UTF-8 is kept: names, comments and binary formats may hold it.
-pub(super) fn utf8_without_lone_returns(bytes: &[u8]) -> Cow<'_, [u8]> {
-    without_lone_returns(to_utf8(bytes))
+pub(super) fn utf8_cr_to_lf(bytes: &[u8]) -> Cow<'_, [u8]> {
+    lone_cr_to_lf(to_utf8(bytes))
 }
 
 /// Converts a text to UTF-8 and removes the byte order mark, which would hide the first keyword.
@@ -24,7 +24,7 @@ pub(super) fn to_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
 }
 
 /// Replaces every carriage return without a following line feed by a line feed.
-pub(super) fn without_lone_returns(mut text: Cow<'_, [u8]>) -> Cow<'_, [u8]> {
+pub(super) fn lone_cr_to_lf(mut text: Cow<'_, [u8]>) -> Cow<'_, [u8]> {
     let alone = |text: &[u8], at: usize| text[at] == b'\r' && text.get(at + 1) != Some(&b'\n');
     if (0..text.len()).any(|at| alone(&text, at)) {
         let text = text.to_mut();

@@ -1,6 +1,6 @@
 //! The facet planes of a hull, against which boxes are tested.
 
-use super::target::Target;
+use super::enclosed_mesh::EnclosedMesh;
 use crate::tolerance::MIN_CORNER_SINE;
 use ccd_core::Hull;
 use ccd_core::glam::DVec3;
@@ -31,7 +31,7 @@ pub(super) struct BoxPosition {
 }
 
 impl FacetPlanes {
-    pub(super) fn new(hull: &Hull, target: &Target<'_>) -> Self {
+    pub(super) fn new(hull: &Hull, target: &EnclosedMesh<'_>) -> Self {
         let plane = |facet: &[u32]| Plane::from_facet(hull, facet);
         FacetPlanes {
             planes: hull.facets.iter().filter_map(plane).collect(),

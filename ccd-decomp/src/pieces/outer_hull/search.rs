@@ -1,13 +1,13 @@
 //! Computes an upper bound on how far a hull extends beyond a solid, by branch and bound.
 
+use super::enclosed_mesh::{EnclosedMesh, Location};
 use super::facet_planes::FacetPlanes;
-use super::target::{Location, Target};
 use super::under;
 use crate::tolerance::{
     EXCESS_TOLERANCE_PER_HALF_DIAGONAL, EXCESS_WORK_BUDGET, MAX_EXCESS_BOXES, PLANE_TESTS_PER_STEP,
     SUFFICIENT_EXCESS_RATIO,
 };
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::Hull;
 use ccd_core::glam::{BVec3, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 /// The distance is 1-Lipschitz, so that its value at the centre of a box bounds it in the box. For nearly flat surfaces
 /// [`under`] gives a better bound. Boxes around the hull are split, largest bound first, until that bound is near a
 /// distance that was found, the work is spent, or too many boxes wait.
-pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
+pub(super) fn excess_bound(target: &EnclosedMesh<'_>, hull: &Hull) -> f64 {
     let floor = EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal;
     let mut search = Search {
         enclosed_mesh: target,
@@ -40,7 +40,7 @@ pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
 const BOXES_PER_BATCH: usize = 16;
 
 struct Search<'a> {
-    enclosed_mesh: &'a Target<'a>,
+    enclosed_mesh: &'a EnclosedMesh<'a>,
     hull: FacetPlanes,
     /// The number of steps of the work budget that the search has spent.
     steps_spent: u64,
@@ -122,7 +122,7 @@ impl Search<'_> {
     /// Bounds the distance from the solid to the hull in the box `bounds`, a part of the examined box `within`.
     fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
         let planes = &within.planes;
-        let (target, hull, work) = (self.enclosed_mesh, &self.hull, &Work::unbounded());
+        let (target, hull, work) = (self.enclosed_mesh, &self.hull, &WorkBudget::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.slack;

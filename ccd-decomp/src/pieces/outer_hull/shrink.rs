@@ -1,7 +1,7 @@
 //! Bounds the excess of the hull of a nearly convex solid by a shrunk copy of the hull within the solid.
 
+use super::enclosed_mesh::EnclosedMesh;
 use super::facet_planes::Plane;
-use super::target::Target;
 use crate::tolerance::{EXCESS_WORK_BUDGET, PLANE_TESTS_PER_STEP};
 use ccd_core::Hull;
 use ccd_core::glam::DVec3;
@@ -15,7 +15,7 @@ use ccd_core::order::greater;
 /// front of whose plane it stays. Let the centre be `m` below a plane, and the hull's highest point `h` above the plane. A
 /// copy of the hull, shrunk towards the centre by the least `m / (m + h)` of all planes, is behind all of them. So a point
 /// of the hull is at most `h / (m + h)` of its distance from the centre away from the solid.
-pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull, centre: DVec3) -> Option<f64> {
+pub(super) fn excess_bound(target: &EnclosedMesh<'_>, hull: &Hull, centre: DVec3) -> Option<f64> {
     let tests = target.triangles().len() as u64 * hull.points.len() as u64;
     if tests > EXCESS_WORK_BUDGET * PLANE_TESTS_PER_STEP as u64 {
         return None;

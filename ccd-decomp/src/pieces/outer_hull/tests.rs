@@ -1,8 +1,8 @@
-use super::target::Location;
+use super::enclosed_mesh::Location;
 use super::*;
-use crate::exact::predicates::side;
+use crate::exact::predicates::side_of_plane;
 use crate::test_meshes::prism;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::Facet;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -150,7 +150,7 @@ fn is_inside(polytope: &Polytope, point: DVec3) -> bool {
     let is_behind = |facet: &Facet| {
         let fan = facet.corners[1..].windows(2);
         let mut fan = fan.map(|edge| [facet.corners[0], edge[0], edge[1]].map(at));
-        fan.all(|triangle| side(triangle, point) != Ordering::Greater)
+        fan.all(|triangle| side_of_plane(triangle, point) != Ordering::Greater)
     };
     polytope.facets.iter().all(is_behind)
 }
@@ -316,7 +316,10 @@ fn a_coordinate_too_near_to_0_is_refused() {
 #[case::hollow(box_mesh(&[cube_bounds(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(box_mesh(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 fn lattice_points_are_located(#[case] mesh: TriangleMesh) {
-    let (target, surface) = (Target::new(&mesh, &Topology::of(&mesh)), triangles(&mesh));
+    let (target, surface) = (
+        EnclosedMesh::new(&mesh, &Topology::of(&mesh)),
+        triangles(&mesh),
+    );
     for k in 0..21 * 21 * 21 {
         let point = DVec3::new((k % 21) as f64, (k / 21 % 21) as f64, (k / 441) as f64) / 4.0 - 2.5;
         let distance_to_surface = distance(&surface, point);
@@ -324,11 +327,11 @@ fn lattice_points_are_located(#[case] mesh: TriangleMesh) {
             continue;
         }
         assert_eq!(
-            target.has_nonzero_winding_number(point, &Work::unbounded()),
+            target.has_nonzero_winding_number(point, &WorkBudget::unbounded()),
             has_nonzero_winding_number(&mesh, point),
             "{point}"
         );
-        match target.locate(point, &Work::unbounded()) {
+        match target.locate(point, &WorkBudget::unbounded()) {
             Location::Inside { least_depth } => {
                 assert!(
                     least_depth <= distance_to_surface && least_depth > distance_to_surface - 1e-6

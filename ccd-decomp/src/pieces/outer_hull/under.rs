@@ -1,9 +1,9 @@
 //! Bounds how far a hull extends beyond a nearly flat part of a solid's surface.
 
+use super::enclosed_mesh::EnclosedMesh;
 use super::facet_planes::Plane;
-use super::target::Target;
 use crate::tolerance::MAX_NEARBY_TRIANGLES;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
@@ -15,10 +15,10 @@ use ccd_core::vector::unit;
 /// below that surface are a convex set without surface, which is in the solid if one point is. The bound is how far a
 /// point of the small box sinks to get there, if it stays in the large box.
 pub(super) fn excess_bound_above_surface(
-    target: &Target<'_>,
+    target: &EnclosedMesh<'_>,
     planes: impl Iterator<Item = Plane>,
     [centre, half]: [DVec3; 2],
-    work: &Work,
+    work: &WorkBudget,
 ) -> Option<f64> {
     let bounds = [centre - 3.0 * half, centre + 3.0 * half];
     let near = target.triangles_meeting_box(bounds, MAX_NEARBY_TRIANGLES, work)?;

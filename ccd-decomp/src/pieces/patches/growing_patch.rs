@@ -1,6 +1,6 @@
 //! A convex patch under construction, which grows polygon by polygon.
 
-use super::obstacle::Obstacle;
+use super::obstacle::HullInteriorTest;
 use crate::bounds::Bounds;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
@@ -9,7 +9,7 @@ use crate::search::region::Region;
 use crate::solid::flats::ConvexPolygons;
 use crate::solid::manifold::Manifold;
 use crate::tolerance::MAX_PATCH_CORNERS;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::PolygonList;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -61,7 +61,7 @@ impl GrowingPatch {
         manifold: &Manifold<'_>,
         flats: &ConvexPolygons,
         flat: u32,
-        work: &Work,
+        work: &WorkBudget,
     ) -> JoinResult {
         let points = manifold.mesh().vertices();
         if self.hull.corners().len() + flats.get(flat).corners.len() > MAX_PATCH_CORNERS {
@@ -95,7 +95,7 @@ impl GrowingPatch {
         work.spend(new.len() * self.hull.facets().len());
         let (hull, changed) = self.extended_hull(points, &new);
         if let Some(changed) = changed {
-            let obstacle = Obstacle::new(points, &hull);
+            let obstacle = HullInteriorTest::new(points, &hull);
             let is_apart = |face: u32| {
                 let of = flats.polygon_of_face(face);
                 of == flat

@@ -8,7 +8,7 @@ use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 /// A convex hull with volume, with the tables for testing whether triangles of the same mesh enter its interior.
-pub(super) struct Obstacle<'a> {
+pub(super) struct HullInteriorTest<'a> {
     points: &'a [DVec3],
     hull: &'a ExactHull,
     edges: OnceCell<Vec<Edge>>,
@@ -19,10 +19,10 @@ pub(super) struct Obstacle<'a> {
 /// An edge of a hull: its ends, and the facets on both sides.
 type Edge = ([u32; 2], [u32; 2]);
 
-impl<'a> Obstacle<'a> {
+impl<'a> HullInteriorTest<'a> {
     /// Prepares the tests for a hull with volume.
     pub(super) fn new(points: &'a [DVec3], hull: &'a ExactHull) -> Self {
-        Obstacle {
+        HullInteriorTest {
             points,
             hull,
             edges: OnceCell::new(),

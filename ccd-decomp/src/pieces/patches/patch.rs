@@ -1,7 +1,7 @@
 //! Finished patches, whose hulls have facets with the numbers of the mesh's faces.
 
 use super::growing_patch::GrowingPatch;
-use crate::exact::predicates::{Projection, side};
+use crate::exact::predicates::{Projection, side_of_plane};
 use crate::pieces::polytope::{FacetWithFaces, polytope};
 use crate::solid::flats::{ConvexPolygon, ConvexPolygons};
 use crate::solid::manifold::Manifold;
@@ -63,7 +63,8 @@ fn facet_with_faces(
     // Coplanar with the facet, with the same normal.
     let within = |flat: &&&ConvexPolygon| {
         let own = manifold.triangle(flat.faces[0]);
-        own.iter().all(|&p| side(triangle, p) == Ordering::Equal)
+        own.iter()
+            .all(|&p| side_of_plane(triangle, p) == Ordering::Equal)
             && plane.turn(own[0], own[1], own[2]) == Ordering::Greater
     };
     let members: Vec<&ConvexPolygon> = members.iter().filter(within).copied().collect();

@@ -207,7 +207,7 @@ fn patches_of_slivers_take_linear_work() {
         let mesh = star_bipyramid(corners, 0.5);
         let manifold = solid_surface(&mesh).unwrap();
         let flats = ConvexPolygons::new(&manifold);
-        let work = Work::with_steps(1_000 * u64::from(corners));
+        let work = WorkBudget::with_steps(1_000 * u64::from(corners));
         let decomposition =
             patches_from_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();
         check(&mesh, &decomposition);
@@ -225,7 +225,7 @@ fn steps_per_face_stay_bounded() {
         ] {
             let manifold =
                 Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
-            let work = Work::unbounded();
+            let work = WorkBudget::unbounded();
             let flats = ConvexPolygons::new(&manifold);
             let found =
                 patches_from_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();

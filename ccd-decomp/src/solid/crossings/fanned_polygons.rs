@@ -1,13 +1,13 @@
 //! Convex polygons of many slivers, such as fans of triangles. Their triangles are tested only if another face enters the polygon.
 
 use crate::bounds::{Bounds, BoundsTree};
-use crate::exact::predicates::{Projection, side};
+use crate::exact::predicates::{Projection, side_of_plane};
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
 use crate::solid::flats::{ConvexPolygon, ConvexPolygons};
 use crate::solid::manifold::Manifold;
 use crate::tolerance::MIN_FAN_TRIANGLES;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -102,7 +102,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         &self,
         face: u32,
         region: &Region,
-        work: &Work,
+        work: &WorkBudget,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let own = self.polygon_of_face[face as usize];
@@ -143,7 +143,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
             self.manifold.faces()[face as usize],
             self.manifold.triangle(face),
         );
-        let sides = points.map(|p| side(polygon.plane, p));
+        let sides = points.map(|p| side_of_plane(polygon.plane, p));
         if sides.contains(&Ordering::Less) && sides.contains(&Ordering::Greater) {
             return false;
         }

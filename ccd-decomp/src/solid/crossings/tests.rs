@@ -9,7 +9,7 @@ use crate::test_meshes::{
     toothed_disc_outline,
 };
 use crate::tolerance::MAX_CROSSINGS;
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -112,7 +112,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
         let mesh = prism(&(0..corners).map(corner).collect::<Vec<_>>());
         let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
         // All pairs about a corner of 5,000 would be 2,500 for each triangle.
-        let work = Work::with_steps(100 * mesh.faces().len() as u64);
+        let work = WorkBudget::with_steps(100 * mesh.faces().len() as u64);
         assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
     }
 }
@@ -121,12 +121,12 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap();
     assert_eq!(crate::solid::star_shaped::star_centre(&manifold), None);
-    let too_few = Work::with_steps(100);
+    let too_few = WorkBudget::with_steps(100);
     assert_eq!(
         check_solid(&manifold, &too_few),
         Err(DecomposeError::WorkBudgetExceeded)
     );
-    let work = Work::unbounded();
+    let work = WorkBudget::unbounded();
     assert_eq!(check_solid(&manifold, &work), Ok(()));
     work.steps_spent() / mesh.faces().len() as u64
 }
@@ -186,7 +186,7 @@ fn crossings_are_those_of_all_pairs() {
         let all: Vec<_> = pairs
             .filter(|&(f, g)| f < g && super::faces_cross(&manifold, f, g))
             .collect();
-        let found = super::crossings(&manifold, &Work::unbounded()).unwrap();
+        let found = super::crossings(&manifold, &WorkBudget::unbounded()).unwrap();
         if all.len() < MAX_CROSSINGS {
             assert_eq!(found, all);
         } else {

@@ -3,7 +3,7 @@ use crate::mesh::TriangleMesh;
 use crate::solid::topology::Topology;
 use crate::solid::{check_solid, solid_surface};
 use crate::test_meshes::{block_cells, cubes, merged_meshes, mesh, scaled_and_moved, tetrahedron};
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
@@ -102,6 +102,6 @@ fn folds_are_no_polygons() {
     for (mesh, polygons) in cases {
         let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
         assert_eq!(ConvexPolygons::new(&manifold).len(), polygons);
-        assert!(check_solid(&manifold, &Work::unbounded()).is_err());
+        assert!(check_solid(&manifold, &WorkBudget::unbounded()).is_err());
     }
 }

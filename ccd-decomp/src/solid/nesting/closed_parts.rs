@@ -1,7 +1,7 @@
 //! Splits a closed mesh into shells, its smallest closed parts.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::exact::predicates::{Projection, first_point_below_exact_range, side};
+use crate::exact::predicates::{Projection, first_point_below_exact_range, side_of_plane};
 use crate::half_edges::{EdgeUse, Edges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
@@ -88,7 +88,7 @@ fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Op
     }
     let projection = Projection::new([v, w, first])?;
     // 0 for no angle from the first face, 1 below half a turn, 2 for half a turn, 3 above.
-    let angle_class = |p: DVec3| match side([v, w, first], p) {
+    let angle_class = |p: DVec3| match side_of_plane([v, w, first], p) {
         Ordering::Equal if projection.turn(v, w, p) == Ordering::Greater => 0,
         Ordering::Greater => 1,
         Ordering::Equal => 2,
@@ -97,7 +97,7 @@ fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Op
     let mut order: Vec<(EdgeUse, DVec3)> = edge.iter().copied().zip(apexes).collect();
     order.sort_by(|&(one, p), &(other, q)| {
         let by_class = angle_class(p).cmp(&angle_class(q));
-        let by_angle = by_class.then_with(|| side([v, w, q], p));
+        let by_angle = by_class.then_with(|| side_of_plane([v, w, q], p));
         by_angle.then(other.direction_sign().cmp(&one.direction_sign()))
     });
     Some(order.into_iter().map(|(one, _)| one).collect())

@@ -4,7 +4,7 @@ use super::centre_and_points_beside;
 use crate::rational::Exact3;
 use crate::test_meshes::CUBE_FACES;
 use crate::tolerance::FACE_CENTRE_ROUNDING;
-use crate::worst::{WorstCaseSearch, share};
+use crate::worst::{WorstCaseSearch, error_share};
 use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
 use ccd_core::Volume;
 use ccd_core::glam::{DVec3, dvec3};
@@ -124,7 +124,7 @@ fn shells_that_share_an_edge_are_distinguished() {
     for (one, other) in [(true, false), (false, true), (false, false)] {
         let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (dvec3(1.0, 1.0, 0.0), 0.5, other)]);
         let topology = Topology::of(&mesh);
-        assert_eq!(topology.shared_edges.count(), 1);
+        assert_eq!(topology.edges_shared_by_parts.count(), 1);
         assert_eq!(
             wrong_and_unclear_shell_counts(&mesh),
             [usize::from(one != other), 0]
@@ -153,7 +153,7 @@ fn shells_that_share_faces_are_distinguished() {
         assert!(volume.abs() < 1e-9, "{seed}");
         let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
         assert_eq!(prepared.body.volume(), Volume::Solid);
-        shared += usize::from(topology.shared_edges.count() > 4);
+        shared += usize::from(topology.edges_shared_by_parts.count() > 4);
     }
     assert!(shared > 40, "{shared}");
 }
@@ -187,7 +187,7 @@ fn worst_middle() {
         };
         let [behind, ahead] = across.map(height);
         let meant = FACE_CENTRE_ROUNDING * (size + middle.abs().max_element());
-        Some(share(meant - lesser(ahead, -behind), meant))
+        Some(error_share(meant - lesser(ahead, -behind), meant))
     });
     found.assert_tight_bound(1e4);
 }

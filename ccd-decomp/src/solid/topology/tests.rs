@@ -87,7 +87,7 @@ fn two_shells_that_share_an_edge_are_closed_but_no_manifold() {
     let other = TETRAHEDRON_FACES.map(|face| face.map(|v| [0, 1, 4, 5][v as usize]));
     let both = topology(points, &[TETRAHEDRON_FACES, other].concat());
     assert!(both.is_closed() && !both.is_manifold(), "{both}");
-    assert_eq!(both.shared_edges.first(), [Edge(0, 1)]);
+    assert_eq!(both.edges_shared_by_parts.first(), [Edge(0, 1)]);
 }
 
 #[test]

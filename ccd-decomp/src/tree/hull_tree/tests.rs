@@ -2,7 +2,7 @@
 //! a piece.
 
 use super::*;
-use crate::exact::predicates::side;
+use crate::exact::predicates::side_of_plane;
 use ccd_core::order::greater;
 use ccd_core::{ConvexCombination, FacetClass, HierarchyNode, HullFault, Polytope};
 use proptest::prelude::*;
@@ -91,7 +91,8 @@ fn is_exactly_inside(hull: &ccd_core::Piece<'_>, point: DVec3) -> bool {
     hull.facets.iter().all(|corners| {
         let corners: Vec<DVec3> = corners.iter().map(|&v| hull.points[v as usize]).collect();
         let fan = (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]);
-        fan.into_iter().all(|t| side(t, point) != Ordering::Greater)
+        fan.into_iter()
+            .all(|t| side_of_plane(t, point) != Ordering::Greater)
     })
 }
 

@@ -151,5 +151,8 @@ fn cylinders_and_cones_are_along_y_with_the_reported_excess() {
         refused(Excess::Length(-1.0)),
         ShapeError::InvalidSize { what: "excess", .. }
     ));
-    assert_eq!(refused(Excess::NotAllowed), ShapeError::RoundShapeRefused);
+    assert_eq!(
+        refused(Excess::NotAllowed),
+        ShapeError::SolidOfRevolutionRefused
+    );
 }

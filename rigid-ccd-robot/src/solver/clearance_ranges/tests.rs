@@ -4,7 +4,7 @@ use super::*;
 use crate::solver::tests::{
     configuration_between, least_distance, random_cell, random_configuration,
 };
-use crate::{Cell, Joint, Link, LinkPairs, Position, Robot};
+use crate::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::glam::DQuat;
@@ -12,7 +12,7 @@ use rigid_ccd::{Body, Pose, Settings, trajectory};
 use std::f64::consts::PI;
 use std::time::Duration;
 
-fn with_margin(margin: f64) -> Settings {
+fn settings_with_margin(margin: f64) -> Settings {
     Settings {
         margin,
         tolerance: 1e-6,
@@ -32,7 +32,7 @@ fn sampled_distances_are_on_the_proven_side() {
         let path: Vec<Vec<f64>> = (0..random.random_range(2..4))
             .map(|_| random_configuration(&mut random, cell.robot()))
             .collect();
-        let mut solver = cell.solver().with_settings(with_margin(margin));
+        let mut solver = cell.solver().with_settings(settings_with_margin(margin));
         let ranges = solver
             .clearance_ranges(&path, RangeSettings::DEFAULT)
             .unwrap();
@@ -45,7 +45,7 @@ fn sampled_distances_are_on_the_proven_side() {
                 assert_eq!(at(ranges[k - 1].to), at(range.from));
                 assert_ne!(ranges[k - 1].clearance, range.clearance);
             }
-            if range.clearance == Clearance::Unverified {
+            if range.clearance == ClearanceVerdict::Unverified {
                 unverified += at(range.to) - at(range.from);
             }
             for sample in 0..=8 {
@@ -56,17 +56,19 @@ fn sampled_distances_are_on_the_proven_side() {
                 let distance =
                     least_distance(&cell, &configuration_between(ends[0], ends[1], there.share));
                 match range.clearance {
-                    Clearance::Kept => {
+                    ClearanceVerdict::Kept => {
                         assert!(distance > margin, "{distance} of {margin} in {range:?}");
                     }
-                    Clearance::Violated if margin > 0.0 => {
+                    ClearanceVerdict::Violated if margin > 0.0 => {
                         assert!(distance < margin, "{distance} in {range:?}");
                     }
-                    Clearance::Violated => assert!(distance <= 0.0, "{distance} in {range:?}"),
-                    Clearance::Unverified => {}
+                    ClearanceVerdict::Violated => {
+                        assert!(distance <= 0.0, "{distance} in {range:?}")
+                    }
+                    ClearanceVerdict::Unverified => {}
                 }
-                kept += usize::from(range.clearance == Clearance::Kept);
-                violated += usize::from(range.clearance == Clearance::Violated);
+                kept += usize::from(range.clearance == ClearanceVerdict::Kept);
+                violated += usize::from(range.clearance == ClearanceVerdict::Violated);
             }
         }
     }
@@ -91,7 +93,7 @@ fn without_time_nothing_is_verified() {
         .unwrap();
     let [
         ClearanceRange {
-            clearance: Clearance::Unverified,
+            clearance: ClearanceVerdict::Unverified,
             to,
             ..
         },
@@ -106,7 +108,7 @@ fn joint(
     name: &str,
     [parent, child]: [&str; 2],
     joint: trajectory::Joint,
-    position: Position,
+    position: PositionRule,
 ) -> Joint {
     Joint {
         name: name.into(),
@@ -129,7 +131,7 @@ fn lid_with_stop(stop_angle: f64) -> Cell {
         "hinge",
         ["frame", "lid"],
         hinge_at([0.0; 3]),
-        Position::Free,
+        PositionRule::Free,
     );
     let robot = Robot::new(vec![Link::named("frame"), lid], vec![hinge]).unwrap();
     let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
@@ -149,12 +151,12 @@ fn angle_of_gap(gap: f64) -> f64 {
 fn a_stop_of_a_hinge_limits_it() {
     let cell = lid_with_stop(2.0);
     for gap in [0.0, 0.003, 0.4] {
-        let mut solver = cell.solver().with_settings(with_margin(gap));
+        let mut solver = cell.solver().with_settings(settings_with_margin(gap));
         let ranges = solver
             .clearance_ranges(&[[0.0], [PI]], RangeSettings::DEFAULT)
             .unwrap();
-        let verdicts: Vec<Clearance> = ranges.iter().map(|range| range.clearance).collect();
-        use Clearance::{Kept, Unverified, Violated};
+        let verdicts: Vec<ClearanceVerdict> = ranges.iter().map(|range| range.clearance).collect();
+        use ClearanceVerdict::{Kept, Unverified, Violated};
         assert_eq!(verdicts, [Kept, Unverified, Violated, Unverified, Kept]);
         let borders = [2.0 - angle_of_gap(gap), 2.0 + angle_of_gap(gap)];
         for (border, range) in borders.iter().zip([ranges[1], ranges[3]]) {
@@ -191,7 +193,7 @@ fn deep_overlaps_are_violated() {
         ),
     ] {
         let link = Link::named("part").with_body(held, pose.unwrap());
-        let moves = joint("joint", ["frame", "part"], moves, Position::Free);
+        let moves = joint("joint", ["frame", "part"], moves, PositionRule::Free);
         let robot = Robot::new(vec![Link::named("frame"), link], vec![moves]).unwrap();
         let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
         cell.add_obstacle("obstacle", obstacle, Pose::at(at).unwrap())
@@ -201,7 +203,7 @@ fn deep_overlaps_are_violated() {
             .clearance_ranges(&[[-0.5], [0.5]], RangeSettings::DEFAULT)
             .unwrap();
         assert!(
-            ranges[0].clearance == Clearance::Violated && ranges.len() == 1,
+            ranges[0].clearance == ClearanceVerdict::Violated && ranges.len() == 1,
             "{ranges:?}"
         );
     }
@@ -211,7 +213,7 @@ fn deep_overlaps_are_violated() {
 #[test]
 fn an_error_of_poses_is_kept_on_both_sides() {
     let cell = lid_with_stop(2.0);
-    let mut solver = cell.solver().with_settings(with_margin(0.1));
+    let mut solver = cell.solver().with_settings(settings_with_margin(0.1));
     let settings = RangeSettings {
         pose_error: 0.01,
         ..RangeSettings::DEFAULT
@@ -222,7 +224,7 @@ fn an_error_of_poses_is_kept_on_both_sides() {
     };
     assert_eq!(
         [kept.clearance, violated.clearance],
-        [Clearance::Kept, Clearance::Violated]
+        [ClearanceVerdict::Kept, ClearanceVerdict::Violated]
     );
     // Both balls may be away from their places.
     let [from, to] = [unverified.from, unverified.to].map(|at| 2.0 * at.share);

@@ -34,7 +34,7 @@ fn frames_are_within_the_bound_on_rounding() {
             let body = &cell.bodies()[part.owner].body;
             for &point in body.pieces().points() {
                 let in_frame = cell.bodies()[part.owner].pose.transform_point(point);
-                let found = frames[part.frame].point(in_frame);
+                let found = frames[part.frame].transform_point(in_frame);
                 let share = found.distance(pose.transform_point(point)) / bound;
                 largest_share = greater(largest_share, share);
             }
@@ -57,7 +57,7 @@ fn displacements_are_within_their_bounds() {
         let parts = &cell.parts()[..cell.robot_part_count()];
         let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
         let half = random.random_range(0.01..0.5);
-        let share = Shares::new(kinematics, &ends, 0.5);
+        let share = FramesAndRates::new(kinematics, &ends, 0.5);
         let mut displacements = Displacements::new(kinematics, parts);
         displacements.update(
             kinematics,
@@ -71,7 +71,8 @@ fn displacements_are_within_their_bounds() {
             1e-12,
         );
         for _ in 0..10 {
-            let later = Shares::new(kinematics, &ends, 0.5 + random.random_range(-half..half));
+            let later =
+                FramesAndRates::new(kinematics, &ends, 0.5 + random.random_range(-half..half));
             for (number, part) in parts.iter().enumerate() {
                 for seen_from in 0..part.frame {
                     let Some(slot) = displacements.slot(kinematics, number, seen_from) else {
@@ -80,7 +81,8 @@ fn displacements_are_within_their_bounds() {
                     let bound = displacements.bound(Some(slot));
                     for &point in part.points() {
                         let place = |frames: &[Frame]| {
-                            frames[seen_from].inverse_point(frames[part.frame].point(point))
+                            frames[seen_from]
+                                .inverse_transform_point(frames[part.frame].transform_point(point))
                         };
                         let moved = place(&share.frames).distance(place(&later.frames));
                         assert!(moved <= bound + 1e-12, "{moved} beyond {bound}");
@@ -96,12 +98,12 @@ fn displacements_are_within_their_bounds() {
 }
 
 /// The frames at a share of an edge, and the rates of its joints.
-struct Shares {
+struct FramesAndRates {
     frames: Vec<Frame>,
     rates: Vec<f64>,
 }
 
-impl Shares {
+impl FramesAndRates {
     fn new(kinematics: &Kinematics, [from, to]: &[Vec<f64>; 2], share: f64) -> Self {
         let sources = kinematics.joints().iter().map(|joint| joint.source);
         let ends: Vec<[f64; 2]> = sources
@@ -113,6 +115,6 @@ impl Shares {
             &mut frames,
         );
         let rates = ends.iter().map(|[from, to]| (to - from).abs()).collect();
-        Shares { frames, rates }
+        FramesAndRates { frames, rates }
     }
 }

@@ -61,7 +61,7 @@ fn an_edge_beyond_all_numbers_is_never_free() {
         parent: "base".into(),
         child: "cart".into(),
         joint: rail,
-        position: Position::Free,
+        position: PositionRule::Free,
     };
     let cart = Link::named("cart").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
     let robot = Robot::new(vec![Link::named("base"), cart], vec![joint]).unwrap();
@@ -128,7 +128,7 @@ fn numbers_that_cancel_are_rounded_as_what_they_are() {
         position,
     };
     let ball = || Body::sphere(0.5).unwrap();
-    let follows = Position::Follows {
+    let follows = PositionRule::Follows {
         joint: "x".into(),
         multiplier: 1000000.1,
         offset: -1e6,
@@ -137,14 +137,14 @@ fn numbers_that_cancel_are_rounded_as_what_they_are() {
         (
             mesh,
             back,
-            vec![slides("x", Position::Free)],
+            vec![slides("x", PositionRule::Free)],
             [-0.5000000000043645, 4.718003765447065e-12, 0.0],
             0.0,
         ),
         (
             ball(),
             Pose::IDENTITY,
-            vec![slides("x", Position::Free), slides("y", follows)],
+            vec![slides("x", PositionRule::Free), slides("y", follows)],
             [1.1000000108069037, 0.0, 0.0],
             1.0000000000000109,
         ),

@@ -275,7 +275,7 @@ fn bounds_hold_for_the_shapes_that_bodies_enclose() {
         parent: "base".into(),
         child: "rod".into(),
         joint: slide,
-        position: Position::Free,
+        position: PositionRule::Free,
     };
     let robot = Robot::new(links, vec![joint]).unwrap();
     let pairs = LinkPairs::from_robot(&robot);

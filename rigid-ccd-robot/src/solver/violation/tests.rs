@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::glam::DVec3;
 
-fn lowest(points: &[DVec3], direction: DVec3) -> DVec3 {
+fn lowest_point(points: &[DVec3], direction: DVec3) -> DVec3 {
     let lower = |a: DVec3, b: DVec3| {
         if a.dot(direction) <= b.dot(direction) {
             a
@@ -30,11 +30,11 @@ fn a_ball_is_found_only_in_the_hull() {
             .map(|_| centre + random_vector(&mut random, 1.0))
             .collect();
         let radius = random.random_range(0.0..0.5);
-        let is_found = contains_ball(|direction| lowest(&points, direction), radius);
+        let is_found = contains_ball(|direction| lowest_point(&points, direction), radius);
         let mut depth = f64::INFINITY;
         for _ in 0..500 {
             let direction = random_vector(&mut random, 1.0).normalize();
-            depth = lesser(depth, -lowest(&points, direction).dot(direction));
+            depth = lesser(depth, -lowest_point(&points, direction).dot(direction));
         }
         if is_found {
             found += 1;
@@ -50,7 +50,10 @@ fn a_ball_is_found_only_in_the_hull() {
 #[test]
 fn a_flat_set_contains_no_ball() {
     let flat = [[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]].map(DVec3::from);
-    assert!(!contains_ball(|direction| lowest(&flat, direction), 0.0));
+    assert!(!contains_ball(
+        |direction| lowest_point(&flat, direction),
+        0.0
+    ));
     assert!(!contains_ball(|_| DVec3::NAN, 0.0));
     assert!(!contains_ball(|_| DVec3::ONE, 0.0));
 }

@@ -14,7 +14,7 @@ fn knot() -> Body {
 }
 
 fn first_contact(kind: SolverKind, query: &Query<'_>) -> Answer {
-    let mut solver = kind.solver(Instructions::Best);
+    let mut solver = kind.solver(VectorInstructions::Best);
     let answer = solver.answer(Question::FirstContact, query);
     answer
         .expect("all schedules find it")

@@ -8,7 +8,7 @@ use crate::command::pair::BodiesArgs;
 use crate::table::results::{self, Column};
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::schedule::Shortcut;
-use ccd_core::{Instructions, StartPolicy};
+use ccd_core::{StartPolicy, VectorInstructions};
 use clap::{ArgMatches, Args, Command};
 use std::fmt;
 use std::path::PathBuf;
@@ -63,7 +63,7 @@ pub(in crate::command) struct QueryArgs {
     pub(super) threads: Option<u16>,
     /// Vector instructions to compute with; they change the speed, not the answers
     #[arg(long, value_parser = named_value_parser(VECTOR_INSTRUCTIONS), default_value = "best")]
-    pub(super) instructions: Instructions,
+    pub(super) instructions: VectorInstructions,
     /// Search without these shortcuts, to see what they save; times stay certified
     #[arg(long, value_name = "SHORTCUT,...", value_delimiter = ',', value_parser = named_value_parser(SHORTCUTS))]
     pub(super) without: Vec<Shortcut>,

@@ -33,7 +33,7 @@ pub(super) struct Checkpoint {
 }
 
 /// The prefix of an option's name in an entry that holds the checksum of the option's file.
-pub(super) const CHECKSUM_PREFIX: &str = "content-of:";
+pub(super) const FILE_CHECKSUM_PREFIX: &str = "content-of:";
 
 /// The journal file: the options of the run, then a line for each checkpoint. A run continues from the last checkpoint.
 pub(super) struct Journal {
@@ -145,7 +145,7 @@ impl EarlierRun {
         }
         let mut changes = Vec::new();
         for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
-            match option.strip_prefix(CHECKSUM_PREFIX) {
+            match option.strip_prefix(FILE_CHECKSUM_PREFIX) {
                 None => changes.push(format!("{option} was {then} and is now {now}")),
                 // A changed file name implies changed content, so one message is enough.
                 Some(_) if !changes.is_empty() => {}

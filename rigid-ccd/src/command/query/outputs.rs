@@ -60,7 +60,7 @@ impl OpenedTables {
         let journal = results.sibling(JOURNAL_EXTENSION);
         let earlier = match EarlierRun::read(&journal) {
             Ok(earlier) => earlier,
-            Err(JournalError) if results.left_length() > 0 => bail!(
+            Err(JournalError) if results.initial_length() > 0 => bail!(
                 "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
                  first to start over",
                 results.partial_path().display(),
@@ -94,7 +94,7 @@ impl ClaimedFiles {
             .results
             .claim
             .as_ref()
-            .filter(|results| results.left_length() > 0);
+            .filter(|results| results.initial_length() > 0);
         match earlier.zip(left) {
             Some((earlier, results)) if args.resume => {
                 let rows = results.partial_path().display().to_string();
@@ -141,8 +141,8 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
     };
     let target = claim.target().to_owned();
     let name_it = || {
-        if claim.left_length() == written.bytes
-            && measure_beginning(claim.file(), u64::MAX)?.measured() == written
+        if claim.initial_length() == written.bytes
+            && measure_beginning(claim.file(), u64::MAX)?.length_and_checksum() == written
         {
             claim.place()?;
         }
@@ -150,7 +150,7 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
             return Ok(None);
         }
         let found = measure_beginning(File::open(&target)?, u64::MAX)?;
-        Ok(Some(found.measured() == written))
+        Ok(Some(found.length_and_checksum() == written))
     };
     match name_it().map_err(|source| OutputError::for_path(&target, source))? {
         Some(false) => bail!(

@@ -395,8 +395,8 @@ struct UncertainMotion {
 }
 
 impl Trajectory for UncertainMotion {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let mut stretch = self.motion.stretch(from, to)?;
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let mut stretch = self.motion.stretch_between(from, to)?;
         stretch.deviation_bound.shift += self.shift;
         Ok(stretch)
     }

@@ -2,7 +2,7 @@
 
 use super::ballistic_trajectory;
 use crate::{Body, Motion, Pose, Settings, Solver};
-use ccd_core::Clearance;
+use ccd_core::ClearanceVerdict;
 use ccd_core::Outcome;
 use ccd_core::glam::DQuat;
 use ccd_core::{Answer, SolidOfRevolution};
@@ -103,11 +103,11 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
             .lower();
         let most = pair.least + 2.0 * pair.body.excess();
         for (required, expected) in [
-            (bodies - 1e-3, Some(Clearance::Kept)),
+            (bodies - 1e-3, Some(ClearanceVerdict::Kept)),
             // The cylinders keep this clearance, but the bodies do not.
             (0.5 * (bodies + pair.least), None),
             (pair.least, None),
-            (most + 1e-3, Some(Clearance::Violated)),
+            (most + 1e-3, Some(ClearanceVerdict::Violated)),
         ] {
             let mut solver = Solver::new().with_settings(Settings {
                 tolerance: 1e-5,
@@ -115,21 +115,21 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
                 ..Settings::DEFAULT
             });
             for answer in pair.closest_approach_answers(&mut solver) {
-                let found = answer.outcome.clearance(required);
+                let found = answer.outcome.clearance_verdict(required);
                 let is_right = match expected {
                     Some(expected) => found == expected,
-                    None => found != Clearance::Violated,
+                    None => found != ClearanceVerdict::Violated,
                 };
                 assert!(
                     is_right,
                     "{number}: {required} of {}: {answer:?}",
                     pair.least
                 );
-                between += u32::from(found == Clearance::Unverified);
+                between += u32::from(found == ClearanceVerdict::Unverified);
                 let upper = answer.outcome.upper();
                 assert!(upper >= pair.least, "{number}: {answer:?}");
                 // The bounds for an unverified clearance differ by the excess.
-                if found == Clearance::Unverified {
+                if found == ClearanceVerdict::Unverified {
                     let lower = answer.outcome.lower();
                     assert!(upper - lower <= answer.tolerance && lower <= required);
                     assert!(lower > 0.0 || required <= 2.0 * pair.body.excess());
@@ -146,9 +146,9 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     let pair = CylinderScene::new(0);
     let beside = Pose::at([2.0 * CYLINDER_RADIUS - 1e-3, 0.0, 0.0]).unwrap();
     for (required, expected) in [
-        (0.0, Clearance::Unverified),
-        (pair.body.excess(), Clearance::Unverified),
-        (2.1 * pair.body.excess(), Clearance::Violated),
+        (0.0, ClearanceVerdict::Unverified),
+        (pair.body.excess(), ClearanceVerdict::Unverified),
+        (2.1 * pair.body.excess(), ClearanceVerdict::Violated),
     ] {
         let mut solver = Solver::new().with_settings(Settings {
             clearance: Some(required),
@@ -169,7 +169,11 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
                 panic!("{answer:?}")
             };
             assert!(upper >= 2.0 * pair.body.excess() && upper == answer.outcome.upper());
-            assert_eq!(answer.outcome.clearance(required), expected, "{required}");
+            assert_eq!(
+                answer.outcome.clearance_verdict(required),
+                expected,
+                "{required}"
+            );
         }
     }
 }
@@ -215,9 +219,9 @@ fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
         let start = Pose::at([0.0, -1.0, height]).unwrap();
         let passes = Motion::new(start, [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
         for (required, expected) in [
-            (None, Clearance::Unverified),
-            (Some(0.99 * least), Clearance::Unverified),
-            (Some(3.0), Clearance::Violated),
+            (None, ClearanceVerdict::Unverified),
+            (Some(0.99 * least), ClearanceVerdict::Unverified),
+            (Some(3.0), ClearanceVerdict::Violated),
         ] {
             let mut solver = Solver::new().with_settings(Settings {
                 clearance: required,
@@ -229,7 +233,7 @@ fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
                 found.lower() <= least && least <= found.upper(),
                 "{found:?}, not {least}"
             );
-            let compared = found.clearance(required.unwrap_or(0.99 * least));
+            let compared = found.clearance_verdict(required.unwrap_or(0.99 * least));
             assert_eq!(compared, expected, "{required:?}: {found:?}");
         }
     }

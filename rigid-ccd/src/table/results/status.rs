@@ -1,7 +1,7 @@
 //! The status of a row of results.
 
 use crate::batch::question::Question;
-use ccd_core::{Clearance, HitKind, Outcome};
+use ccd_core::{ClearanceVerdict, HitKind, Outcome};
 use serde::Deserialize;
 
 /// The kind of a row's answer, or `error` for a row that is not a valid query.
@@ -70,10 +70,10 @@ impl Status {
     /// Returns the status of an outcome. Distances are compared to `clearance`, if there is one.
     pub fn of(question: Question, outcome: &Outcome, clearance: Option<f64>) -> Self {
         if let (true, Some(required)) = (question.is_for_a_distance(), clearance) {
-            return match outcome.clearance(required) {
-                Clearance::Kept => Status::Kept,
-                Clearance::Violated => Status::Violated,
-                Clearance::Unverified => Status::Unverified,
+            return match outcome.clearance_verdict(required) {
+                ClearanceVerdict::Kept => Status::Kept,
+                ClearanceVerdict::Violated => Status::Violated,
+                ClearanceVerdict::Unverified => Status::Unverified,
             };
         }
         Status::from(outcome)

@@ -266,7 +266,7 @@ fn distances_are_compared_to_the_clearance() {
     let unresolved = Outcome::Unresolved(Unresolved {
         lower: 0.01,
         upper: contact().separation.upper,
-        nearest: Some((1.5, contact())),
+        nearest_contact: Some((1.5, contact())),
         ..Unresolved::from_safe_until(0.0, Limit::Budget)
     });
     let farther = Outcome::Free { proven_gap: 0.3 };

@@ -13,13 +13,13 @@ fn check_deviation_between(
     for _ in 0..1_000 {
         let [a, b] = [(); 2].map(|()| rng.random_range(from..to));
         let (a, b) = if a < b { (a, b) } else { (b, a) };
-        let stretch = trajectory.stretch(a, b).unwrap();
+        let stretch = trajectory.stretch_between(a, b).unwrap();
         assert!(
-            stretch.deviation_bound.shift >= 0.0 && stretch.deviation_bound.turn >= 0.0,
+            stretch.deviation_bound.shift >= 0.0 && stretch.deviation_bound.angle >= 0.0,
             "{name}"
         );
         let time = rng.random_range(a..=b);
-        let exact = trajectory.stretch(time, time).unwrap();
+        let exact = trajectory.stretch_between(time, time).unwrap();
         let allowed = stretch.deviation_bound + exact.deviation_bound;
         let near = stretch.pose(time - a);
         let there = exact.motion.start();
@@ -30,7 +30,7 @@ fn check_deviation_between(
         let turned = near.rotation().conjugate() * there.rotation();
         let turn = 2.0 * turned.xyz().length().atan2(turned.w.abs());
         assert!(shift <= allowed.shift, "{name}: {shift:e} {allowed:?}");
-        assert!(turn <= allowed.turn, "{name}: {turn:e} {allowed:?}");
+        assert!(turn <= allowed.angle, "{name}: {turn:e} {allowed:?}");
     }
 }
 
@@ -78,13 +78,13 @@ fn trajectories_rest_after_their_end() {
     let poses = Poses::new(stops.to_vec()).unwrap();
     for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
         let strays = [
-            spline.stretch(time, time),
-            poses.stretch(time, time),
-            spline.stretch(2.5, 2.5 + time),
-            poses.stretch(1.0, 1.0 + time),
+            spline.stretch_between(time, time),
+            poses.stretch_between(time, time),
+            spline.stretch_between(2.5, 2.5 + time),
+            poses.stretch_between(1.0, 1.0 + time),
         ];
         for stretch in strays {
-            let DeviationBound { shift, turn } = stretch.unwrap().deviation_bound;
+            let DeviationBound { shift, angle: turn } = stretch.unwrap().deviation_bound;
             assert!(shift < 1e-10 && turn < 1e-10, "{time}: {shift:e} {turn:e}");
         }
     }
@@ -122,7 +122,7 @@ fn differences_that_overflow_are_unbounded() {
         ];
         let curve = Curve::bezier(&points, duration).unwrap();
         let spline = Spline::new(curve, OrientationCurve::slerp(&keys).unwrap());
-        if let Ok(stretch) = spline.stretch(0.0, duration) {
+        if let Ok(stretch) = spline.stretch_between(0.0, duration) {
             let deviation = stretch.deviation_bound.shift;
             assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");
         }

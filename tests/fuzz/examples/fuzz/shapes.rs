@@ -38,7 +38,7 @@ pub fn tetrahedron(draw: &mut RandomSource) -> Shape {
     } else {
         Shape {
             mesh_class: MeshClass::Convex,
-            ..out.flipped()
+            ..out.with_reversed_faces()
         }
     }
 }

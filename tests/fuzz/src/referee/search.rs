@@ -1,7 +1,7 @@
 //! Searches for the first contact by conservative advancement over all pairs of triangles, in f64, checked in
 //! [`DoubleDouble`].
 
-use super::{Ball, ContactLimit, RELATIVE_RECHECK_DISTANCE, Scene, Violation};
+use super::{Ball, ContactCriterion, MarginViolation, RELATIVE_RECHECK_DISTANCE, Scene};
 use crate::double::DoubleDouble;
 use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::Snapshot;
@@ -16,10 +16,10 @@ const SAMPLE_COUNT: usize = 24;
 /// The search for the first time at which two bodies are nearer than allowed.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
-    limit: ContactLimit,
+    limit: ContactCriterion,
     threshold: f64,
-    until: f64,
-    violation: Option<Violation>,
+    search_end: f64,
+    violation: Option<MarginViolation>,
     steps: usize,
     is_complete: bool,
 }
@@ -38,28 +38,28 @@ fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(scene: &'a Scene, limit: ContactLimit, until: f64) -> Self {
+    pub(super) fn new(scene: &'a Scene, limit: ContactCriterion, until: f64) -> Self {
         Search {
             scene,
             limit,
             threshold: limit.threshold,
-            until,
+            search_end: until,
             violation: None,
             steps: 0,
             is_complete: true,
         }
     }
 
-    pub(super) fn run(mut self) -> (Option<Violation>, bool) {
+    pub(super) fn run(mut self) -> (Option<MarginViolation>, bool) {
         let [a, b] = &self.scene.sides;
         let begin = self.centre_balls_apart_until(a.reach + b.reach);
         let begin = self.bodies_apart_until(begin);
-        if !(begin < self.until) {
+        if !(begin < self.search_end) {
             return (None, true);
         }
         for (i, p) in a.balls.iter().enumerate() {
             let begin = self.balls_apart_until([p, &b.whole], begin);
-            if !(begin < self.until) {
+            if !(begin < self.search_end) {
                 continue;
             }
             for j in 0..b.balls.len() {
@@ -72,8 +72,8 @@ impl<'a> Search<'a> {
     /// Returns a time until which the balls around the bodies' centres of rotation are certainly apart.
     fn centre_balls_apart_until(&self, reaches: f64) -> f64 {
         let [a, b] = &self.scene.sides;
-        let way = (b.track.start - a.track.start).rounded();
-        let v = (b.track.velocity - a.track.velocity).rounded();
+        let way = (b.track.start - a.track.start).to_f64();
+        let v = (b.track.velocity - a.track.velocity).to_f64();
         let kept = (reaches + self.threshold) * (1.0 + 1e-9)
             + RELATIVE_RECHECK_DISTANCE * self.scene.scale;
         let (square, along) = (v.dot(v), way.dot(v));
@@ -82,11 +82,11 @@ impl<'a> Search<'a> {
         if !(excess > 0.0) {
             0.0
         } else if along >= 0.0 || root < 0.0 {
-            self.until
+            self.search_end
         } else {
             // The smaller root, in the form without cancellation.
             smaller(
-                self.until,
+                self.search_end,
                 larger(0.0, 0.999_999 * excess / (-along + root.sqrt())),
             )
         }
@@ -111,12 +111,12 @@ impl<'a> Search<'a> {
                 break;
             }
             t += free_time(gap, rate, bend);
-            if !(t < self.until) {
+            if !(t < self.search_end) {
                 return;
             }
         }
         self.is_complete = false;
-        let left = self.until - t;
+        let left = self.search_end - t;
         for k in 0..=SAMPLE_COUNT {
             let t = t + left * (k as f64 / SAMPLE_COUNT as f64);
             let gap = self.triangle_gap_bounds(i, j, t).gap;
@@ -146,11 +146,11 @@ impl<'a> Search<'a> {
             } = self.ball_gap_bounds(whole, &self.scene.snapshots(t));
             let tau = free_time(least - self.threshold, rate, bend);
             // A hundred more such steps would not reach the end, so it is faster pair by pair.
-            if !(tau > 0.003 * (self.until - t)) {
+            if !(tau > 0.003 * (self.search_end - t)) {
                 break;
             }
             t += tau;
-            if !(t < self.until) {
+            if !(t < self.search_end) {
                 break;
             }
         }
@@ -172,7 +172,7 @@ impl<'a> Search<'a> {
                 break;
             }
             t += free_time(gap, rate, bend);
-            if !(t < self.until) {
+            if !(t < self.search_end) {
                 break;
             }
         }
@@ -185,10 +185,10 @@ impl<'a> Search<'a> {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;
         let middles = [snapshots[0].arm_of(p.middle), snapshots[1].arm_of(q.middle)];
-        let apart = (middles[1] + between - middles[0]).length().rounded();
-        let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
-        let velocity = a.track.point_velocity(middles[0].rounded())
-            - b.track.point_velocity(middles[1].rounded());
+        let apart = (middles[1] + between - middles[0]).length().to_f64();
+        let rates = [a.track.rate.to_f64(), b.track.rate.to_f64()];
+        let velocity = a.track.point_velocity(middles[0].to_f64())
+            - b.track.point_velocity(middles[1].to_f64());
         let rate = velocity.length() + rates[0] * p.radius + rates[1] * q.radius;
         let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
         GapBounds {
@@ -206,8 +206,8 @@ impl<'a> Search<'a> {
             return near;
         }
         let [[a, b, c], [d, e, f]] = self.triangles(i, j, &snapshots);
-        let s = [a.rounded(), b.rounded(), c.rounded()];
-        let t = [d.rounded(), e.rounded(), f.rounded()];
+        let s = [a.to_f64(), b.to_f64(), c.to_f64()];
+        let t = [d.to_f64(), e.to_f64(), f.to_f64()];
         GapBounds {
             gap: distance(&s, &t) - self.threshold,
             ..near
@@ -232,19 +232,16 @@ impl<'a> Search<'a> {
     /// there.
     fn stop_if_below_threshold(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
-        let (distance, error) = (
-            distance(&s, &o).rounded(),
-            self.scene.distance_error_bound(),
-        );
+        let (distance, error) = (distance(&s, &o).to_f64(), self.scene.distance_error_bound());
         let depth = if distance > error {
             0.0
         } else {
-            penetration_depth(&s, &o).rounded()
+            penetration_depth(&s, &o).to_f64()
         };
         let below = distance < self.threshold - error || depth > larger(self.limit.depth, error);
         if below {
-            self.until = t;
-            self.violation = Some(Violation {
+            self.search_end = t;
+            self.violation = Some(MarginViolation {
                 time: t,
                 distance,
                 depth,

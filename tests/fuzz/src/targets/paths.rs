@@ -26,7 +26,7 @@ fn check(bytes: &[u8], grouping: Grouping) {
             assert_eq!(whole, slow, "read byte by byte, it differs");
             let (rows, checksum) = whole;
             rows.iter().for_each(check_row);
-            check_skipped_rows(bytes, grouping, &rows, checksum);
+            check_rows_after_skip(bytes, grouping, &rows, checksum);
         }
         (Err(one), Err(other)) => assert_eq!(one.to_string(), other.to_string()),
         (one, other) => panic!("at once {one:?}, byte by byte {other:?}"),
@@ -59,7 +59,7 @@ fn check_row(row: &CourseRow) {
 }
 
 /// Checks that skipping rows does not affect the rows after them, except for default ids.
-fn check_skipped_rows(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
+fn check_rows_after_skip(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
     let half = rows.len() / 2;
     let mut rest = MovementRows::new(bytes, grouping).expect("a header that was read");
     assert_eq!(rest.skip_rows(half).ok(), Some(half));

@@ -7,7 +7,7 @@ mod source;
 use crate::case::Case;
 use crate::engine::{Bodies, HullTrees, Method, PieceKind};
 use crate::trial::run_methods;
-use ccd_core::{ContactsError, Instructions, Outcome, Settings};
+use ccd_core::{ContactsError, Outcome, Settings, VectorInstructions};
 pub use encode::encode;
 
 /// A query, and the methods that answer it.
@@ -29,12 +29,12 @@ pub(super) fn run(bytes: &[u8]) {
         panic!("{}", failure.report("", &trial.case));
     }
     if question.has_extra_checks && trial.refusal_reason.is_none() {
-        check_bits_and_contacts(&question.case);
+        run_extra_checks(&question.case);
     }
 }
 
 /// Checks that other vector instructions give answers of the same bits, and that contacts can be listed.
-fn check_bits_and_contacts(case: &Case) {
+fn run_extra_checks(case: &Case) {
     let Ok(bodies) = Bodies::new(case, PieceKind::Triangles, HullTrees::NotBuilt) else {
         return;
     };
@@ -53,6 +53,6 @@ fn check_bits_and_contacts(case: &Case) {
         // The text distinguishes all numbers, and NaN equals itself.
         Some(format!("{:?}", answer.outcome))
     };
-    let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(answer);
+    let [best, baseline] = [VectorInstructions::Best, VectorInstructions::Baseline].map(answer);
     assert_eq!(best, baseline, "{}", case.reproducer());
 }

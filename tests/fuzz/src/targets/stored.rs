@@ -36,13 +36,13 @@ pub(super) fn run(bytes: &[u8]) {
         BASE_MEMORY_LIMIT + MEMORY_LIMIT_PER_INPUT_BYTE * bytes.len(),
         || {
             check(bytes);
-            check(&with_repaired_frame(bytes));
+            check(&with_repaired_framing(bytes));
         },
     );
 }
 
 /// Returns the file with a magic number, version, length and checksum that fit its payload.
-fn with_repaired_frame(bytes: &[u8]) -> Vec<u8> {
+fn with_repaired_framing(bytes: &[u8]) -> Vec<u8> {
     let end = bytes.len().saturating_sub(CHECKSUM_BYTES);
     let payload = bytes
         .get(HEADER_BYTES + LENGTH_BYTES..end)

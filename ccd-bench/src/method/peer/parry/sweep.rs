@@ -38,8 +38,8 @@ use std::f64::consts::FRAC_PI_4;
 /// Two meshes whose triangles are swept against each other. Steps are the segments examined.
 #[derive(Clone, Debug)]
 pub struct SweptMeshPair {
-    a: SweptMesh,
-    b: SweptMesh,
+    a: MeshWithAabb,
+    b: MeshWithAabb,
 }
 
 /// The largest distance at which a hit is reported, as a multiple of the library's `linear_slop`.
@@ -60,8 +60,8 @@ impl SweptMeshPair {
     /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
         Ok(SweptMeshPair {
-            a: SweptMesh::new(a)?,
-            b: SweptMesh::new(b)?,
+            a: MeshWithAabb::new(a)?,
+            b: MeshWithAabb::new(b)?,
         })
     }
 
@@ -143,7 +143,7 @@ impl Solver for SweptMeshPair {
 
 /// A mesh with its bounding box and the box's radius, in the body's frame.
 #[derive(Clone, Debug)]
-struct SweptMesh {
+struct MeshWithAabb {
     mesh: TriMesh,
     /// The lowest and the highest corner of the box.
     aabb_corners: [DVec3; 2],
@@ -158,10 +158,10 @@ struct SegmentMotion {
     path_deviation_bound: Real,
 }
 
-impl SweptMesh {
+impl MeshWithAabb {
     fn new(mesh: &TriangleMesh) -> Result<Self> {
         let corners = mesh.bounding_box();
-        Ok(SweptMesh {
+        Ok(MeshWithAabb {
             mesh: to_tri_mesh(mesh)?,
             aabb_corners: corners,
             aabb_half_diagonal: 0.5 * (corners[1] - corners[0]).length(),

@@ -25,11 +25,11 @@ struct BodyRotation {
     centre: DVec3,
     /// The unit axis of rotation in the body's frame, where it is fixed.
     axis: DVec3,
-    rate: f64,
+    angular_speed: f64,
     /// A cache with one entry per node: the number of the motion, and the greatest distance of the node's points from
     /// that motion's axis.
     axis_distance_cache: Vec<(u64, f64)>,
-    motion_number: u64,
+    axis_version: u64,
 }
 
 impl ClosingSpeedBounder {
@@ -97,19 +97,19 @@ impl BodyRotation {
         BodyRotation {
             centre: DVec3::ZERO,
             axis: DVec3::Z,
-            rate: 0.0,
+            angular_speed: 0.0,
             axis_distance_cache: vec![(0, 0.0); tree.node_count()],
-            motion_number: 0,
+            axis_version: 0,
         }
     }
 
     fn set_motion(&mut self, course: &RivalMotion) {
         let axis = course.start_orientation.transpose() * course.axis;
-        self.rate = course.rate;
-        if self.motion_number == 0 || axis != self.axis || course.centre != self.centre {
+        self.angular_speed = course.angular_speed;
+        if self.axis_version == 0 || axis != self.axis || course.centre != self.centre {
             self.axis = axis;
             self.centre = course.centre;
-            self.motion_number += 1;
+            self.axis_version += 1;
         }
     }
 
@@ -117,16 +117,16 @@ impl BodyRotation {
     /// product of the direction with the axis.
     #[inline]
     fn rotational_speed_bound(&mut self, tree: &RssTree, node: u32, across: DVec3) -> f64 {
-        if self.rate == 0.0 {
+        if self.angular_speed == 0.0 {
             return 0.0;
         }
         let lever = &mut self.axis_distance_cache[node as usize];
-        if lever.0 != self.motion_number {
+        if lever.0 != self.axis_version {
             *lever = (
-                self.motion_number,
+                self.axis_version,
                 tree.axis_distance_bound(node, self.centre, self.axis),
             );
         }
-        self.rate * across.length() * lever.1
+        self.angular_speed * across.length() * lever.1
     }
 }

@@ -22,7 +22,7 @@ struct MotionCoefficients {
     constant_term: DMat3,
     cosine_coefficient: DMat3,
     sine_coefficient: DMat3,
-    rate: f64,
+    angular_speed: f64,
     start_centre: DVec3,
     velocity: DVec3,
     /// The offset of the reference point from the centre, in the body's frame.
@@ -86,7 +86,7 @@ impl RelativeMotion {
     /// Returns an enclosure of all placements between two times.
     pub(super) fn enclosure_over(&self, span: TimeSpan) -> MotionEnclosure {
         let (first, position_first) = self.first_motion.enclosure_over(span);
-        if self.second_motion.rate == 0.0 {
+        if self.second_motion.angular_speed == 0.0 {
             let offset =
                 position_first.minus_point(self.second_motion.unrotated_reference_position());
             return MotionEnclosure {
@@ -105,7 +105,7 @@ impl RelativeMotion {
     /// Returns an enclosure of all rates of change of the placements between two times.
     pub(super) fn rate_enclosure_over(&self, span: TimeSpan) -> MotionEnclosure {
         let (first_rate, position_first_rate) = self.first_motion.rate_enclosures_over(span);
-        if self.second_motion.rate == 0.0 {
+        if self.second_motion.angular_speed == 0.0 {
             return MotionEnclosure {
                 rotation: first_rate,
                 offset: position_first_rate,
@@ -127,7 +127,7 @@ impl MotionCoefficients {
     fn new(course: &RivalMotion, reference: DVec3, axes: DMat3) -> Self {
         let axis = axes * course.axis;
         let orientation = axes * course.start_orientation;
-        let still = course.rate == 0.0;
+        let still = course.angular_speed == 0.0;
         // The part along the axis is fixed; the rest rotates.
         let along = |column: DVec3| {
             if still {
@@ -142,7 +142,7 @@ impl MotionCoefficients {
             constant_term: fixed,
             cosine_coefficient: cos,
             sine_coefficient: map_columns(cos, |column| axis.cross(column)),
-            rate: course.rate,
+            angular_speed: course.angular_speed,
             start_centre: axes * course.start_position,
             velocity: axes * course.velocity,
             reference_offset: reference - course.centre,
@@ -155,7 +155,7 @@ impl MotionCoefficients {
     }
 
     fn pose_at(&self, time: f64) -> (DMat3, DVec3) {
-        let (sin, cos) = (self.rate * time).sin_cos();
+        let (sin, cos) = (self.angular_speed * time).sin_cos();
         let rotation =
             self.constant_term + self.cosine_coefficient * cos + self.sine_coefficient * sin;
         let position = self.start_centre + self.velocity * time + rotation * self.reference_offset;
@@ -165,7 +165,7 @@ impl MotionCoefficients {
     fn enclosure_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
         let half = 0.5 * span.width();
         let (cos, sin) = self.coefficients_at(span.middle());
-        let arc = SineCosineRange::new(self.rate * half);
+        let arc = SineCosineRange::new(self.angular_speed * half);
         let (turning, round) = self.enclose_turn_over_arc(cos, sin, arc);
         let rotation = IntervalMat {
             middle: self.constant_term + turning.middle,
@@ -183,8 +183,8 @@ impl MotionCoefficients {
 
     fn rate_enclosures_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
         let (cos, sin) = self.coefficients_at(span.middle());
-        let arc = SineCosineRange::new(self.rate * 0.5 * span.width());
-        let (cos, sin) = (sin * self.rate, cos * -self.rate);
+        let arc = SineCosineRange::new(self.angular_speed * 0.5 * span.width());
+        let (cos, sin) = (sin * self.angular_speed, cos * -self.angular_speed);
         let (turning_rate, round) = self.enclose_turn_over_arc(cos, sin, arc);
         let velocity = IntervalVec {
             middle: self.velocity + round.middle,
@@ -210,7 +210,7 @@ impl MotionCoefficients {
 
     /// Returns the coefficients of cosine and sine for a rotation angle that is counted from the angle at `time`.
     fn coefficients_at(&self, time: f64) -> (DMat3, DMat3) {
-        let (sin, cos) = (self.rate * time).sin_cos();
+        let (sin, cos) = (self.angular_speed * time).sin_cos();
         (
             self.cosine_coefficient * cos + self.sine_coefficient * sin,
             self.sine_coefficient * cos - self.cosine_coefficient * sin,

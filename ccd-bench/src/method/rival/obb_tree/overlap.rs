@@ -46,8 +46,8 @@ pub(in crate::method::rival) fn trees_intersect(
                     return true;
                 }
             }
-            OpenedPair::OfA([left, right]) => stack.extend([(right, j), (left, j)]),
-            OpenedPair::OfB([left, right]) => stack.extend([(i, right), (i, left)]),
+            OpenedPair::ChildrenOfA([left, right]) => stack.extend([(right, j), (left, j)]),
+            OpenedPair::ChildrenOfB([left, right]) => stack.extend([(i, right), (i, left)]),
         }
     }
     false

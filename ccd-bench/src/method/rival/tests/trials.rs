@@ -304,7 +304,7 @@ pub(in crate::method::rival) fn assert_shots_are_conservative(
             }
             claim => panic!("{}: {claim:?}", query.id),
         };
-        let speed = a.velocity.length() + reach * a.rate;
+        let speed = a.velocity.length() + reach * a.angular_speed;
         let mut time = 0.0;
         while time < until {
             let distance = apart(time);

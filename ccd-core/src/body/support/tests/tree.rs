@@ -1,7 +1,7 @@
 //! Tests that the tree search finds points as far as a scan does, for points of many arrangements.
 
 use super::directions_with_ties;
-use crate::body::support::{Support, SupportTree};
+use crate::body::support::{SupportMap, SupportTree};
 use crate::rounding::HEIGHT_ERROR_F64;
 use crate::tests::scene::{
     Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, rng,
@@ -75,7 +75,7 @@ fn few_points_of_a_curved_surface_are_visited() {
 fn invalid_directions_give_some_point() {
     let mut rng = rng(23);
     let points = random_point_cloud(&mut rng, 1, 300);
-    let support = Support::from_points(&points);
+    let support = SupportMap::from_points(&points);
     for look in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO, -DVec3::INFINITY] {
         assert!(support.extremal_point(look) < 300);
     }

@@ -2,7 +2,7 @@ use super::Slab;
 use crate::math::order::greater;
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::worst::{WorstCaseSearch, share};
+use crate::tests::worst::{WorstCaseSearch, error_share};
 use glam::DVec3;
 
 /// Measures by how much a slab without its allowance of 16u is too thin for the exact heights of its corners.
@@ -27,7 +27,7 @@ fn worst_slab() {
         let highest = corners.iter().map(height).fold(0.0, greater);
         let found = DoubleDouble::from(slab.half_thickness)
             - DoubleDouble::from(16.0 * UNIT_ROUNDOFF_F64 * size);
-        Some(share(
+        Some(error_share(
             (DoubleDouble::from(highest) - found).get(),
             16.0 * UNIT_ROUNDOFF_F64 * size,
         ))

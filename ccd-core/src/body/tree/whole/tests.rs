@@ -3,7 +3,7 @@
 use super::*;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{RngExt, random_direction, random_power_of_ten, random_rotation, rng};
-use crate::tests::worst::{WorstCaseSearch, share};
+use crate::tests::worst::{WorstCaseSearch, error_share};
 
 /// Measures how much of a box's slack is needed for the exact heights of all points, without a rounding radius.
 #[test]
@@ -45,7 +45,7 @@ fn worst_slack() {
             (n.dot(way) - reach).get()
         };
         let over = points.iter().map(over).fold(f64::NEG_INFINITY, greater);
-        (length > 0.0 && whole.radius > 0.0).then(|| share(over, whole.slack * length))
+        (length > 0.0 && whole.radius > 0.0).then(|| error_share(over, whole.slack * length))
     });
     found.assert_tight_bound(30.0);
 }

@@ -34,7 +34,8 @@ fn plates_that_fall_flat_meet_at_little_cost() {
         );
         let falling = Motion::new(above.unwrap(), -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
         let lying = Motion::still(Pose::new([0.0; 3], own.inverse()).unwrap());
-        let problem = Problem::about((&plate, falling), (&plate, lying), 1.0, &config).unwrap();
+        let problem =
+            Problem::of_moving_bodies((&plate, falling), (&plate, lying), 1.0, &config).unwrap();
         let answer = solve(&problem);
         let Outcome::Contact { time, .. } = answer.outcome else {
             panic!("{answer:?}");
@@ -85,7 +86,10 @@ fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
     let answer = |advance: f64| {
         let spin = 2.0 * std::f64::consts::TAU * DVec3::Z;
         let screwing = Motion::new(Pose::IDENTITY, advance * DVec3::Z, spin).unwrap();
-        solve(&Problem::about((&bolt, screwing), (&nut, Motion::STILL), 1.0, &config).unwrap())
+        solve(
+            &Problem::of_moving_bodies((&bolt, screwing), (&nut, Motion::STILL), 1.0, &config)
+                .unwrap(),
+        )
     };
     // Two turns at the bolt's pitch. Without profiles this takes 680,000 visits.
     let right = answer(2.0);
@@ -126,7 +130,8 @@ fn long_needles_that_turn_about_their_own_direction_meet_at_little_cost() {
         };
         let turning = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1.5 * axis).unwrap();
         let problem =
-            Problem::about((&moving, turning), (&still, Motion::STILL), 1.0, &config).unwrap();
+            Problem::of_moving_bodies((&moving, turning), (&still, Motion::STILL), 1.0, &config)
+                .unwrap();
         let answer = solve(&problem);
         let Outcome::Contact { time, .. } = answer.outcome else {
             panic!("{answer:?}");

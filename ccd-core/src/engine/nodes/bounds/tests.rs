@@ -12,7 +12,7 @@ use crate::engine::nodes::axis::AxesX8;
 use crate::engine::nodes::clock;
 use crate::math::order::{greater, lesser};
 use crate::math::simd::{Vec3x8, load};
-use crate::settings::Instructions;
+use crate::settings::VectorInstructions;
 use crate::tests::scene::{Pcg64, RngExt, random_direction, rng};
 use crate::tuning::{MAX_TURNING_PLANE_TIME, MIN_TURNING_PLANE_RADIUS_RATIO};
 use crate::vectorize;
@@ -96,7 +96,7 @@ fn planes_hold_and_allowances_suffice_for_boxes() {
     let mut worst = WorstErrorShares::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng);
-        let sample = PairConfiguration::new(&mut rng, &other).boxes(&mut rng, &other);
+        let sample = PairConfiguration::new(&mut rng, &other).box_sample(&mut rng, &other);
         sample.check_random_axes(&mut rng, &mut worst);
     }
     worst.assert_within_allowances();
@@ -279,7 +279,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         // Axes may have any length.
         let some = random_direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
         let found = self.axis_values_on_all_levels(some);
-        let reach = vectorize!(Instructions::Best.simd_level(), level => {
+        let reach = vectorize!(VectorInstructions::Best.simd_level(), level => {
             *(self.group.centre(level).length() + self.group.radius(level))
         });
         let reach = reach.into_iter().fold(0.0, greater);
@@ -296,7 +296,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
 
     /// Computes the values with all sets of vector instructions, and checks that they are equal.
     fn axis_values_on_all_levels(&self, some: Vec3) -> [AxisValues; 3] {
-        let [best, baseline] = [Instructions::Best, Instructions::Baseline]
+        let [best, baseline] = [VectorInstructions::Best, VectorInstructions::Baseline]
             .map(|instructions| vectorize!(instructions.simd_level(), level => axis_values(level, self, some)));
         for (best, baseline) in best.iter().zip(&baseline) {
             assert_eq!(

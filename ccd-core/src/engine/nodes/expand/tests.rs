@@ -8,7 +8,7 @@ use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, rng, scene};
 use crate::tuning::MIN_TURNING_PLANE_RADIUS_RATIO;
 
 /// The number of sampled times within a lane's free time, both ends included.
-const SAMPLES: usize = 17;
+const SAMPLE_COUNT: usize = 17;
 
 /// Counters that show that a test covers its cases.
 #[derive(Debug, Default)]
@@ -155,7 +155,7 @@ impl SceneAudit<'_> {
                 &Split::with_all_children(split, node, other),
                 s,
             );
-            self.check(&expansion, split, node, other, s, tally);
+            self.check_expansion(&expansion, split, node, other, s, tally);
             let count = self.child_count_and_kind(split, node).0;
             let lane = self.choose_child(rng, &expansion, count);
             ids[split as usize] = expansion.first_child + lane;
@@ -197,7 +197,7 @@ impl SceneAudit<'_> {
         }
     }
 
-    fn check(
+    fn check_expansion(
         &self,
         expansion: &Expansion,
         split: WhichBody,
@@ -243,7 +243,7 @@ impl SceneAudit<'_> {
     fn overlap(&self, lane: &BoundedPair) -> bool {
         let (near, far) = self.triangles_at(lane, lane.start_clock);
         near.len() * far.len() <= 64
-            && self.least_distance_of_unseparated(&near, &far, 0.0) <= self.problem.gap()
+            && self.least_unseparated_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
     /// Checks at every sampled time that all triangles below the child stay apart from those below the other node. They
@@ -252,14 +252,14 @@ impl SceneAudit<'_> {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
         let mut prover = AxisSearch::default();
-        for k in 0..SAMPLES {
-            let share = k as f64 / (SAMPLES - 1) as f64;
+        for k in 0..SAMPLE_COUNT {
+            let share = k as f64 / (SAMPLE_COUNT - 1) as f64;
             let s = lane.start_clock + share * (lane.end_clock - lane.start_clock);
             let (near, far) = self.triangles_at(lane, s);
             if prover.separates(&near, &far, kept) {
                 tally.samples_proven_by_axis += 1;
             } else {
-                let least = self.least_distance_of_unseparated(&near, &far, kept);
+                let least = self.least_unseparated_distance(&near, &far, kept);
                 assert!(
                     least > kept,
                     "{:?}: {least:e} apart at {s}, {kept:e} promised: {lane:?}",
@@ -270,12 +270,7 @@ impl SceneAudit<'_> {
         }
     }
 
-    fn least_distance_of_unseparated(
-        &self,
-        near: &[Triangle],
-        far: &[Triangle],
-        enough: f64,
-    ) -> f64 {
+    fn least_unseparated_distance(&self, near: &[Triangle], far: &[Triangle], enough: f64) -> f64 {
         let mut least = f64::INFINITY;
         for a in near {
             for b in far {
@@ -299,7 +294,7 @@ impl SceneAudit<'_> {
                     side.body
                         .pieces()
                         .triangle(piece as usize)
-                        .map(|p| frame.point(p)),
+                        .map(|p| frame.transform_point(p)),
                 );
             });
             out

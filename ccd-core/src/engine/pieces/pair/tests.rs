@@ -25,7 +25,7 @@ fn with_two_balls<R>(
         Motion::new(start, -speed * DVec3::X, DVec3::ZERO).unwrap(),
     ));
     let b = MovingBody::from((&ball, Motion::still(Pose::IDENTITY)));
-    then(&Problem::about(a, b, 1.0, config).unwrap())
+    then(&Problem::of_moving_bodies(a, b, 1.0, config).unwrap())
 }
 
 /// Advances a new pair until a step is not a clock before the end, and returns that step and the clock at which it was
@@ -114,7 +114,7 @@ fn with_returning_bar<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R
     let a = MovingBody::from((&bar, turns));
     let beside = Pose::at(DVec3::new(-0.2, 0.0, 0.9)).unwrap();
     let b = MovingBody::from((&ball, Motion::still(beside)));
-    then(&Problem::about(a, b, 1.0, config).unwrap())
+    then(&Problem::of_moving_bodies(a, b, 1.0, config).unwrap())
 }
 
 #[test]

@@ -28,7 +28,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let mut normal = random_direction(&mut rng);
         let heights = |s: f64, normal: DVec3| {
             let now = Snapshot::new(&problem, 0, 0, s);
-            let axis = now.frames[0].inverse_vector(normal);
+            let axis = now.frames[0].inverse_transform_vector(normal);
             separation::support_gap(&now.pieces, axis, now.pieces.a.points[0])
         };
         if heights(clock, normal) < heights(clock, -normal) {
@@ -95,13 +95,13 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
                 .body
                 .pieces()
                 .triangle(0)
-                .map(|p| frames[0].point(p));
+                .map(|p| frames[0].transform_point(p));
             let b = problem
                 .b
                 .body
                 .pieces()
                 .triangle(0)
-                .map(|p| frames[1].point(p));
+                .map(|p| frames[1].transform_point(p));
             let found = nearest_points(&a, &b).distance;
             assert!(
                 found > kept - problem.rounding,

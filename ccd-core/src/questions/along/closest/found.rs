@@ -9,7 +9,7 @@ use crate::questions::along::motions::StretchMotions;
 use crate::questions::along::stretches::WaitingStretches;
 use crate::questions::closest::ladder::{LowerBoundAttempts, MarginQuery};
 use crate::shortcuts::bounding_volumes::least_distance;
-use crate::tuning::MIN_CUT_SHARE;
+use crate::tuning::MIN_CUT_LENGTH_SHARE;
 
 impl Query<'_> {
     /// Returns a copy of the query for measuring distances, with a margin of 0 and no required clearance.
@@ -71,7 +71,7 @@ impl StretchDistance {
     pub(super) fn end_where_distance_decreases(&self, motions: &StretchMotions) -> Option<f64> {
         let Span { from, end: to, .. } = motions.span;
         let (near, falls) = (
-            MIN_CUT_SHARE * motions.span.length(),
+            MIN_CUT_LENGTH_SHARE * motions.span.length(),
             self.approach_rate * motions.span.length(),
         );
         let time = motions.query_time(self.time);
@@ -141,7 +141,7 @@ impl LeastDistanceSoFar {
                 }
             }
             Outcome::Unresolved(known) => {
-                if let Some((time, contact)) = known.nearest {
+                if let Some((time, contact)) = known.nearest_contact {
                     self.record_contact(motions.query_time(time), motions.contact(contact));
                 }
                 return Err(known.limit);

@@ -60,7 +60,7 @@ impl ShuttleTrajectory {
 }
 
 impl Trajectory for ShuttleTrajectory {
-    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [start, end] = [from, to].map(|time| self.position_at(time));
         let velocity = if to > from {
             (end - start) / (to - from)
@@ -74,7 +74,7 @@ impl Trajectory for ShuttleTrajectory {
         };
         let motion = Motion::new(crate::Pose::at(start)?, velocity, DVec3::ZERO)?;
         Ok(Stretch {
-            deviation_bound: DeviationBound { shift, turn: 0.0 },
+            deviation_bound: DeviationBound { shift, angle: 0.0 },
             ..Stretch::exact(motion)
         })
     }
@@ -181,7 +181,7 @@ struct HostileTrajectory {
 }
 
 impl Trajectory for HostileTrajectory {
-    fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
+    fn stretch_between(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
         Ok(Stretch {
             deviation_bound: self.deviation_bound,
             ..Stretch::exact(Motion::STILL)
@@ -199,7 +199,7 @@ fn budgets_end_cuts_where_there_is_no_bound() {
     let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
     let ask = |shift: f64, turn: f64, step: f64| {
         let hostile = HostileTrajectory {
-            deviation_bound: DeviationBound { shift, turn },
+            deviation_bound: DeviationBound { shift, angle: turn },
             step,
         };
         let config = Settings {

@@ -1,7 +1,7 @@
 //! Tests required clearances and least distances along trajectories, and the bounds of searches that reach a limit.
 
 use super::*;
-use crate::answer::Clearance;
+use crate::answer::ClearanceVerdict;
 use crate::answer::Limit;
 use crate::answer::Unresolved;
 
@@ -26,7 +26,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
             answer.unwrap().outcome
         };
         let known = ask(&swings);
-        if known.nearest().is_none() {
+        if known.nearest_contact().is_none() {
             continue;
         }
         let (lower, upper) = (known.lower(), known.upper());
@@ -46,9 +46,9 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
                 outcome.lower() <= least + ROUNDING,
                 "{number}: {outcome:?}, {least:e}"
             );
-            match outcome.clearance(required) {
-                Clearance::Kept => kept += 1,
-                Clearance::Violated => {
+            match outcome.clearance_verdict(required) {
+                ClearanceVerdict::Kept => kept += 1,
+                ClearanceVerdict::Violated => {
                     violated += 1;
                     let near = swings.distance(outcome.time().unwrap());
                     assert!(
@@ -56,7 +56,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
                         "{number}: {outcome:?}, {near:e}"
                     );
                 }
-                Clearance::Unverified => {
+                ClearanceVerdict::Unverified => {
                     between += 1;
                     assert!(
                         required <= upper + 1.1 * tolerance && required >= lower - 1.1 * tolerance,

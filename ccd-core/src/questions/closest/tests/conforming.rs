@@ -33,7 +33,8 @@ fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
     let axle = body(&surface_of_revolution(&[[5.0, -4.0], [5.0, 12.0]], 192));
     let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, TAU * DVec3::Z).unwrap();
     let config = Settings::DEFAULT;
-    let problem = Problem::about((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
+    let problem =
+        Problem::of_moving_bodies((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
     let first = BestFirst::default().answer_first_contact(&problem, &mut ExhaustiveOracle);
     assert!(matches!(first.outcome, Outcome::Free { .. }));
     let closest = closest_approach_answer(&problem);

@@ -57,7 +57,10 @@ fn a_clearance_is_violated_by_more_than_the_excess_only() {
     for number in 0..500 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let known = closest_approach_answer(&scene.problem()).outcome;
-        let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
+        let Some((lower, upper)) = known
+            .nearest_contact()
+            .map(|_| (known.lower(), known.upper()))
+        else {
             continue;
         };
         let tolerance = scene.problem().tolerance;
@@ -79,19 +82,19 @@ fn a_clearance_is_violated_by_more_than_the_excess_only() {
             scene.settings.clearance = Some(required);
             let outcome = closest_approach_answer(&scene.problem()).outcome;
             assert!(outcome.lower() <= upper, "{number}: {outcome:?}");
-            match outcome.clearance(required) {
-                Clearance::Kept => {
+            match outcome.clearance_verdict(required) {
+                ClearanceVerdict::Kept => {
                     kept += 1;
                     assert!(required <= upper, "{number}: {required:e} of {known:?}");
                 }
-                Clearance::Violated => {
+                ClearanceVerdict::Violated => {
                     violated += 1;
                     assert!(
                         required > lower + excess,
                         "{number}: {required:e} of {known:?} and {excess:e}: {outcome:?}"
                     );
                 }
-                Clearance::Unverified => {
+                ClearanceVerdict::Unverified => {
                     between += 1;
                     assert!(
                         required > lower - 1.1 * tolerance

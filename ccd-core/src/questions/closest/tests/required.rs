@@ -9,7 +9,10 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     for number in 0..800 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let known = closest_approach_answer(&scene.problem()).outcome;
-        let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
+        let Some((lower, upper)) = known
+            .nearest_contact()
+            .map(|_| (known.lower(), known.upper()))
+        else {
             continue;
         };
         let tolerance = scene.problem().tolerance;
@@ -34,16 +37,19 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
                 outcome.lower() <= found + slack,
                 "{number}: {outcome:?}, {found:e}"
             );
-            match outcome.clearance(required) {
-                Clearance::Kept => {
+            match outcome.clearance_verdict(required) {
+                ClearanceVerdict::Kept => {
                     kept += 1;
                     assert!(
                         found >= required - slack,
                         "{number}: {required:e}, {outcome:?}"
                     );
-                    assert_eq!(outcome.time(), outcome.nearest().map(|(time, _)| time));
+                    assert_eq!(
+                        outcome.time(),
+                        outcome.nearest_contact().map(|(time, _)| time)
+                    );
                 }
-                Clearance::Violated => {
+                ClearanceVerdict::Violated => {
                     violated += 1;
                     let time = outcome.time().expect("a time of what was seen");
                     let near = distance(&problem, time);
@@ -53,7 +59,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
                         "{number}: {outcome:?}"
                     );
                 }
-                Clearance::Unverified => {
+                ClearanceVerdict::Unverified => {
                     between += 1;
                     assert!(
                         required <= upper + 1.1 * tolerance && required >= lower - 1.1 * tolerance,
@@ -111,7 +117,12 @@ fn searches_that_end_early_know_a_part_of_the_distance() {
         scene.settings.budget = whole.stats.work() - 1;
         let problem = scene.problem();
         let answer = closest_approach_answer(&problem);
-        let Outcome::Unresolved(Unresolved { lower, nearest, .. }) = answer.outcome else {
+        let Outcome::Unresolved(Unresolved {
+            lower,
+            nearest_contact: nearest,
+            ..
+        }) = answer.outcome
+        else {
             continue;
         };
         let found = sampled_least_distance(&problem, 64);

@@ -9,7 +9,7 @@ use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_direction, random_rotation};
-use crate::tests::worst::{WorstCaseSearch, share};
+use crate::tests::worst::{WorstCaseSearch, error_share};
 use glam::DVec3;
 
 #[test]
@@ -21,17 +21,18 @@ fn worst_reach() {
     let found = WorstCaseSearch::new("RATE_F64, the reach of flat nodes", 20_000).search(|tape| {
         let still = Motion::still(Pose::new(DVec3::ZERO, random_rotation(tape)).ok()?);
         let problem =
-            Problem::about((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT).ok()?;
+            Problem::of_moving_bodies((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT)
+                .ok()?;
         let node = FlatNode::new(&problem.a, 0, 0.0)?;
         let n = (node.normal + random_direction(tape) * tape.size(-30..=4)).normalize();
         let [exact, normal] = [n, node.normal].map(DoubleDouble3::from);
         let along = exact.dot(normal).get().abs();
         let radius = node.node.radius;
-        let truth = DoubleDouble::from(node.half?) * DoubleDouble::from(along)
+        let truth = DoubleDouble::from(node.half_thickness?) * DoubleDouble::from(along)
             + DoubleDouble::from(radius) * exact.cross(normal).length();
         let allowed = RATE_ERROR_F64 * radius;
         let lost = truth - (DoubleDouble::from(node.extent_along(n)) - DoubleDouble::from(allowed));
-        Some(share(lost.get(), allowed))
+        Some(error_share(lost.get(), allowed))
     });
     found.assert_tight_bound(20.0);
 }

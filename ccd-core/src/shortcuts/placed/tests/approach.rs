@@ -9,7 +9,7 @@ use crate::settings::Settings;
 use crate::shortcuts::placed::{ApproachRateBounds, PlacedNode};
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_rotation};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
 use glam::DVec3;
 
 /// Draws a motion of any speed and rotation, about a centre near the body or far from it.
@@ -56,7 +56,7 @@ impl ApproachRateTerms {
         let axis = DoubleDouble3::from(n);
         let arms = side.body.pieces().triangle(0);
         // The corners are in their rounded positions, relative to the node's centre.
-        let placed = arms.map(|x| DoubleDouble3::from(frame.point(x) - node.centre));
+        let placed = arms.map(|x| DoubleDouble3::from(frame.transform_point(x) - node.centre));
         let arms = placed.map(|x| x + DoubleDouble3::from(node.centre) - centre);
         let speeds = arms.map(|arm| axis.dot(spin.cross(arm)));
         let fastest = speeds
@@ -110,9 +110,9 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     }
     let allowed = RATE_ERROR_F64 * (2.0 * sums.speed + sums.size);
     let rate = DoubleDouble::from(found.rate_bound) - DoubleDouble::from(allowed);
-    let rate = share((sums.rate - rate).get(), allowed);
+    let rate = error_share((sums.rate - rate).get(), allowed);
     let allowed = found.second_derivative - sums.second_derivative_without_allowance;
-    let second_derivative = share(
+    let second_derivative = error_share(
         (sums.second_derivative - DoubleDouble::from(sums.second_derivative_without_allowance))
             .get(),
         allowed,

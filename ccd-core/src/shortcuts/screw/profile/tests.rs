@@ -11,7 +11,7 @@ use crate::settings::Settings;
 use crate::shortcuts::placed::PlacedNode;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::body;
-use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
 use glam::DVec3;
 
 /// Returns the cylindrical coordinates of a point, with the azimuth within half a turn of `near`.
@@ -41,7 +41,8 @@ fn cylindrical_coordinates(axis: &ScrewAxis, point: DoubleDouble3, near: f64) ->
 fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let body = body(&[corners]);
-    let problem = Problem::about((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
+    let problem =
+        Problem::of_moving_bodies((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
     let node = PlacedNode::new(&problem.a, body.tree().node_count() as u32, 0.0);
     let profile = Profile::new(&node, axis)?;
     let (arm, distance) = {
@@ -52,7 +53,7 @@ fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let frame = problem.a.path.frame(0.0);
     let places = corners.map(|x| {
         // The position is relative to the node's centre, as in the node.
-        let from_centre = DoubleDouble3::from(frame.point(x) - node.centre);
+        let from_centre = DoubleDouble3::from(frame.transform_point(x) - node.centre);
         cylindrical_coordinates(
             axis,
             from_centre + DoubleDouble3::from(node.centre),
@@ -69,7 +70,7 @@ fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
             let high = DoubleDouble::from(profile.high[k]) - DoubleDouble::from(allowed);
             let low = DoubleDouble::from(profile.low[k]) + DoubleDouble::from(allowed);
             let lost = greater((f - high).get(), (low - f).get());
-            worst = greater(worst, share(lost, allowed));
+            worst = greater(worst, error_share(lost, allowed));
         }
     }
     Some(worst)

@@ -13,7 +13,7 @@ use crate::rounding::turning_axis_rounding;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_rotation};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use glam::DVec3;
 
@@ -40,7 +40,7 @@ struct PointAndTurningPlane<'s> {
 
 impl PointAndTurningPlane<'_> {
     /// Returns the computed height of the point above the plane after a time, and the rate of the height.
-    fn found(&self, tau: f64) -> [DoubleDouble; 2] {
+    fn computed_height_and_rate(&self, tau: f64) -> [DoubleDouble; 2] {
         let HeightTerms {
             height,
             axis,
@@ -119,7 +119,7 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let bodies = triangles.map(|triangle| body(&[triangle]));
     let motions = [motion(tape)?, motion(tape)?];
     let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
-    let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).ok()?;
+    let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).ok()?;
     let snapshot = Snapshot::new(&problem, 0, 0, tape.next_fraction());
     let [own, other] = snapshot.moving_pieces();
     let normal = unit(tape.vector(-40..=0).into())?;
@@ -136,8 +136,8 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let tau = tape.next_fraction();
     let rounding = turning_axis_rounding(sweep.angular_speed + sweep.own_angular_speed);
     let [start, end, from, to] = [
-        setting.found(0.0),
-        setting.found(tau),
+        setting.computed_height_and_rate(0.0),
+        setting.computed_height_and_rate(tau),
         setting.exact_height_and_rate(0.0),
         setting.exact_height_and_rate(tau),
     ];
@@ -148,9 +148,9 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let [exact, plain] = setting.second_derivative_bounds(tau);
     let allowed = (DoubleDouble::from(sweep.second_derivative(tau)) - plain).get();
     Some([
-        share(height, rounding * sweep.reach),
-        share(rate, rounding * fastest),
-        share((exact - plain).get(), allowed),
+        error_share(height, rounding * sweep.reach),
+        error_share(rate, rounding * fastest),
+        error_share((exact - plain).get(), allowed),
     ])
 }
 

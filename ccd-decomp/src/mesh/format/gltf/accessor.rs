@@ -19,7 +19,7 @@ pub(super) struct AccessorReader<'a> {
 struct ComponentType {
     byte_count: usize,
     /// The largest value of an integer type, which a normalized integer is a fraction of.
-    largest: Option<f64>,
+    max_integer: Option<f64>,
     /// Reads a number from the first bytes of a slice.
     read: fn(&[u8]) -> f64,
 }
@@ -42,7 +42,7 @@ impl<'a> AccessorReader<'a> {
             check_accessor_type(about, "VEC3")?;
             let component = ComponentType::from_code(about.component_type)?;
             let size = component.byte_count;
-            let largest = component.largest.filter(|_| about.normalized);
+            let largest = component.max_integer.filter(|_| about.normalized);
             let point = |row: &[u8]| {
                 let numbers = [0, 1, 2].map(|k| (component.read)(&row[k * size..]));
                 DVec3::from_array(match largest {
@@ -172,7 +172,7 @@ impl ComponentType {
             ($type:ty) => {
                 ComponentType {
                     byte_count: size_of::<$type>(),
-                    largest: Some(<$type>::MAX.into()),
+                    max_integer: Some(<$type>::MAX.into()),
                     read: |bytes| <$type>::from_le_bytes(first_bytes(bytes)).into(),
                 }
             };
@@ -185,7 +185,7 @@ impl ComponentType {
             5125 => integer!(u32),
             5126 => ComponentType {
                 byte_count: 4,
-                largest: None,
+                max_integer: None,
                 read: |bytes| f32::from_le_bytes(first_bytes(bytes)).into(),
             },
             _ => {

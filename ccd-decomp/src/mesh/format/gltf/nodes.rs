@@ -5,7 +5,7 @@ use super::schema::Root;
 use super::{element, primitive, transform};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Assembly, Part};
-use crate::mesh::content::{Content, Layout};
+use crate::mesh::content::{Content, Geometry};
 use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
@@ -40,7 +40,7 @@ pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<C
     Ok(Content {
         unit: Some(Unit::Metre),
         part_names: walk.part_names,
-        layout: Layout::Assembly(walk.assembly),
+        geometry: Geometry::Assembly(walk.assembly),
     })
 }
 

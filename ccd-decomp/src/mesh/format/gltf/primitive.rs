@@ -76,7 +76,7 @@ fn add_primitive(
                 line: None,
                 vertex: vertex.into(),
                 vertices: vertices.len(),
-                base: 0,
+                first_vertex_number: 0,
             });
         }
         let corners = triangle.map(|v| vertices.start as i64 + i64::from(v));

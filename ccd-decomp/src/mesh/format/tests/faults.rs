@@ -190,7 +190,7 @@ fn faults_are_typed() {
             line: Some(3),
             vertex: 7,
             vertices: 1,
-            base: 1
+            first_vertex_number: 1
         }
     ));
     assert!(matches!(

@@ -3,7 +3,7 @@
 use super::clip_to_half_space;
 use crate::rational::{Exact3, exact_fraction};
 use crate::tolerance::excess_rounding;
-use crate::worst::{RandomCase, WorstCaseSearch, share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -60,7 +60,7 @@ fn worst_cuts() {
         }
         let off = polygon.iter().map(|&x| distance_from_line(x, edge));
         let bound = excess_rounding(0.0, largest_absolute_coordinate(edge));
-        Some(share(off.fold(0.0, greater), bound))
+        Some(error_share(off.fold(0.0, greater), bound))
     });
     found.assert_tight_bound(4_000.0);
 }

@@ -1,10 +1,10 @@
 use super::*;
-use crate::exact::predicates::side;
+use crate::exact::predicates::side_of_plane;
 use proptest::prelude::*;
 
 /// Returns whether any plane through three of the points separates the triangle from the hull, by trying all planes.
 fn is_separated_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
-    let obstacle = Obstacle::new(points, hull);
+    let obstacle = HullInteriorTest::new(points, hull);
     let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();
     let planes = all.iter().flat_map(|&a| {
         let all = &all;
@@ -33,7 +33,7 @@ proptest! {
         points.extend(triangle);
         let triangle = [first, first + 1, first + 2];
         let expected = is_separated_by_any_plane(&points, &hull, triangle);
-        prop_assert_eq!(Obstacle::new(&points, &hull).is_separated_from(triangle), expected);
+        prop_assert_eq!(HullInteriorTest::new(&points, &hull).is_separated_from(triangle), expected);
     }
 
     /// Tests that a triangle with a point strictly inside the hull is not reported as separated from the hull. The
@@ -50,10 +50,10 @@ proptest! {
         let [s, t] = weights.map(|w| f64::from(w) / 16.0);
         let p = (1.0 - s - t) * triangle[0] + s * triangle[1] + t * triangle[2];
         let at = |v: u32| points[v as usize];
-        let inside = hull.facets().iter().all(|f| side(f.map(at), p) == Ordering::Less);
+        let inside = hull.facets().iter().all(|f| side_of_plane(f.map(at), p) == Ordering::Less);
         let first = points.len() as u32;
         points.extend(triangle);
-        let apart = Obstacle::new(&points, &hull).is_separated_from([first, first + 1, first + 2]);
+        let apart = HullInteriorTest::new(&points, &hull).is_separated_from([first, first + 1, first + 2]);
         prop_assert!(!(inside && apart));
     }
 }

@@ -53,7 +53,7 @@ fn whoever_meets_is_reported() {
         let mut reported = Vec::new();
         for face in 0..faces {
             let region = Region::from_triangle(manifold.triangle(face));
-            polygons.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
+            polygons.all_near_faces_satisfy(face, &region, &WorkBudget::unbounded(), |other| {
                 reported.push((face.min(other), face.max(other)));
                 true
             });
@@ -97,7 +97,7 @@ fn a_comb_is_next_to_its_polygons() {
     );
     for face in 0..mesh.faces().len() as u32 {
         let region = Region::from_triangle(manifold.triangle(face));
-        polygons.all_near_faces_satisfy(face, &region, &Work::unbounded(), |other| {
+        polygons.all_near_faces_satisfy(face, &region, &WorkBudget::unbounded(), |other| {
             assert_eq!(polygons.polygon_of_face[other as usize], NO_POLYGON);
             true
         });

@@ -12,7 +12,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let half = [(); 3].map(|()| draw.log_uniform(0.2..2.0));
     let floor = shapes::cuboid([8.0, 8.0, 0.5]).map(|[x, y, z]| [x, y, z - 0.5]);
     let floor = if draw.bool_with_probability(0.2) {
-        floor.flipped()
+        floor.with_reversed_faces()
     } else {
         floor
     };
@@ -41,7 +41,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
         draw.uniform(-1.0..1.0),
         half_height + gap,
     ];
-    let (velocity, spin, expect) = motion_from_contact(draw, gap, config.margin);
+    let (velocity, spin, expect) = random_velocities_and_expectation(draw, gap, config.margin);
     let mut courses = [
         motion_at_rest(),
         RawMotion::from_velocities(RawPose::at(at), velocity, spin),
@@ -77,7 +77,7 @@ fn put_on_floor(shape: Shape) -> (Shape, f64) {
 }
 
 /// Returns a random velocity and angular velocity of a body in contact at the start, and the expected result.
-fn motion_from_contact(
+fn random_velocities_and_expectation(
     draw: &mut RandomSource,
     gap: f64,
     margin: f64,

@@ -60,7 +60,7 @@ fn closed_parts(draw: &mut RandomSource) -> Shape {
         let (here, scale) = (at, size);
         let part = part.map(|v| add_arrays(scale_array(v, scale), here));
         let part = if draw.bool_with_probability(0.5) {
-            part.flipped()
+            part.with_reversed_faces()
         } else {
             part
         };

@@ -15,7 +15,7 @@ const MAX_ROTATION: f64 = 40.0;
 
 /// The mask of the bits that give the kind of a shape, in the byte before the shape.
 pub(super) const SHAPE_KIND_MASK: u8 = 7;
-pub(super) const FLIPPED_BIT: u8 = 64;
+pub(super) const REVERSED_FACES_BIT: u8 = 64;
 pub(super) const SCALED_BIT: u8 = 128;
 /// The bit that marks a rotated start pose, in the byte before a motion.
 pub(super) const ROTATED_BIT: u8 = 1;
@@ -96,10 +96,10 @@ fn methods(source: &mut NumberReader<'_>) -> Vec<(PieceKind, Method)> {
         Method::Naive,
         Method::Fast,
     ];
-    const KINDS: [PieceKind; 3] = [PieceKind::Triangles, PieceKind::Patches, PieceKind::Hull];
+    const PIECE_KINDS: [PieceKind; 3] = [PieceKind::Triangles, PieceKind::Patches, PieceKind::Hull];
     let other = usize::from(source.read_byte());
     let mut asked = vec![(PieceKind::Triangles, Method::Direct)];
-    let one = (KINDS[other / 5 % 3], METHODS[other % 5]);
+    let one = (PIECE_KINDS[other / 5 % 3], METHODS[other % 5]);
     asked.extend((one != asked[0]).then_some(one));
     asked
 }
@@ -130,8 +130,8 @@ fn shape(source: &mut NumberReader<'_>) -> Shape {
         1 => MeshClass::Solid,
         _ => MeshClass::TriangleSoup,
     };
-    if kind & FLIPPED_BIT > 0 {
-        shape = shape.flipped();
+    if kind & REVERSED_FACES_BIT > 0 {
+        shape = shape.with_reversed_faces();
     }
     if kind & SCALED_BIT > 0 {
         let scale = source.read_number();
@@ -260,7 +260,7 @@ fn aim_at_corner(source: &mut NumberReader<'_>, case: &mut Case) {
         arm + placed.centre
     };
     let [from, to] = [corner(0), corner(1)];
-    let way = (to - from).rounded() + Vector(source.read_numbers());
+    let way = (to - from).to_f64() + Vector(source.read_numbers());
     let course = &mut case.motions[0];
     let shifted = |pose: RawPose| RawPose {
         position: (Vector(pose.position) + way).0,

@@ -4,7 +4,7 @@ use super::decode::{
     BUDGET_BIT, CENTRE_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN_BIT, MESH_SHAPE_KIND,
     ROTATED_BIT, SPIN_BIT, TOLERANCE_BIT, VELOCITY_BIT,
 };
-use super::source::{RAW_NUMBER_TAG, SIXTEENTH_TAG_COUNT};
+use super::source::{FIXED_POINT_TAG_COUNT, RAW_NUMBER_TAG};
 use crate::case::{Case, MeshClass, Shape};
 use crate::raw_motion::{MotionSpec, RawMotion};
 use ccd_core::StartPolicy;
@@ -43,7 +43,7 @@ impl CaseWriter {
         for &x in numbers {
             let tag = 16.0 * x + 64.0;
             if tag >= 0.0
-                && tag < f64::from(SIXTEENTH_TAG_COUNT)
+                && tag < f64::from(FIXED_POINT_TAG_COUNT)
                 && tag.fract() == 0.0
                 && x.to_bits() != (-0.0f64).to_bits()
             {

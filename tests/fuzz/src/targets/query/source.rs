@@ -10,7 +10,7 @@ pub(super) struct NumberReader<'a> {
 /// The tag byte before a number in eight bytes.
 pub(super) const RAW_NUMBER_TAG: u8 = 255;
 /// The number of tag bytes that stand for multiples of 1/16, from −4 to below 4.
-pub(super) const SIXTEENTH_TAG_COUNT: u8 = 128;
+pub(super) const FIXED_POINT_TAG_COUNT: u8 = 128;
 
 impl<'a> NumberReader<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
@@ -46,8 +46,8 @@ impl<'a> NumberReader<'a> {
             self.read_byte()
         };
         let x = match tag {
-            0..SIXTEENTH_TAG_COUNT => (f64::from(tag) - 64.0) / 16.0,
-            SIXTEENTH_TAG_COUNT..192 => self.earlier_number(tag - SIXTEENTH_TAG_COUNT),
+            0..FIXED_POINT_TAG_COUNT => (f64::from(tag) - 64.0) / 16.0,
+            FIXED_POINT_TAG_COUNT..192 => self.earlier_number(tag - FIXED_POINT_TAG_COUNT),
             192..208 => {
                 let power = 2f64.powi(i32::from(self.read_byte().cast_signed()));
                 if tag % 2 == 0 { power } else { -power }

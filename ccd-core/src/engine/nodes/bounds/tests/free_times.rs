@@ -3,7 +3,7 @@
 use crate::body::tree::LANES;
 use crate::engine::nodes::bounds::{FreeTimes, LANE_INDEX_MASK};
 use crate::math::simd::load;
-use crate::settings::Instructions;
+use crate::settings::VectorInstructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;
 
@@ -27,7 +27,7 @@ fn times_come_out_in_order_each_lane_once() {
     for _ in 0..20_000 {
         let free: [f32; LANES] = std::array::from_fn(|_| random_free_time(&mut rng));
         let used = rng.random();
-        let level = Instructions::Best.simd_level();
+        let level = VectorInstructions::Best.simd_level();
         let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
         let rounded = |lane: usize| {
             if free[lane] > 0.0 {

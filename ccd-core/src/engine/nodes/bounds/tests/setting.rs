@@ -188,7 +188,7 @@ impl PairConfiguration {
         Shape::random_box(rng, size, centre)
     }
 
-    pub(super) fn boxes(
+    pub(super) fn box_sample(
         &self,
         rng: &mut impl RngExt,
         other: &Shape,

@@ -8,8 +8,8 @@ use crate::rounding::{
     CROSS_PRODUCT_ERROR_F32, FREE_TIME_FACTOR_F32, LEAST_SECOND_DERIVATIVE_F32,
     SECOND_DERIVATIVE_FACTOR_F32,
 };
-use crate::settings::Instructions;
-use crate::tests::worst::share;
+use crate::settings::VectorInstructions;
+use crate::tests::worst::error_share;
 
 /// The gaps, second derivatives and free times of eight pairs along an axis.
 pub(super) struct AxisFreeTimes {
@@ -37,7 +37,7 @@ pub(super) fn free_time_error_share(numbers: [f32; 4]) -> f64 {
         (root - rate) / second_derivative
     };
     let factor = f64::from(FREE_TIME_FACTOR_F32);
-    share(free / factor / exact - 1.0, 1.0 - factor)
+    error_share(free / factor / exact - 1.0, 1.0 - factor)
 }
 
 impl<C: Children, P: OtherNode> EightPairSample<C, P> {
@@ -51,7 +51,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
                 + LEAST_SECOND_DERIVATIVE_F32
         });
         let closed = self.motion.closed_gap_threshold;
-        let level = Instructions::Best.simd_level();
+        let level = VectorInstructions::Best.simd_level();
         AxisFreeTimes {
             free_times: free_times(level, &apart, &found.rate, &second_derivative, closed),
             gap_excess: apart,
@@ -75,8 +75,8 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         let gap = -self.other_solid.max_height(-n, 0.0) - child.max_height(n, 0.0);
         let above = f64::from(found.gap[lane]) - gap;
         let mut shares = ErrorShares {
-            gap: share(above, self.allowed_gap_error.into()),
-            rate: share(below, motion.rate_allowance.into()),
+            gap: error_share(above, self.allowed_gap_error.into()),
+            rate: error_share(below, motion.rate_allowance.into()),
             ..ErrorShares::default()
         };
         let turning = [
@@ -86,7 +86,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         for ((turning, body), length) in turning.iter().zip(found.cross_product_lengths) {
             let across = n.cross(body.spin).length();
             let found = length[lane] * SECOND_DERIVATIVE_FACTOR_F32;
-            let of = share(
+            let of = error_share(
                 across - f64::from(found),
                 (CROSS_PRODUCT_ERROR_F32 * turning.rate).into(),
             );

@@ -7,7 +7,7 @@ use crate::engine::nodes::bounds::{EightPairBounds, bound_eight_pairs};
 use crate::engine::nodes::eight_pairs::LargerBody;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
-use crate::settings::Instructions;
+use crate::settings::VectorInstructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::tuning::{
     ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_SWEEP, MIN_TURNING_PLANE_RADIUS_RATIO, REVISIT_DISTANCE,
@@ -21,7 +21,7 @@ struct EightPairValues {
     radius: [f32; LANES],
     /// The distances of the small nodes from the other body's centre of rotation.
     arm_lengths: [f32; LANES],
-    split_extent: [f32; LANES],
+    child_extent: [f32; LANES],
     other_extent: [f32; LANES],
     gap: [f32; LANES],
     /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
@@ -46,14 +46,14 @@ fn bounds<L: Simd, C: Children, P: OtherNode>(
 
 impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     fn pair_values(&self) -> EightPairValues {
-        let level = Instructions::Best.simd_level();
+        let level = VectorInstructions::Best.simd_level();
         let [along, passing, _] = vectorize!(level, level => axis_values(level, self, Vec3::X));
         vectorize!(level, level => {
             let axis = widest_gap_axis(&self.pairs(level));
             EightPairValues {
                 radius: *self.group.radius(level),
                 arm_lengths: *self.motion.other_rotation.distances_from_centre(self.group.centre(level)),
-                split_extent: *axis.split_extent,
+                child_extent: *axis.child_extent,
                 other_extent: *axis.other_extent,
                 gap: along.gap,
                 free_times: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
@@ -65,7 +65,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
 
     /// Sets `motion.larger` to the body whose nodes are much larger, or to `None` if neither body's nodes are.
     fn determine_larger_body(mut self) -> Self {
-        let level = Instructions::Best.simd_level();
+        let level = VectorInstructions::Best.simd_level();
         let radii = vectorize!(level, level => *self.group.radius(level));
         let reach = radii.into_iter().fold(0.0, greater);
         let other = self.other_node.radius();
@@ -193,7 +193,7 @@ impl EightPairValues {
         let thick = |reach: f32, radius: f32| {
             f64::from(reach) + f64::from(ADDED_THICKNESS_PER_RADIUS * radius)
         };
-        let split = thick(self.split_extent[lane], self.radius[lane]);
+        let split = thick(self.child_extent[lane], self.radius[lane]);
         let other = thick(self.other_extent[lane], sample.other_node.radius());
         match (
             self.piece_mask >> lane & 1 == 1,
@@ -211,7 +211,7 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
     let (mut rng, mut decisions) = (rng(3), ChoiceCounts::default());
     let mut check = |rng: &mut Pcg64| {
         let other = Shape::new(rng);
-        let mut boxes = PairConfiguration::new(rng, &other).boxes(rng, &other);
+        let mut boxes = PairConfiguration::new(rng, &other).box_sample(rng, &other);
         boxes.other_node.piece = rng.random_bool(0.3);
         decisions.check_choices(&boxes);
         decisions.check_choices(&boxes.determine_larger_body());

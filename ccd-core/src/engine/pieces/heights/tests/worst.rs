@@ -16,7 +16,7 @@ use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_rotation};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
 use glam::DVec3;
 
 /// The rotation of a body about a centre from a given frame, in double-double arithmetic.
@@ -51,7 +51,8 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     let body = body(&[[(); 3].map(|()| DVec3::from(tape.vector(-20..=4)))]);
     let (motion, ball) = (motion(tape)?, Body::sphere(0.1).ok()?);
     let still = Motion::still(Pose::IDENTITY);
-    let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
+    let problem =
+        Problem::of_moving_bodies((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (side, normal) = (&problem.a, unit(tape.vector(-40..=0).into())?);
     let [clock, tau] = [0; 2].map(|_| tape.next_fraction());
     let turning = ExactRotation {
@@ -66,7 +67,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
         let velocity = DoubleDouble3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = DoubleDouble3::from(normal).dot(velocity);
         let off = (DoubleDouble::from(found.rate) - exact).get().abs();
-        share(off, RATE_ERROR_F64 * heights.speed_bound())
+        error_share(off, RATE_ERROR_F64 * heights.speed_bound())
     };
     let shares = piece
         .points
@@ -91,7 +92,7 @@ fn worst_farthest() {
         let exact = (DoubleDouble3::from(middle) - DoubleDouble3::from(from)).length()
             + DoubleDouble::from(radius);
         let found = DoubleDouble::from(distance(middle, from) + radius);
-        Some(share(
+        Some(error_share(
             (exact / found - DoubleDouble::from(1.0)).get(),
             RATE_ERROR_F64,
         ))
@@ -105,7 +106,8 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.next_fraction());
     let ball = Body::sphere(0.1).ok()?;
     let still = Motion::still(Pose::IDENTITY);
-    let alone = Problem::about((&ball, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
+    let alone =
+        Problem::of_moving_bodies((&ball, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let path = alone.a.path;
     let clock = tape.next_fraction();
     let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
@@ -116,7 +118,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
         0 => seen.vector_at(angle.0),
         _ => seen.derivative_at(angle.0),
     };
-    let level = unit(frame.inverse_vector(along))?;
+    let level = unit(frame.inverse_transform_vector(along))?;
     let (east, north) = level.any_orthonormal_pair();
     let (middle, wide) = (DVec3::from(tape.vector(-20..=4)), tape.size(-10..=4));
     let fixed = tape.index_below(4);
@@ -139,7 +141,8 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
         ..Polytope::default()
     };
     let body = Body::polytope(polytope).ok()?;
-    let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
+    let problem =
+        Problem::of_moving_bodies((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (piece, side) = (body.piece(0), &problem.a);
     let turning = ExactRotation {
         frame,
@@ -157,7 +160,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
         .map(|&p| turning.arm(p, angle.1))
         .collect();
     let miss = |direction: DVec3, of: &dyn Fn(&DoubleDouble3) -> DoubleDouble| {
-        let chosen = piece.extremal_point(frame.inverse_vector(-direction));
+        let chosen = piece.extremal_point(frame.inverse_transform_vector(-direction));
         let least = arms.iter().map(of).reduce(DoubleDouble::min)?;
         Some((of(&arms[chosen as usize]) - least).get())
     };
@@ -166,7 +169,10 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
         n.dot(turning.spin.cross(*arm))
     })?;
     assert!(heights.support_error_bound >= allowed);
-    Some([share(height, allowed), share(rate, path.rate * allowed)])
+    Some([
+        error_share(height, allowed),
+        error_share(rate, path.rate * allowed),
+    ])
 }
 
 /// The number of points of each tested piece, so many that extremal points are searched and not scanned.

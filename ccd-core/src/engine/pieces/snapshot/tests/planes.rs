@@ -157,7 +157,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
         )
         .unwrap();
         let sides = ((&bar, motion), (&ball, Motion::STILL));
-        let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let mut meter = Meter::new(&problem);
         let checked = snapshot
@@ -186,7 +186,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         // A follows B, almost as fast.
         let chased = velocity * rng.random_range(1.0..1.1);
         let sides = ((&a, moving(away, chased)), (&b, moving(-away, velocity)));
-        let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let rate = -away.dot(chased - velocity);
         let slack = 0.1 * rate;
@@ -296,7 +296,8 @@ fn check_closest_approach_plane(
     plane: Option<&SeparatingPlane>,
 ) {
     let Problem { a, b, .. } = snapshot.problem;
-    let [x, y] = [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].point(p));
+    let [x, y] =
+        [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].transform_point(p));
     let [v, w] = [(a, x), (b, y)].map(|(side, p)| side.path.velocity_at(p, snapshot.clock));
     let way = |tau: f64| (y - x) + (w - v) * tau;
     // The distance of two points on straight paths falls, and then rises.
@@ -320,7 +321,7 @@ fn check_closest_approach_plane(
     let normal = plane.map_or(exact, |plane| plane.normal);
     let tilt = 1e-4 + 4.0 * snapshot.problem.rounding / nearest.length();
     assert!(normal.cross(exact).length() < tilt, "{normal} {exact}");
-    let height = |k: usize, p: &DVec3| normal.dot(snapshot.frames[k].point(*p));
+    let height = |k: usize, p: &DVec3| normal.dot(snapshot.frames[k].transform_point(*p));
     let top = snapshot
         .pieces
         .a
@@ -340,8 +341,8 @@ fn check_closest_approach_plane(
     let [a, b] = [snapshot.pieces.a.points, snapshot.pieces.b.points];
     let placed = a
         .iter()
-        .map(|p| snapshot.frames[0].point(*p))
-        .chain(b.iter().map(|p| snapshot.frames[1].point(*p)));
+        .map(|p| snapshot.frames[0].transform_point(*p))
+        .chain(b.iter().map(|p| snapshot.frames[1].transform_point(*p)));
     let size = placed.map(DVec3::length).fold(0.0, greater);
     match plane {
         Some(plane) => assert!(
@@ -379,14 +380,14 @@ fn depth_is_measured_between_the_middles_of_many_points() {
             .unwrap(),
         );
         let sides = ((&a, motion), (&b, Motion::STILL));
-        let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
+        let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let pair = &snapshot.pieces;
         let [(from, large), (to, small)] = [
             pair.a.bounding_ball().unwrap(),
             pair.b.bounding_ball().unwrap(),
         ];
-        let placed = |p: DVec3| pair.b_to_a.point(p);
+        let placed = |p: DVec3| pair.b_to_a.transform_point(p);
         let axis = (placed(to) - from).normalize();
         let heights = |p: DVec3| axis.dot(p);
         let top = pair

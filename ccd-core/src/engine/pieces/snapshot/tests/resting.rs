@@ -86,7 +86,7 @@ fn free_time([a, b]: [&RestingBody; 2], whole: DQuat, speed: f64, k: f64) -> Opt
         (&a.body, Motion::still(pose)),
         (&b.body, Motion::new(tilted, velocity, DVec3::ZERO).unwrap()),
     );
-    let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
+    let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
     let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
     let mut meter = Meter::new(&problem);
     let checked = snapshot

@@ -10,43 +10,43 @@ use std::sync::OnceLock;
 /// The table lives as long as the pieces, and is shared by all threads that share them. A copy of the pieces starts
 /// with an empty table.
 #[derive(Default)]
-pub(crate) struct SideTable(OnceLock<Box<Column>>);
+pub(crate) struct CacheTable(OnceLock<Box<Column>>);
 
 struct Column {
     /// The column's entries: a `Vec<OnceLock<T>>` for some type `T`.
     entries: Box<dyn Any + Send + Sync>,
     /// The rest of the linked list: the columns for other types of values.
-    other_columns: SideTable,
+    other_columns: CacheTable,
 }
 
-impl SideTable {
+impl CacheTable {
     /// Returns the entry for the value of type `T` of the piece `index`; `len` is the number of pieces.
     #[inline]
     pub(crate) fn entry<T: Any + Send + Sync>(&self, len: usize, index: usize) -> &OnceLock<T> {
-        let mut side_table = self;
+        let mut cache_table = self;
         loop {
-            let column = side_table.0.get_or_init(|| {
+            let column = cache_table.0.get_or_init(|| {
                 let entries: Vec<OnceLock<T>> = (0..len).map(|_| OnceLock::new()).collect();
                 Box::new(Column {
                     entries: Box::new(entries),
-                    other_columns: SideTable::default(),
+                    other_columns: CacheTable::default(),
                 })
             });
             if let Some(entries) = column.entries.downcast_ref::<Vec<OnceLock<T>>>() {
                 return &entries[index];
             }
-            side_table = &column.other_columns;
+            cache_table = &column.other_columns;
         }
     }
 }
 
-impl Clone for SideTable {
+impl Clone for CacheTable {
     fn clone(&self) -> Self {
-        SideTable::default()
+        CacheTable::default()
     }
 }
 
-impl fmt::Debug for SideTable {
+impl fmt::Debug for CacheTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("SideTable").finish_non_exhaustive()
     }

@@ -1,13 +1,13 @@
 //! The search for proofs about one pair of links after another.
 
 use super::joint_box::JointBox;
-use super::{LinkMeeting, TOUCHING_DISTANCE};
+use super::{LinkContactClass, TOUCHING_DISTANCE};
 use crate::cell::Cell;
-use crate::solver::measure::{Measured, Thresholds, measure};
+use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
 use crate::solver::placement::Placement;
 use crate::solver::violation::are_convex_parts_nearer;
-use crate::tuning::HINGE_POINTS;
+use crate::tuning::HINGE_INTERVALS;
 use ccd_core::order::greater;
 use rigid_ccd::{Body, Error, Pose, Solver};
 use std::cmp::Ordering;
@@ -21,7 +21,7 @@ pub(super) struct PairSearch<'c> {
 }
 
 /// What is known of a box after a look at its middle.
-struct Look {
+struct BoxExamination {
     /// Whether the links are apart over the whole box.
     is_free: bool,
     /// Whether they overlap over the whole box.
@@ -31,7 +31,7 @@ struct Look {
 }
 
 /// A box that waits to be examined; the largest comes first.
-struct Waiting(JointBox);
+struct WaitingBox(JointBox);
 
 impl<'c> PairSearch<'c> {
     pub(super) fn new(cell: &'c Cell) -> Self {
@@ -47,9 +47,9 @@ impl<'c> PairSearch<'c> {
         &mut self,
         links: [usize; 2],
         max_boxes: usize,
-    ) -> Result<LinkMeeting, Error> {
+    ) -> Result<LinkContactClass, Error> {
         let (mut touching, mut apart, mut share) = (None, None, 0.0);
-        let undecided = |share, touching, apart| LinkMeeting::Undecided {
+        let undecided = |share, touching, apart| LinkContactClass::Undecided {
             proven_apart_share: share,
             touching_configuration: touching,
             apart_configuration: apart,
@@ -58,25 +58,25 @@ impl<'c> PairSearch<'c> {
             return Ok(undecided(0.0, None, None));
         };
         if self.meet_on_hinge(links, &all)? {
-            return Ok(LinkMeeting::Always);
+            return Ok(LinkContactClass::Always);
         }
         let weights = self.weights();
         let is_rigid = self.cell.robot().are_rigidly_connected(links[0], links[1]);
-        let mut waiting = BinaryHeap::from([Waiting(all)]);
+        let mut waiting = BinaryHeap::from([WaitingBox(all)]);
         let mut pairs = self.part_pairs(links);
         for _ in 0..max_boxes {
-            let Some(Waiting(joint_box)) = waiting.pop() else {
+            let Some(WaitingBox(joint_box)) = waiting.pop() else {
                 break;
             };
-            let look = self.look(&joint_box, &mut pairs)?;
+            let look = self.examine_box(&joint_box, &mut pairs)?;
             match look.touches {
-                Some(true) if is_rigid => return Ok(LinkMeeting::Always),
+                Some(true) if is_rigid => return Ok(LinkContactClass::Always),
                 Some(true) => touching = touching.or_else(|| Some(joint_box.middle())),
                 Some(false) => apart = apart.or_else(|| Some(joint_box.middle())),
                 None => {}
             }
             if let (Some(touching), Some(apart)) = (&touching, &apart) {
-                return Ok(LinkMeeting::Sometimes {
+                return Ok(LinkContactClass::Sometimes {
                     touching_configuration: Vec::clone(touching),
                     apart_configuration: Vec::clone(apart),
                 });
@@ -86,15 +86,15 @@ impl<'c> PairSearch<'c> {
             } else if look.overlaps {
                 // Nothing is left to examine in the box.
             } else if let Some(halves) = joint_box.halves(&weights) {
-                waiting.extend(halves.map(Waiting));
+                waiting.extend(halves.map(WaitingBox));
             } else {
                 return Ok(undecided(share, touching, apart));
             }
         }
         // Of boxes that are all decided, none is free if one overlaps: both would have witnesses.
         Ok(match touching {
-            None if waiting.is_empty() => LinkMeeting::Never,
-            Some(_) if waiting.is_empty() => LinkMeeting::Always,
+            None if waiting.is_empty() => LinkContactClass::Never,
+            Some(_) if waiting.is_empty() => LinkContactClass::Always,
             touching => undecided(share, touching, apart),
         })
     }
@@ -122,11 +122,13 @@ impl<'c> PairSearch<'c> {
         let reach = own
             .map(|part| part.centre.length() + part.ball_radius)
             .fold(0.0, greater);
-        for k in 0..=HINGE_POINTS {
-            let along = reach * (2.0 * f64::from(k) / f64::from(HINGE_POINTS) - 1.0);
+        for k in 0..=HINGE_INTERVALS {
+            let along = reach * (2.0 * f64::from(k) / f64::from(HINGE_INTERVALS) - 1.0);
             let parent = self.placement.frames[joint.parent];
-            let at = Pose::at(parent.point(joint.origin + along * joint.axis))?;
-            if self.holds(links[0], (&point, at))? && self.holds(links[1], (&point, at))? {
+            let at = Pose::at(parent.transform_point(joint.origin + along * joint.axis))?;
+            if self.link_touches(links[0], (&point, at))?
+                && self.link_touches(links[1], (&point, at))?
+            {
                 return Ok(true);
             }
         }
@@ -134,7 +136,7 @@ impl<'c> PairSearch<'c> {
     }
 
     /// Returns whether a body of a link touches another body.
-    fn holds(&mut self, link: usize, other: (&Body, Pose)) -> Result<bool, Error> {
+    fn link_touches(&mut self, link: usize, other: (&Body, Pose)) -> Result<bool, Error> {
         for number in 0..self.cell.robot_body_count() {
             if self.cell.link_of(number) == link {
                 let body = self.placed_body(number)?;
@@ -147,22 +149,26 @@ impl<'c> PairSearch<'c> {
     }
 
     /// Measures both links in the middle of a box, against how far they move within it.
-    fn look(&mut self, joint_box: &JointBox, pairs: &mut [PartPair]) -> Result<Look, Error> {
+    fn examine_box(
+        &mut self,
+        joint_box: &JointBox,
+        pairs: &mut [PartPair],
+    ) -> Result<BoxExamination, Error> {
         let middle = joint_box.middle();
         let deviation = |source| joint_box.deviation(source);
         self.placement.place_box(self.cell, &middle, deviation);
-        let mut look = Look {
+        let mut look = BoxExamination {
             is_free: true,
             overlaps: false,
             touches: Some(false),
         };
         for pair in pairs {
             let thresholds = Thresholds {
-                free: 0.0,
-                near: 0.0,
+                free_distance: 0.0,
+                near_distance: 0.0,
             };
             let found = measure(self.cell, &self.placement, pair, thresholds, false);
-            if matches!(found, Measured::Free) {
+            if matches!(found, DistanceVerdict::Free) {
                 continue;
             }
             // The engine measures the bodies themselves; frames become poses with an error like their own.
@@ -225,21 +231,21 @@ impl<'c> PairSearch<'c> {
     }
 }
 
-impl PartialEq for Waiting {
+impl PartialEq for WaitingBox {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Waiting {}
+impl Eq for WaitingBox {}
 
-impl PartialOrd for Waiting {
+impl PartialOrd for WaitingBox {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Waiting {
+impl Ord for WaitingBox {
     fn cmp(&self, other: &Self) -> Ordering {
         self.0.share.total_cmp(&other.0.share)
     }

@@ -1,17 +1,17 @@
 //! Tests distances from a point to a triangle against exact fractions. A random search looks for the largest error.
 
-use super::Target;
+use super::EnclosedMesh;
 use crate::mesh::TriangleMesh;
 use crate::rational::{Exact3, exact_fraction};
 use crate::solid::topology::Topology;
-use crate::work::Work;
-use crate::worst::{RandomCase, WorstCaseSearch, share};
+use crate::work::WorkBudget;
+use crate::worst::{RandomCase, WorstCaseSearch, error_share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
 
 /// Returns the exact square of the distance from a point to a triangle.
-fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
+fn squared_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
     let [a, b, c] =
         [a, b, c].map(|v| Exact3::from_coordinates(v).minus(&Exact3::from_coordinates(point)));
     let edges = [(&a, &b), (&b, &c), (&c, &a)].map(|(p, q)| {
@@ -40,7 +40,7 @@ fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
 }
 
 /// Draws a triangle of any aspect ratio, and a point that may be near it.
-fn setting(tape: &mut RandomCase) -> ([DVec3; 3], DVec3) {
+fn random_triangle_and_point(tape: &mut RandomCase) -> ([DVec3; 3], DVec3) {
     let (scale, offset) = (tape.size(-60..=30), DVec3::from(tape.vector(-8..=10)));
     let [u, v] = [(); 2].map(|()| DVec3::from(tape.vector(-4..=0)));
     let (narrow, share) = (tape.size(-60..=0), tape.any_number(-3..=0));
@@ -56,17 +56,21 @@ fn setting(tape: &mut RandomCase) -> ([DVec3; 3], DVec3) {
 #[test]
 fn worst_distance() {
     let found = WorstCaseSearch::new("NEAREST_SLACK", 6_000).search(|tape| {
-        let (corners, point) = setting(tape);
+        let (corners, point) = random_triangle_and_point(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
-        let target = Target::new(&mesh, &Topology::of(&mesh));
-        let (found, reached) = target.distance_bounds(point, &Work::unbounded());
+        let target = EnclosedMesh::new(&mesh, &Topology::of(&mesh));
+        let (found, reached) = target.distance_bounds(point, &WorkBudget::unbounded());
         let scale = exact_fraction(2f64.powi(400));
-        let truth = (square(corners, point) * &scale).to_f64().value().sqrt() * 2f64.powi(-200);
+        let truth = (squared_distance(corners, point) * &scale)
+            .to_f64()
+            .value()
+            .sqrt()
+            * 2f64.powi(-200);
         // Inside, the lesser of the two is the depth; outside, the second is the distance.
         let error = greater(lesser(found, reached) - truth, truth - reached);
         // Query points are in hulls of the mesh's points. A mesh of one point has no hull.
         let near = truth <= 2.0 * target.half_diagonal && target.half_diagonal > 0.0;
-        near.then(|| share(error, target.slack))
+        near.then(|| error_share(error, target.slack))
     });
     // The search must find triangles that are barely not needles.
     found.assert_tight_bound(1e8);

@@ -1,7 +1,7 @@
 //! Tests of proofs about pairs of links against random configurations.
 
 use super::*;
-use crate::robot::{Joint, Link, Position};
+use crate::robot::{Joint, Link, PositionRule};
 use crate::test_robots::{least_distance_of_links, random_robot, with_limits};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -16,7 +16,7 @@ fn no_configuration_contradicts_a_proof() {
     for _ in 0..40 {
         let limit = [0.3, 1.2][random.random_range(0..2)];
         let robot = with_limits(&random_robot(&mut random), limit);
-        for (links, meeting) in robot.link_meetings(300).unwrap() {
+        for (links, meeting) in robot.classify_link_contacts(300).unwrap() {
             let distance = |at: &[f64]| least_distance_of_links(&robot, links, at);
             let samples = (0..60).map(|_| {
                 let limits = robot.limits();
@@ -27,18 +27,18 @@ fn no_configuration_contradicts_a_proof() {
             });
             let samples: Vec<f64> = samples.collect();
             match meeting {
-                LinkMeeting::Never => {
+                LinkContactClass::Never => {
                     never += 1;
                     assert!(samples.iter().all(|&distance| distance > 0.0), "{links:?}");
                 }
-                LinkMeeting::Always => {
+                LinkContactClass::Always => {
                     always += 1;
                     assert!(
                         samples.iter().all(|&distance| distance <= 3e-9),
                         "{links:?}"
                     );
                 }
-                LinkMeeting::Sometimes {
+                LinkContactClass::Sometimes {
                     touching_configuration: touching,
                     apart_configuration: apart,
                 } => {
@@ -48,7 +48,7 @@ fn no_configuration_contradicts_a_proof() {
                         "{links:?}"
                     );
                 }
-                LinkMeeting::Undecided {
+                LinkContactClass::Undecided {
                     proven_apart_share, ..
                 } => {
                     undecided += 1;
@@ -83,22 +83,22 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
             parent: "frame".into(),
             child: "leaf".into(),
             joint: hinge.with_limits(joint_limit..=limit),
-            position: Position::Free,
+            position: PositionRule::Free,
         }];
         let robot = Robot::new(links, joints).unwrap();
-        robot.link_meetings(10_000).unwrap().remove(0).1
+        robot.classify_link_contacts(10_000).unwrap().remove(0).1
     };
-    assert_eq!(door(meet - 1e-4, 0.0), LinkMeeting::Never);
+    assert_eq!(door(meet - 1e-4, 0.0), LinkContactClass::Never);
     assert!(matches!(
         door(meet + 1e-2, 0.0),
-        LinkMeeting::Sometimes { .. }
+        LinkContactClass::Sometimes { .. }
     ));
     // A joint that is held at one position.
-    assert_eq!(door(1.0, 1.0), LinkMeeting::Never);
+    assert_eq!(door(1.0, 1.0), LinkContactClass::Never);
     // Without limits it turns once.
     let turning = door(f64::INFINITY, f64::NEG_INFINITY);
     assert!(
-        matches!(turning, LinkMeeting::Sometimes { .. }),
+        matches!(turning, LinkContactClass::Sometimes { .. }),
         "{turning:?}"
     );
 }
@@ -119,12 +119,12 @@ fn links_that_hold_their_hinge_always_touch() {
             parent: "base".into(),
             child: "arm".into(),
             joint: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
-            position: Position::Free,
+            position: PositionRule::Free,
         }];
         let robot = Robot::new(links, joints).unwrap();
-        robot.link_meetings(2_000).unwrap().remove(0).1
+        robot.classify_link_contacts(2_000).unwrap().remove(0).1
     };
-    assert_eq!(meeting(0.29), LinkMeeting::Always);
+    assert_eq!(meeting(0.29), LinkContactClass::Always);
     // Half a turn brings the balls 0.62 apart at their centres.
-    assert!(matches!(meeting(0.31), LinkMeeting::Sometimes { .. }));
+    assert!(matches!(meeting(0.31), LinkContactClass::Sometimes { .. }));
 }

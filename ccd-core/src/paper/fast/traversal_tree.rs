@@ -9,7 +9,7 @@ use crate::math::order::lesser;
 /// leaves are the front: together they cover all pairs of pieces. The front is kept between two descents, with the
 /// caches of the oracle.
 #[derive(Debug, Default)]
-pub(super) struct Front<C> {
+pub(super) struct TraversalTree<C> {
     /// All pairs of the tree. The root is the first, and pairs of children are adjacent.
     nodes: Vec<Node<C>>,
     /// The unused slots of `nodes`: the index of the first of every two adjacent slots.
@@ -22,7 +22,7 @@ pub(super) struct Front<C> {
 #[derive(Clone, Debug)]
 pub(super) struct Node<C> {
     pub(super) pair: [u32; 2],
-    pub(super) front_pair: FrontPair<C>,
+    pub(super) traversal_pair: TraversalPair<C>,
     /// The index of the first of two children; `None` for a leaf.
     pub(super) children: Option<u32>,
     /// A lower bound of the pair's distance at its last visit.
@@ -37,14 +37,14 @@ pub(super) struct Node<C> {
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum FrontPair<C> {
+pub(super) enum TraversalPair<C> {
     /// A pair of which at least one node is an inner node, with the oracle's cache.
     Nodes(C),
     /// A pair of two leaves.
     Pieces(Pair<C>),
 }
 
-impl<C: Clone + Default> Front<C> {
+impl<C: Clone + Default> TraversalTree<C> {
     /// Resets the tree to the pair of roots.
     pub(super) fn reset(&mut self, hulls: HullTreePair<'_>) {
         clear_and_shrink(&mut self.nodes);
@@ -93,9 +93,9 @@ impl<C: Clone + Default> Front<C> {
         };
         // Nearest points of a covering pair are a good start for the pair. This does not hold for
         // pieces: when they touch, a warm start affects their axis, and so the answer.
-        let cache = match &node.front_pair {
-            FrontPair::Nodes(cache) => cache.clone(),
-            FrontPair::Pieces(_) => C::default(),
+        let cache = match &node.traversal_pair {
+            TraversalPair::Nodes(cache) => cache.clone(),
+            TraversalPair::Pieces(_) => C::default(),
         };
         let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone()));
         let first = match self.vacant_slots.pop() {
@@ -153,9 +153,9 @@ impl<C: Default + Clone> Node<C> {
     fn new(hulls: HullTreePair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
-            front_pair: match hulls.children_of_pair(pair, FeatureOwners::BothBridges) {
-                PairChildren::Pieces([a, b]) => FrontPair::Pieces(Pair::new(a, b)),
-                PairChildren::Pairs(_) => FrontPair::Nodes(cache),
+            traversal_pair: match hulls.children_of_pair(pair, FeatureOwners::BothBridges) {
+                PairChildren::Pieces([a, b]) => TraversalPair::Pieces(Pair::new(a, b)),
+                PairChildren::Pairs(_) => TraversalPair::Nodes(cache),
             },
             children: None,
             lower: f64::NEG_INFINITY,

@@ -1,13 +1,13 @@
 //! The solid or surface that the hull encloses, with queries for the location and distance of a point.
 
-use crate::bounds::{Bounds, to_parry};
-use crate::exact::predicates::{side, side_of_line_along};
+use crate::bounds::{Bounds, to_parry_vector};
+use crate::exact::predicates::{side_of_line_along, side_of_plane};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
 use crate::solid::topology::Topology;
 use crate::tolerance::{MAX_NEEDLE_RATIO, excess_rounding};
-use crate::work::Work;
+use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use parry3d_f64::query::PointQueryWithLocation;
@@ -15,7 +15,7 @@ use parry3d_f64::shape::Triangle;
 use std::cmp::Ordering;
 
 /// The solid that the hull encloses, or the surface if the mesh is open; with data for distance queries.
-pub(super) struct Target<'a> {
+pub(super) struct EnclosedMesh<'a> {
     mesh: &'a TriangleMesh,
     search: BoxTree,
     is_solid: bool,
@@ -38,13 +38,13 @@ pub(super) enum Location {
     Outside { distance_bound: f64 },
 }
 
-impl<'a> Target<'a> {
+impl<'a> EnclosedMesh<'a> {
     pub(super) fn new(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
         let bounds = mesh.bounding_box();
         let [lo, hi] = bounds;
         let farthest = lo.abs().max(hi.abs()).max_element();
         let half_diagonal = (hi - lo).length() / 2.0;
-        Target {
+        EnclosedMesh {
             mesh,
             search: BoxTree::from_faces(
                 mesh.vertices(),
@@ -68,7 +68,7 @@ impl<'a> Target<'a> {
         &self,
         [lo, hi]: [DVec3; 2],
         most: usize,
-        work: &Work,
+        work: &WorkBudget,
     ) -> Option<Vec<[DVec3; 3]>> {
         let mut found = Vec::new();
         let all = self
@@ -81,7 +81,7 @@ impl<'a> Target<'a> {
     }
 
     /// Returns whether a point is in the solid, with a bound on its distance to the surface.
-    pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
+    pub(super) fn locate(&self, point: DVec3, work: &WorkBudget) -> Location {
         let (found, reached) = self.distance_bounds(point, work);
         if self.has_nonzero_winding_number(point, work) {
             Location::Inside {
@@ -97,10 +97,10 @@ impl<'a> Target<'a> {
     /// Returns a lower and an upper bound of the distance from a point to the surface. The lower bound holds up to the
     /// slack. The upper bound is the distance to a point that is certainly on a triangle: the library's projection with
     /// clamped weights, which may be wrong for needles.
-    fn distance_bounds(&self, point: DVec3, work: &Work) -> (f64, f64) {
-        let query = to_parry(point);
+    fn distance_bounds(&self, point: DVec3, work: &WorkBudget) -> (f64, f64) {
+        let query = to_parry_vector(point);
         let project = |corners: [DVec3; 3]| {
-            let [a, b, c] = corners.map(to_parry);
+            let [a, b, c] = corners.map(to_parry_vector);
             Triangle::new(a, b, c).project_local_point_and_get_location(query, false)
         };
         let distance = |corners: [DVec3; 3]| {
@@ -127,7 +127,7 @@ impl<'a> Target<'a> {
 
     /// Returns whether the winding number of the mesh about a point is not 0, by exact predicates. A point on the
     /// surface counts as a point next to it. An open mesh winds about no point.
-    pub(super) fn has_nonzero_winding_number(&self, point: DVec3, work: &Work) -> bool {
+    pub(super) fn has_nonzero_winding_number(&self, point: DVec3, work: &WorkBudget) -> bool {
         if !self.is_solid {
             return false;
         }
@@ -181,7 +181,7 @@ fn ray_crossing_sign(triangle: [DVec3; 3], point: DVec3) -> i32 {
         1 => Ordering::Less,
         _ => Ordering::Greater,
     };
-    around * i32::from(side(triangle, point) == below)
+    around * i32::from(side_of_plane(triangle, point) == below)
 }
 
 #[cfg(test)]

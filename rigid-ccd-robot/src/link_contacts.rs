@@ -15,7 +15,7 @@ const TOUCHING_DISTANCE: f64 = 1e-9;
 
 /// Whether two links touch, over all configurations within the limits of the joints.
 #[derive(Clone, Debug, PartialEq)]
-pub enum LinkMeeting {
+pub enum LinkContactClass {
     /// The links never touch: that is proven for all configurations.
     Never,
     /// The links touch in every configuration, to within two nanometres: no joint moves one against the other, or both hold a
@@ -48,13 +48,16 @@ impl Robot {
     /// examined for a pair. Pairs are shared by all cores. Joints without limits turn once.
     ///
     /// # Guarantee
-    /// [`LinkMeeting::Never`] and [`LinkMeeting::Always`] are proofs, in floating point. The configurations of other answers
+    /// [`LinkContactClass::Never`] and [`LinkContactClass::Always`] are proofs, in floating point. The configurations of other answers
     /// are proofs as well, up to the rounding of positions; bodies that [exceed](rigid_ccd::Body::excess) their shapes count
     /// as they are.
     ///
     /// # Errors
     /// An error of a query about a distance.
-    pub fn link_meetings(&self, max_boxes: usize) -> Result<Vec<([usize; 2], LinkMeeting)>, Error> {
+    pub fn classify_link_contacts(
+        &self,
+        max_boxes: usize,
+    ) -> Result<Vec<([usize; 2], LinkContactClass)>, Error> {
         let link_pairs = LinkPairs::from_robot(self);
         let pairs: Vec<[usize; 2]> = link_pairs.all_pairs().collect();
         let cell = Cell::new(self.clone(), link_pairs);

@@ -19,7 +19,10 @@ impl JointBox {
     pub(crate) fn between(cell: &Cell, links: [usize; 2]) -> Option<Self> {
         let robot = cell.robot();
         let limits: Vec<[f64; 2]> = robot.limits().collect();
-        let mut ranges: Vec<[f64; 2]> = limits.iter().map(|&limits| [at_rest(limits); 2]).collect();
+        let mut ranges: Vec<[f64; 2]> = limits
+            .iter()
+            .map(|&limits| [position_nearest_zero(limits); 2])
+            .collect();
         let between = robot.chain_between(links[0], links[1]);
         for &joint in between.joint_numbers() {
             let Some(source) = robot.source(joint) else {
@@ -31,7 +34,8 @@ impl JointBox {
                 [low, high]
             } else {
                 let kind = robot.joints()[joint].joint.kind();
-                let comes_back = matches!(kind, JointKind::Revolute(_)) && source.is_whole_turn();
+                let comes_back =
+                    matches!(kind, JointKind::Revolute(_)) && source.has_integer_multiplier();
                 comes_back.then_some([-PI, PI])?
             };
         }
@@ -81,6 +85,6 @@ fn middle([low, high]: &[f64; 2]) -> f64 {
 }
 
 /// Returns a position within limits for a joint that does not matter: that nearest to 0.
-fn at_rest([low, high]: [f64; 2]) -> f64 {
+fn position_nearest_zero([low, high]: [f64; 2]) -> f64 {
     0.0f64.clamp(low, high)
 }
