@@ -1,6 +1,6 @@
 //! The Python class `Body`.
 
-use crate::arrays::{rows, triangles};
+use crate::arrays::{finite_numbers, rows, triangles};
 use crate::errors::{InputError, file_error, input_error, warn, wrong_type_error};
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
@@ -189,9 +189,30 @@ impl PyBody {
         PyBody::new(&part("vertices")?, &part("faces")?, pieces, surface)
     }
 
-    /// Makes a box about its origin, by its half extents along x, y and z.
+    /// Makes a box about its origin.
+    ///
+    /// Args:
+    ///     x, y, z: half extents.
+    ///     size: full extents instead, as in URDF, trimesh, Coal and Drake.
     #[classmethod]
-    fn r#box(class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
+    #[pyo3(signature = (x = None, y = None, z = None, *, size = None))]
+    fn r#box(
+        class: &Bound<'_, PyType>,
+        x: Option<f64>,
+        y: Option<f64>,
+        z: Option<f64>,
+        size: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let [x, y, z] = match ([x, y, z], size) {
+            ([Some(x), Some(y), Some(z)], None) => [x, y, z],
+            ([None, None, None], Some(size)) => {
+                finite_numbers(size, "size")?.map(|side| 0.5 * side)
+            }
+            _ => {
+                let text = "box: half extents x, y and z are needed, or size alone";
+                return Err(input_error(text));
+            }
+        };
         let report = format!("box of half extents {x}, {y}, {z}");
         let recipe = ConstructorCall::new(class.py(), Some("box"), (x, y, z))?;
         PyBody::from_shape(Body::cuboid([x, y, z]), recipe, report)

@@ -21,6 +21,14 @@ FACES = np.array(
 )  # fmt: skip
 
 
+def test_a_box_has_half_extents_or_a_size() -> None:
+    halves, size = Body.box(0.5, 1, 1.5), Body.box(size=[1, 2, 3])
+    assert repr(halves) == repr(size) == repr(pickle.loads(pickle.dumps(size)))
+    for wrong in ({}, {"x": 1}, {"x": 1, "y": 1, "z": 1, "size": [1, 1, 1]}, {"size": [1, 1]}, {"size": [1, 1, -1]}):
+        with pytest.raises(InputError):
+            Body.box(**wrong)
+
+
 def test_a_cube_is_a_solid_of_one_piece() -> None:
     cube = Body(CORNERS, FACES)
     assert cube.is_solid and cube.pieces == 1

@@ -208,7 +208,7 @@ impl<'c> Search<'c> {
             match measure(self.cell, &self.placement, &mut pair, thresholds, !is_last) {
                 DistanceVerdict::Free => continue,
                 DistanceVerdict::Near if !pair.is_convex(self.cell.parts()) => {
-                    self.suspects.push(pair)
+                    self.suspects.push(pair);
                 }
                 DistanceVerdict::Near => self.keep_contact(&pair, stretch.middle())?,
                 DistanceVerdict::Undecided(upper) if self.is_nearest(upper) => {

@@ -63,7 +63,7 @@ fn sampled_distances_are_on_the_proven_side() {
                         assert!(distance < margin, "{distance} in {range:?}");
                     }
                     ClearanceVerdict::Violated => {
-                        assert!(distance <= 0.0, "{distance} in {range:?}")
+                        assert!(distance <= 0.0, "{distance} in {range:?}");
                     }
                     ClearanceVerdict::Unverified => {}
                 }
