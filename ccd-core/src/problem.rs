@@ -186,8 +186,8 @@ impl<'a> Problem<'a> {
         self.margin + 0.5 * self.tolerance
     }
 
-    /// Returns the gap that the clocks of pairs of nodes keep if rounding allows. It is the same for all sizes of
-    /// nodes, so that clocks that run out at a common contact run out together.
+    /// Returns the gap down to which the clock of a pair of nodes advances, if rounding allows. It is the same for all
+    /// sizes of nodes, so that clocks that run out at a common contact run out together.
     pub(crate) fn kept_node_gap(&self) -> f64 {
         self.margin + NODE_GAP_TOLERANCE_SHARE * self.tolerance
     }

@@ -82,7 +82,7 @@ pub(crate) struct LocalMinimum {
     pub(crate) feature: Feature,
     /// The point of the feature that projects onto the face, and is the least deep behind it.
     pub(crate) point: DVec3,
-    /// The index of the face that the feature is behind.
+    /// The index of the other polytope's face that the feature is behind.
     pub(crate) face: u32,
 }
 

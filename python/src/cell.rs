@@ -291,7 +291,7 @@ impl PyCell {
 const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
 
 impl PyCell {
-    /// Asks a question about a path.
+    /// Answers a question about a path, after reading its settings and its configurations.
     fn ask(
         &self,
         py: Python<'_>,

@@ -164,7 +164,7 @@ impl PyRobot {
         self.robot.free_joint_names().collect()
     }
 
-    /// The names of the links.
+    /// The names of the links, in the order in which they were given.
     #[getter]
     fn link_names(&self) -> Vec<&str> {
         let links = self.robot.links().iter();

@@ -1,4 +1,4 @@
-//! A view of a piece's facets: their corners, their origins, and the mesh's faces on them.
+//! A view of a piece's facets: their corners, the part of the mesh that each comes from, and the mesh's faces on them.
 
 use super::polytope::{Face, FacetOrigin};
 

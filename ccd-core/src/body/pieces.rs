@@ -166,7 +166,7 @@ impl Pieces {
         matches!(self.shape, PieceShapes::Triangles { .. })
     }
 
-    /// Returns the piece with this index.
+    /// Returns the piece at an index, as a view of the shared points and facets.
     ///
     /// # Panics
     /// When `index` is not below [`Pieces::len`].

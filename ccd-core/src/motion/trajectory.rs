@@ -143,7 +143,8 @@ impl Stretch {
 /// Bounds of the deviation between two motions of a body, in position and orientation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeviationBound {
-    /// The largest distance between the two positions of the motion's centre, in the scene's unit of length.
+    /// An upper bound of the distance between the centre's positions in both motions at the same time, in the scene's
+    /// unit of length.
     pub shift: f64,
     /// The largest angle between the two orientations, in radians.
     pub angle: f64,

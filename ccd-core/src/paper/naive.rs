@@ -1,4 +1,5 @@
-//! A slow and simple reference schedule: all pairs of pieces share one clock. It is Algorithm 1 of the paper.
+//! A slow and simple reference schedule: all pairs of pieces advance together, by the least of their steps. It is
+//! Algorithm 1 of the paper.
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;

@@ -34,7 +34,7 @@ impl BoundTightener {
         }
     }
 
-    /// Removes the pair with the least clock, `s`, from its siblings if a later clock can be proven for it. Returns the
+    /// Takes the pair with the least clock, `s`, out of its siblings if it can be proven apart for longer. Returns the
     /// later clock and the pair, which then waits alone.
     #[inline(always)]
     pub(crate) fn advance_least_pair(

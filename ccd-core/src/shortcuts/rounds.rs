@@ -258,7 +258,7 @@ impl<'a> PeriodicSearch<'a> {
 pub(crate) struct RepresentativePeriod<'a> {
     /// The problem restricted to this period, with a tolerance that leaves room for `change`.
     pub(crate) period_problem: Problem<'a>,
-    /// A bound of the difference between distances in this period and in any other.
+    /// An upper bound of how much the bodies' distance differs between this period and the same moment of any other.
     pub(crate) max_distance_change: f64,
     /// The error of distances in this period, in addition to the error of distances in the whole problem.
     pub(crate) rounding: f64,

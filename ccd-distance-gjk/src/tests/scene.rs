@@ -167,8 +167,8 @@ pub(crate) enum NearestFeatures {
     CornerCorner,
 }
 
-/// Draws triangles whose nearest features are `meeting`, at the distance `gap` along z. The other corners are farther
-/// by any magnitude from 1e-12 on.
+/// Makes two random triangles that are `gap` apart along z, with nearest features of the kind `meeting`. The other
+/// corners are farther by any magnitude from 1e-12 on.
 pub(crate) fn near_contact(rng: &mut Pcg64, meeting: NearestFeatures, gap: f64) -> Scene {
     let slope = |rng: &mut Pcg64| random_magnitude(rng, -12.0, 0.0);
     let flat = |rng: &mut Pcg64| {

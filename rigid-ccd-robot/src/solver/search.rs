@@ -147,7 +147,8 @@ impl<'c> Search<'c> {
         &self.placement
     }
 
-    /// Searches a stretch among some candidates; among all pairs without them. Pairs that stay open are left to the engine.
+    /// Searches a stretch of the path among the given candidate pairs, or among all pairs if there are none. Pairs that
+    /// stay open are left to the engine.
     fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> Step {
         if stretch.from >= self.found.end {
             return Ok(Continue(()));

@@ -116,7 +116,7 @@ impl From<csv::Error> for TableError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{position}: {problem}")]
 pub struct RowError {
-    /// The position of the row in the table.
+    /// The numbers of the row and of its line in the file.
     pub position: RowPosition,
     /// The id of the row, or its index if it has none.
     pub id: String,

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(in crate::table) struct RemarkCollector {
     quaternion: OnceLock<Remark>,
     spin: OnceLock<Remark>,
-    /// Whether some fast rotation is not a round number of degrees, so that the table's angles must be in radians.
+    /// Whether some fast rotation is not a round number of degrees: a sign that the table's angles are in radians.
     has_radians: AtomicBool,
 }
 

@@ -237,7 +237,7 @@ impl C2a {
 }
 
 impl CandidatePair {
-    /// Returns true if the descent may stop at this pair, whose step is then accounted for in `found`.
+    /// Returns true if the descent need not go below this pair; the step in `found` is then at most that of the pair.
     #[inline]
     fn try_stop_descent(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
         if self.safe_step >= lesser(found.safe_step, setup.remaining_time) {

@@ -15,7 +15,7 @@ pub(super) struct ShortestVectors {
 }
 
 impl Vec3x4 {
-    /// Packs four vectors; the last one may repeat another.
+    /// Packs four vectors, one per lane; of three vectors one is repeated.
     #[inline(always)]
     pub(super) fn new([a, b, c, d]: [DVec3; 4]) -> Self {
         Vec3x4([

@@ -90,7 +90,8 @@ fn sheet_between_sheets(gap: f64) -> Result<FamilyStep> {
     )
 }
 
-/// Makes a tilted plate that moves through a slit, which is wider than the plate's edges by a gap (case T16).
+/// Makes a tilted plate that moves through a slit, which is wider than the plate's extent across it by a gap (case
+/// T16).
 fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;

@@ -190,7 +190,8 @@ impl TreeLayout {
         }
     }
 
-    /// Returns the slabs around all flat nodes, with the nodes' ids; none unless all pieces are triangles.
+    /// Returns a slab, with the node's id, around each node that is flat enough; an empty list if a piece is no
+    /// triangle.
     fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
         if !pieces.are_all_triangles() {
             return Vec::new();

@@ -94,7 +94,7 @@ impl Siblings {
         }
     }
 
-    /// Returns the nodes of A and of B that form the pair with the least clock.
+    /// Returns the nodes of A and of B that are proven apart for the shortest time.
     #[inline]
     pub(crate) fn least_pair(&self) -> [NodeId; 2] {
         self.pair(self.free_times.least_lane())

@@ -48,7 +48,7 @@ pub(crate) fn estimate_nearest_pair<O: DistanceOracle>(
     }
 }
 
-/// Returns the nearest pieces of the bodies at a clock; `None` if all pieces are at least `beyond` apart.
+/// Returns the nearest pieces of the bodies at a time; `None` if all pieces are at least `beyond` apart.
 pub(crate) fn search_nearest_pieces_at<O: DistanceOracle>(
     problem: &Problem<'_>,
     clock: f64,

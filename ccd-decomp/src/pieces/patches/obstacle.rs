@@ -20,7 +20,7 @@ pub(super) struct HullInteriorTest<'a> {
 type Edge = ([u32; 2], [u32; 2]);
 
 impl<'a> HullInteriorTest<'a> {
-    /// Prepares the tests for a hull with volume.
+    /// Creates the test of triangles against the interior of a hull, which has a volume.
     pub(super) fn new(points: &'a [DVec3], hull: &'a ExactHull) -> Self {
         HullInteriorTest {
             points,

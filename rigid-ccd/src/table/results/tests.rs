@@ -302,7 +302,7 @@ fn distances_are_compared_to_the_clearance() {
     }
 }
 
-/// Tests that an overlap of bodies leaves a clearance up to their excess unverified, with a reason that names the
+/// Tests that bodies which overlap leave a clearance of at most their excess unverified, and that the reason names the
 /// excess.
 #[test]
 fn the_excess_of_bodies_is_reported() {

@@ -18,7 +18,7 @@ pub(super) struct AccessorReader<'a> {
 /// A component type of glTF accessors.
 struct ComponentType {
     byte_count: usize,
-    /// The largest value of an integer type, which a normalized integer is a fraction of.
+    /// The largest value of an integer type, by which a normalized integer is divided; `None` for floats.
     max_integer: Option<f64>,
     /// Reads a number from the first bytes of a slice.
     read: fn(&[u8]) -> f64,
