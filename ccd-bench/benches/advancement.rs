@@ -13,7 +13,7 @@ use ccd_bench::method::guarded::MethodPrograms;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, ProjectSolver};
 use ccd_bench::run::contest::{MeasurementLimits, PreparedScene, Session};
-use ccd_bench::scene::{ModelCache, PieceKind, scene_descriptions};
+use ccd_bench::scene::{ModelBodyCache, PieceKind, scene_descriptions};
 use ccd_core::Settings;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
@@ -38,7 +38,7 @@ const SCENE_NAMES: [&str; 7] = [
 const NAIVE_SCHEDULE_SCENE: &str = "knot216";
 
 fn benchmark_queries(criterion: &mut Criterion) {
-    let mut models = ModelCache::default();
+    let mut models = ModelBodyCache::default();
     let scene_descriptions = scene_descriptions().expect("the scenes' data");
     for listing in scene_descriptions
         .iter()
@@ -48,7 +48,7 @@ fn benchmark_queries(criterion: &mut Criterion) {
             .make_scene(&mut models)
             .expect("scenes made by code");
         let contest = PreparedScene::new(&scene).expect("motions with screws");
-        let rows = contest.row_order(ROWS_PER_SCENE);
+        let rows = contest.spread_row_indices(ROWS_PER_SCENE);
         let mut group = criterion.benchmark_group(format!("advancement/{}", scene.name));
         group.throughput(Throughput::Elements(rows.len() as u64));
         group.sampling_mode(SamplingMode::Flat);

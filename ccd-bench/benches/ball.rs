@@ -7,14 +7,14 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 /// Returns the convex hull of `corners` random points on the unit sphere, as a hull tree.
-pub(crate) fn random_ball_hull(rng: &mut Pcg64, corners: usize) -> HullTree {
+pub(crate) fn random_sphere_point_hull(rng: &mut Pcg64, corners: usize) -> HullTree {
     let points: Vec<DVec3> = (0..corners).map(|_| random_direction(rng)).collect();
     let half = |points: &[DVec3]| Polytope {
         points: points.to_vec(),
         ..Polytope::default()
     };
     let (one, other) = points.split_at(corners / 2);
-    let pieces = Pieces::polytopes(&[half(one), half(other)]).expect("points of a sphere");
+    let pieces = Pieces::from_polytopes(&[half(one), half(other)]).expect("points of a sphere");
     build_hull_tree(&pieces).expect("points of a sphere have a hull")
 }
 

@@ -15,10 +15,10 @@ use settings::criterion_settings;
 use std::hint::black_box;
 
 /// The torus knots to decompose, which differ in size only.
-const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
+const KNOT_MODELS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
 
 fn knot_meshes() -> Vec<(String, TriangleMesh)> {
-    KNOTS
+    KNOT_MODELS
         .iter()
         .map(|knot| {
             (

@@ -9,7 +9,7 @@
 mod ball;
 mod settings;
 
-use ball::{random_ball_hull, random_direction};
+use ball::{random_direction, random_sphere_point_hull};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, DistanceOracle, Frame, PiecePair, Pieces, Pose};
 use ccd_distance_gjk::{ClosedForm, Gjk};
@@ -99,7 +99,7 @@ fn pieces_in_unit_ball(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
         ("slab".to_owned(), slab.clone(), slab),
     ];
     for corners in [20, 100, 1000] {
-        let mut hull = || random_ball_hull(rng, corners).hulls().clone();
+        let mut hull = || random_sphere_point_hull(rng, corners).hulls().clone();
         shapes.push((format!("ball-{corners}"), hull(), hull()));
     }
     shapes

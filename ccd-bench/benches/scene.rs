@@ -32,18 +32,18 @@ type StartFunction = fn(DVec3, DVec3, DVec3) -> (DVec3, DVec3);
 /// The flights by name, each with the function that gives a body its start. In turn, the bodies fall onto the hills,
 /// skim along them, fly from all sides to one place, fly in all directions within a crowd, or fall ten times as fast as
 /// in the first flight.
-const FLIGHTS: [(&str, StartFunction); 5] = [
+const FLIGHT_START_FUNCTIONS: [(&str, StartFunction); 5] = [
     ("hail", |place, way, _| {
         let high = DVec3::Z * (4.0 + 2.0 * place.z);
         (
-            spread_horizontally(place) + high,
+            horizontal_position(place) + high,
             way * 5.0 - 20.0 * DVec3::Z,
         )
     }),
     ("skimming", |place, way, ground| {
         let low = DVec3::Z * (1.2 + 0.5 * place.z);
         let velocity = way * DVec3::new(20.0, 20.0, 1.0);
-        (spread_horizontally(place) + ground + low, velocity)
+        (horizontal_position(place) + ground + low, velocity)
     }),
     ("implosion", |place, way, _| {
         let aside = place.normalize();
@@ -55,13 +55,13 @@ const FLIGHTS: [(&str, StartFunction); 5] = [
     ("bullets", |place, way, _| {
         let high = DVec3::Z * (24.0 + 20.0 * place.z);
         (
-            spread_horizontally(place) + high,
+            horizontal_position(place) + high,
             way * 30.0 - 200.0 * DVec3::Z,
         )
     }),
 ];
 
-fn spread_horizontally(place: DVec3) -> DVec3 {
+fn horizontal_position(place: DVec3) -> DVec3 {
     place * DVec3::new(20.0, 20.0, 0.0)
 }
 
@@ -103,7 +103,7 @@ fn flight_motions(start: StartFunction) -> anyhow::Result<Vec<Vec<Motion>>> {
     let (steps, count) = STEP_AND_BODY_COUNTS;
     let starts = (0..count).map(|_| {
         let (place, way) = (any(1.0), any(1.0));
-        let ground = spread_horizontally(place);
+        let ground = horizontal_position(place);
         let ground = terrain_height(ground.x, ground.y) * DVec3::Z;
         let (place, velocity) = start(place, way, ground);
         let spin = any(10.0);
@@ -134,7 +134,7 @@ fn set_motions(scene: &mut Scene<'_>, motions: &[Motion]) {
 
 fn benchmark_scenes(criterion: &mut Criterion) {
     let [hills, others @ ..] = &hills_and_bodies().expect("valid sizes");
-    for (name, start) in FLIGHTS {
+    for (name, start) in FLIGHT_START_FUNCTIONS {
         let steps = flight_motions(start).expect("valid motions");
         let mut scene = Scene::with_threads(NonZeroUsize::MIN);
         scene.add_fixed(hills, Pose::IDENTITY);

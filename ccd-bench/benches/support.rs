@@ -6,7 +6,7 @@
 mod ball;
 mod settings;
 
-use ball::{random_ball_hull, random_direction};
+use ball::{random_direction, random_sphere_point_hull};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{SupportScan, SupportTable};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -23,7 +23,7 @@ fn benchmark_support_search(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(DIRECTION_COUNT as u64));
     let mut rng = Pcg64::seed_from_u64(7);
     for corners in [8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048, 4096] {
-        let tree = random_ball_hull(&mut rng, corners);
+        let tree = random_sphere_point_hull(&mut rng, corners);
         let piece = tree.hulls().get(0);
         let scan = SupportScan::new(piece.points);
         let table =

@@ -17,7 +17,9 @@ use ccd_core::Answer;
 use ccd_core::{InputError, Outcome, Settings, VectorInstructions};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
-use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, Question, ScheduleKind, Solve, SolverKind};
+use rigid_ccd::batch::{
+    BodyPair, BoundKind, OracleKind, Question, ScheduleKind, Solve, SolverKind,
+};
 use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
@@ -77,8 +79,8 @@ impl Method {
         ];
         let ours = ours.map(|(kind, pieces)| Method::ThisProject(kind, pieces));
         let (rivals, peers) = (
-            methods_of_all_kinds(Method::Rival),
-            methods_of_all_kinds(Method::Peer),
+            methods_of_all_variants(Method::Rival),
+            methods_of_all_variants(Method::Peer),
         );
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
@@ -102,7 +104,7 @@ impl Method {
 
     /// Returns all methods that a script runs.
     pub fn script_methods() -> impl Iterator<Item = Method> {
-        methods_of_all_kinds(Method::Script)
+        methods_of_all_variants(Method::Script)
     }
 
     /// Returns the method with the given name; `None` if there is none.
@@ -115,7 +117,7 @@ impl Method {
     /// the tolerance are not, nor are models of the bodies that are only compared with each other.
     pub fn runs_at_all_tolerances(self) -> bool {
         match self {
-            Method::ThisProject(..) => !self.is_default_with_other_pieces(),
+            Method::ThisProject(..) => !self.has_non_default_pieces(),
             Method::Rival(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
             Method::Script(kind) => kind != ScriptMethod::CoalDistance,
@@ -123,7 +125,7 @@ impl Method {
     }
 
     /// Returns whether the method is this project's own on triangles or patches, which are not its default pieces.
-    pub fn is_default_with_other_pieces(self) -> bool {
+    pub fn has_non_default_pieces(self) -> bool {
         matches!(self, Method::ThisProject(kind, pieces)
             if pieces != PieceKind::FewestPieces && !kind.schedule.uses_hull_trees())
     }
@@ -135,7 +137,7 @@ impl Method {
     }
 }
 
-fn methods_of_all_kinds<K: ValueEnum + 'static>(
+fn methods_of_all_variants<K: ValueEnum + 'static>(
     method: fn(K) -> Method,
 ) -> impl Iterator<Item = Method> {
     K::value_variants().iter().cloned().map(method)
@@ -158,7 +160,7 @@ impl RivalKind {
 /// # Errors
 /// A motion or the duration is out of range.
 pub(crate) fn first_contact(
-    bodies: Bodies<'_>,
+    bodies: BodyPair<'_>,
     query: &Motions,
     settings: &Settings,
     solver: &mut dyn Solve,
@@ -171,18 +173,18 @@ pub(crate) fn first_contact(
 
 /// A solver of this project, with the bodies that it is asked about.
 pub struct ProjectSolver<'s> {
-    bodies: Bodies<'s>,
-    kind: SolverKind,
+    bodies: BodyPair<'s>,
+    solver_kind: SolverKind,
     solver: Box<dyn Solve>,
     margin: f64,
 }
 
 impl<'s> ProjectSolver<'s> {
     /// Creates a solver of the given kind for two bodies, and the margin that they are to keep.
-    pub fn new(kind: SolverKind, bodies: Bodies<'s>, margin: f64) -> Self {
+    pub fn new(kind: SolverKind, bodies: BodyPair<'s>, margin: f64) -> Self {
         ProjectSolver {
             bodies,
-            kind,
+            solver_kind: kind,
             solver: kind.solver(VectorInstructions::Best),
             margin,
         }
@@ -221,7 +223,7 @@ impl Solver for ProjectSolver<'_> {
                 unreachable!("no outcome of a first contact")
             }
         };
-        let steps = if self.kind.schedule.uses_velocity_bound() {
+        let steps = if self.solver_kind.schedule.uses_velocity_bound() {
             answer.stats.advancements
         } else {
             answer.stats.iterations

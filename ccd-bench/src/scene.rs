@@ -11,7 +11,7 @@ use crate::scene::model::Model;
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{Detail, PatchOrder, PrepareError, TriangleMesh, body_from_mesh, prepare};
-use rigid_ccd::batch::Bodies;
+use rigid_ccd::batch::BodyPair;
 use rigid_ccd::table::motions::Motions;
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -91,23 +91,23 @@ impl PieceKind {
 
 /// A cache of the bodies of the models, each of which is made on first use.
 #[derive(Debug, Default)]
-pub struct ModelCache {
+pub struct ModelBodyCache {
     directory: Option<PathBuf>,
     bodies: HashMap<Model, SceneBody>,
 }
 
 impl Scene {
     /// Returns both bodies of the scene, made of the fewest exact pieces.
-    pub fn bodies(&self) -> Bodies<'_> {
-        Bodies {
+    pub fn bodies(&self) -> BodyPair<'_> {
+        BodyPair {
             a: &self.a.body,
             b: &self.b.body,
         }
     }
 
     /// Returns both bodies made of the given kind of pieces; `None` if a mesh does not allow them.
-    pub fn bodies_with_pieces(&self, pieces: PieceKind) -> Option<Bodies<'_>> {
-        Some(Bodies {
+    pub fn bodies_with_pieces(&self, pieces: PieceKind) -> Option<BodyPair<'_>> {
+        Some(BodyPair {
             a: self.a.body_with_pieces(pieces)?,
             b: self.b.body_with_pieces(pieces)?,
         })
@@ -119,10 +119,10 @@ impl Scene {
     }
 }
 
-impl ModelCache {
+impl ModelBodyCache {
     /// Creates an empty cache, which reads a model from its file in the directory if there is one.
     pub fn new(directory: Option<PathBuf>) -> Self {
-        ModelCache {
+        ModelBodyCache {
             directory,
             bodies: HashMap::new(),
         }

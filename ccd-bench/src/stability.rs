@@ -2,7 +2,7 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | know what a family is, and its exact answers | [`Family`], [`FamilyStep`], [`ExactCase`] |
+//! | know what a family is, and its exact answers | [`Family`], [`FamilyScene`], [`ExactCase`] |
 //! | list the families | [`families()`] |
 //! | judge an answer | [`judge`] |
 //! | ask all methods, each in a process that can be stopped | [`Survey`] |
@@ -18,7 +18,7 @@ mod summary;
 mod survey;
 
 pub use families::families;
-pub use family::{ExactCase, Family, FamilyStep};
+pub use family::{ExactCase, Family, FamilyScene};
 pub use findings::Findings;
 pub use judge::judge;
 pub use summary::{cost_growth_heat_map, first_failure_table, solved_range_heat_map, summary};

@@ -124,7 +124,7 @@ pub struct Stats {
     /// step. These are the steps of conservative advancement. It is 0 for schedules with a clock for every pair.
     pub advancements: u64,
     /// The work of the oracle, counted in the steps of its own algorithm.
-    pub effort: Effort,
+    pub oracle_effort: Effort,
 }
 
 /// Whether two bodies stay at least a required distance apart over the whole duration.
@@ -323,7 +323,7 @@ impl Outcome {
     fn for_enclosed_shapes(self, excess: ExcessSum) -> Self {
         let mut outcome = self.map_contacts(|contact, _| contact.widened_by_excess(excess));
         if let Outcome::Overlapping { upper, .. } = &mut outcome {
-            *upper = excess.shape_distance_bound_at_overlap();
+            *upper = excess.upper_bound_at_overlap();
         }
         outcome
     }
@@ -333,7 +333,7 @@ impl Stats {
     /// Returns the work that the [budget](crate::Settings::budget) limits: iterations, plus one for every
     /// [`EVALUATIONS_WORTH_A_VISIT`] evaluations of points.
     #[inline]
-    pub fn work(&self) -> u64 {
+    pub fn budgeted_work(&self) -> u64 {
         self.iterations + self.point_evaluations / EVALUATIONS_WORTH_A_VISIT
     }
 
@@ -345,6 +345,6 @@ impl Stats {
         self.give_ups += other.give_ups;
         self.peak_front = self.peak_front.max(other.peak_front);
         self.advancements += other.advancements;
-        self.effort = self.effort + other.effort;
+        self.oracle_effort = self.oracle_effort + other.oracle_effort;
     }
 }

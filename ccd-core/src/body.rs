@@ -194,12 +194,15 @@ impl Body {
     /// use ccd_core::{Body, Piece};
     /// struct Count(usize);
     /// let cube = Body::cuboid([1.0; 3])?;
-    /// cube.precompute(|piece| Count(piece.points.len()));
+    /// cube.precompute_cached_values(|piece| Count(piece.points.len()));
     /// let never = |_: &Piece| -> Count { unreachable!("it is there") };
     /// assert_eq!(cube.pieces().get(0).cached_value(never).map(|count| count.0), Some(8));
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
-    pub fn precompute<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {
+    pub fn precompute_cached_values<T: Any + Send + Sync>(
+        &self,
+        make: impl Fn(&Piece<'_>) -> T + Sync,
+    ) {
         let mut pieces: Vec<Piece<'_>> = self.pieces.iter().collect();
         if let Some(surface) = &self.surface {
             pieces.extend(surface.triangulated_body.pieces.iter());
@@ -235,7 +238,7 @@ impl Body {
     /// Returns the body to use in a query against `other`: the triangulated surface, if there is one and `other` has
     /// many triangles. A box that is larger than the other body is not replaced: its triangles would hardly be nearer
     /// to anything than the box is.
-    pub(crate) fn query_body_against(&self, other: &Body) -> &Body {
+    pub(crate) fn body_for_query_against(&self, other: &Body) -> &Body {
         let many = other.pieces.are_all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
         match &self.surface {

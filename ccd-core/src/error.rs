@@ -37,7 +37,7 @@ pub enum InputError {
         /// The requested number of the link.
         link: usize,
         /// The number of joints of the chain, which is also the number of its last link; link 0 is the base.
-        joints: usize,
+        joint_count: usize,
     },
     /// A link's motion was requested relative to a link that is farther from the base.
     ReferenceLinkTooFar {
@@ -89,7 +89,7 @@ pub enum InputError {
         /// The number of faces in the mesh.
         faces: usize,
         /// The number of given face numbers.
-        ids: usize,
+        id_count: usize,
     },
     /// A surface does not consist of triangles that bound a solid, or does not belong to a solid body of one piece with
     /// radius 0.
@@ -148,7 +148,10 @@ impl fmt::Display for InputError {
                     " is at {position}, but its limits are {least} and {greatest}"
                 )
             }
-            Self::NoSuchLink { link, joints } => write!(
+            Self::NoSuchLink {
+                link,
+                joint_count: joints,
+            } => write!(
                 f,
                 "there is no link {link}: a chain of {joints} joints has the links 0 to {joints}"
             ),
@@ -180,7 +183,10 @@ impl fmt::Display for InputError {
                 f,
                 "face {face} names vertex {vertex}, but there are {vertices}"
             ),
-            Self::FaceIdCountMismatch { faces, ids } => {
+            Self::FaceIdCountMismatch {
+                faces,
+                id_count: ids,
+            } => {
                 write!(f, "{faces} faces need as many numbers, not {ids}")
             }
             Self::BadSurface => write!(
@@ -227,7 +233,7 @@ pub(crate) fn check_finite(quantity: &'static str, is_finite: bool) -> Result<()
 }
 
 /// Returns an error unless a value is a valid length of a shape.
-pub(crate) fn check_length(what: &'static str, length: f64) -> Result<(), InputError> {
+pub(crate) fn check_shape_length(what: &'static str, length: f64) -> Result<(), InputError> {
     let allowed = (0.0..=MAX_COORDINATE).contains(&length);
     check(what, length, allowed, "from 0 to 1e12")
 }

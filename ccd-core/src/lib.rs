@@ -18,7 +18,7 @@
 //! impl DistanceOracle for Balls {
 //!     type Cache = ();
 //!     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
-//!         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+//!         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
 //!         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
 //!     }
 //! }

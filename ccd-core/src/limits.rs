@@ -3,7 +3,7 @@
 /// The default tolerance of a query, in the scene's unit of length `[FAST06 §6.2]`.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// The default limit of a query's [work](crate::Stats::work). It allows a few seconds, and less than a gigabyte of
+/// The default limit of a query's [work](crate::Stats::budgeted_work). It allows a few seconds, and less than a gigabyte of
 /// waiting pairs (at most 0.6 in measurements, with the schedule `Fast`).
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
 
@@ -34,7 +34,7 @@ pub const MAX_ROTATION_ANGLE: f64 = 1e6;
 
 /// The default excess of polytopes around cylinders and cones, as a share of the radius. It takes 144 corners around
 /// the circle, and makes contacts early by at most a quarter of a thousandth of the radius.
-pub const DEFAULT_EXCESS_SHARE: f64 = 1.0 / 4096.0;
+pub const DEFAULT_RADIUS_EXCESS_SHARE: f64 = 1.0 / 4096.0;
 
 /// The largest number of corners of a polygon around a circle. Such a polygon exceeds the circle by 1.84e-8 of its
 /// radius.

@@ -105,7 +105,7 @@ impl<'a> Problem<'a> {
         terms.check(duration)?;
         let origin = b.1.start().translation();
         let side = |(given, motion): (&'a Body, Motion), other: &'a Body, acceleration: DVec3| {
-            let body = given.query_body_against(other);
+            let body = given.body_for_query_against(other);
             let path = Path::new(&motion, origin, duration);
             BodyWithPath {
                 body,
@@ -123,7 +123,7 @@ impl<'a> Problem<'a> {
             side.check()?;
         }
         let rounding = rounding::distance_rounding(
-            [a.span_with_centre(), b.span_with_centre()],
+            [a.extent_with_centre(), b.extent_with_centre()],
             [a.path.rate, b.path.rate],
             distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
                 + a.path.speed_bound()
@@ -201,7 +201,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem about the bodies as the caller gave them, if [`Body::query_body_against`] has replaced one
+    /// Returns the problem about the bodies as the caller gave them, if [`Body::body_for_query_against`] has replaced one
     /// by its triangulated surface; `None` if it replaced neither.
     pub(crate) fn with_given_bodies(&self) -> Option<Self> {
         let of = |side: &BodyWithPath<'a>| BodyWithPath {
@@ -334,7 +334,7 @@ impl BodyWithPath<'_> {
     }
 
     /// Returns the span of the body plus twice the distance of its centre of rotation from its origin.
-    pub(crate) fn span_with_centre(&self) -> f64 {
+    pub(crate) fn extent_with_centre(&self) -> f64 {
         self.body.tree().max_distance_from_origin() + 2.0 * length(self.path.centre)
     }
 

@@ -76,14 +76,14 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
         _ => [300.0, 96.0],
     };
     let body = |k: usize| (of_span + 5.0 * turns[k]) * spans[k];
-    UNIT_ROUNDOFF_F64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
+    UNIT_ROUNDOFF_F64 * (body(0) + body(1) + of_way * way) + UNDERFLOW_ERROR_BOUND
 }
 
 /// Returns the contribution of one body to [`distance_rounding`], for any motion of the other body. The sum of the
 /// shares of two bodies, with the ways of their centres from the world's origin, is no less than the rounding of their
 /// distance.
 pub fn body_distance_rounding(span: f64, turn: f64, way: f64) -> f64 {
-    UNIT_ROUNDOFF_F64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
+    UNIT_ROUNDOFF_F64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + UNDERFLOW_ERROR_BOUND
 }
 
 /// Returns the contribution of a margin to [`distance_rounding`]. The margin counts as a part of `way`.
@@ -117,7 +117,7 @@ pub fn position_rounding(reach: f64, turn: f64, way: f64) -> f64 {
 
 /// A bound of the absolute error of lengths whose squares underflow, in the scene's unit of length; see
 /// [`distance_rounding`].
-pub const LEAST_ROUNDING: f64 = 1e-130;
+pub const UNDERFLOW_ERROR_BOUND: f64 = 1e-130;
 
 /// Returns the least tolerance that can be certified if distances are off by up to `rounding`.
 ///
@@ -209,15 +209,15 @@ pub fn turning_axis_rounding(turns: f64) -> f64 {
 /// The decrease of a pair's distance from which on the pair counts as approaching, in units of the distance's rounding.
 /// It is for pairs that are in contact at the start, and is measured from the distance at the start. Four units cover
 /// the rounding of both distances, and the rounding that a rate of zero accumulates over the whole duration.
-pub const MIN_APPROACH: f64 = 4.0;
+pub const MIN_APPROACH_PER_ROUNDING: f64 = 4.0;
 
 /// The height along a direction up to which the corners around a point count as level with the point, in units of the
 /// distance's rounding. One unit is for the point, and one for the corners.
-pub const LEVEL_HEIGHT_TOLERANCE: f64 = 2.0;
+pub const LEVEL_HEIGHT_PER_ROUNDING: f64 = 2.0;
 
 /// The distance up to which a face counts as adjacent to a point, in units of the distance's rounding. Such faces are
 /// those across an edge that contains the point, and faces that bridge cracks.
-pub const ADJACENCY_DISTANCE: f64 = 256.0;
+pub const ADJACENCY_DISTANCE_PER_ROUNDING: f64 = 256.0;
 
 /// Returns whether rounding may turn the direction between two points by more than a millionth of a radian. Such a
 /// direction is not used as a normal. More exact directions are kept to the bit.
@@ -258,7 +258,7 @@ pub const WEIGHT_RANGE: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// The least distance from a surface at which a point is certainly inside or outside, in units of the rounding of
 /// distances. The positions of both are rounded.
-pub const CERTAIN_SIDE_DISTANCE: f64 = 4.0;
+pub const SIDE_DISTANCE_PER_ROUNDING: f64 = 4.0;
 
 /// The distance beside an edge at which points of a flat piece are tested, in units of the length of the edge's part on
 /// the piece. It is far above rounding, and below the distance to other features.
@@ -313,7 +313,7 @@ pub const BOX_EXTENT_ERROR_F32: f64 = 4.0 * UNIT_ROUNDOFF_F32 as f64;
 
 /// The thickness of a node's box up to which the node counts as flat, relative to the box's radius. The box's axis is
 /// rounded to f32 ([`BOX_EXTENT_ERROR_F32`]), its size outward.
-pub const FLAT_THICKNESS_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
+pub const MAX_THICKNESS_RATIO_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the velocity along a screw axis, relative to the whole velocity. The axis is off by 4.5u, twice, and
 /// products, sums and differences by 9u; 32u are taken.

@@ -31,7 +31,7 @@ pub struct Settings {
     pub clearance: Option<f64>,
     /// The policy for bodies that are in contact at the start: report the contact, or ignore it until they approach.
     pub start: StartPolicy,
-    /// The largest amount of [work](crate::Stats::work) before the query is left unresolved. It counts iterations over
+    /// The largest amount of [work](crate::Stats::budgeted_work) before the query is left unresolved. It counts iterations over
     /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less, and up to about 150
     /// bytes.
     ///
@@ -170,7 +170,7 @@ pub enum VectorInstructions {
 /// # impl DistanceOracle for Balls {
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
-/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
 /// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
 /// #     }
 /// # }

@@ -185,7 +185,7 @@ fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
 fn box_growth(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed_bound() + terms.margin;
-    let rounding = body_distance_rounding(side.span_with_centre(), path.rate, way);
+    let rounding = body_distance_rounding(side.extent_with_centre(), path.rate, way);
     // The box takes no more operations than a distance, and its sums round by a few units of the greatest number.
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }

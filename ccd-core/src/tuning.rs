@@ -9,7 +9,7 @@ pub const EVALUATIONS_WORTH_A_VISIT: u64 = 128;
 /// evaluates every point of two pieces. Searches take 3 to 10 steps.
 pub const ASSUMED_ORACLE_STEPS: u64 = 8;
 
-/// The amount of [work](crate::Stats::work) between two readings of the clock, if there is a deadline. A reading takes
+/// The amount of [work](crate::Stats::budgeted_work) between two readings of the clock, if there is a deadline. A reading takes
 /// about 25 ns.
 pub const WORK_BETWEEN_CLOCK_READS: u64 = 256;
 
@@ -84,21 +84,21 @@ pub const MAX_FOLLOW_ROTATION: f64 = 0.25;
 pub const MAX_INITIAL_MEASUREMENTS: usize = 4;
 
 /// The accuracy of the least distance of two pieces that are followed over time, in units of the tolerance.
-pub const FOLLOW_ACCURACY: f64 = 1.0 / 8.0;
+pub const FOLLOW_TOLERANCE_SHARE: f64 = 1.0 / 8.0;
 
 /// The relative increase of a free time by one Newton step above which another step is made.
 pub const MIN_NEWTON_GROWTH: f64 = 1.0 / 64.0;
 
 /// The slack above which a pair of pieces in contact at the start is advanced further, in units of the distance's
 /// rounding. The slack is the excess of the gap over the required gap. It is a part of
-/// [`MIN_APPROACH`](crate::rounding::MIN_APPROACH). Below it is the rounding of heights: each visit would find
+/// [`MIN_APPROACH_PER_ROUNDING`](crate::rounding::MIN_APPROACH_PER_ROUNDING). Below it is the rounding of heights: each visit would find
 /// some of it again, and a slowly approaching pair would be visited a million times before it is in contact.
-pub const MIN_RESTING_SLACK: f64 = 1.0 / 16.0;
+pub const RESTING_SLACK_PER_ROUNDING: f64 = 1.0 / 16.0;
 
 /// The distance of two nodes beyond which the pair is advanced once more rather than split, in units of the sum of
 /// their radii. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A smaller value makes large
 /// nodes creep past each other, a larger one splits nodes that only pass.
-pub const REVISIT_DISTANCE: f32 = 0.5;
+pub const MIN_REVISIT_DISTANCE_RATIO: f32 = 0.5;
 
 /// The share of a node's radius that is added to its thickness when the thicker of two nodes is chosen for a split. It
 /// lets flat nodes that are seen edge-on be split as well.
@@ -123,7 +123,7 @@ pub const MAX_RAYS: u32 = 32;
 /// The excess of a gap of nodes over the required gap up to which the gap counts as closed, in units of the tolerance.
 /// The rest that rounding leaves of a gap at the end of a clock is not worth another clock, and a pair that inherits
 /// its parent's clock is examined before all others.
-pub const CLOSED_GAP_THRESHOLD: f64 = 1.0 / 16.0;
+pub const CLOSED_GAP_TOLERANCE_SHARE: f64 = 1.0 / 16.0;
 
 /// The largest number of corners of the polytope that is grown inside the Minkowski difference of two pieces to decide
 /// whether they intersect. Each corner improves the least depth found. A few tens were enough for pieces of a thousand

@@ -8,19 +8,19 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
 /// An axis-aligned box, including its boundary.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
+pub(crate) struct BoundingBox {
     pub(crate) lo: DVec3,
     pub(crate) hi: DVec3,
 }
 
-impl Bounds {
+impl BoundingBox {
     /// Returns the bounding box of some points.
     pub(crate) fn enclosing(points: impl IntoIterator<Item = DVec3>) -> Self {
-        let empty = Bounds {
+        let empty = BoundingBox {
             lo: DVec3::INFINITY,
             hi: DVec3::NEG_INFINITY,
         };
-        points.into_iter().fold(empty, |b, p| Bounds {
+        points.into_iter().fold(empty, |b, p| BoundingBox {
             lo: b.lo.min(p),
             hi: b.hi.max(p),
         })
@@ -28,14 +28,14 @@ impl Bounds {
 
     /// Returns the smallest box that contains two boxes.
     pub(crate) fn union(self, other: Self) -> Self {
-        Bounds {
+        BoundingBox {
             lo: self.lo.min(other.lo),
             hi: self.hi.max(other.hi),
         }
     }
 
     /// Returns whether two boxes have a point in common.
-    pub(crate) fn meets(&self, other: &Bounds) -> bool {
+    pub(crate) fn meets(&self, other: &BoundingBox) -> bool {
         (self.lo.cmple(other.hi) & other.lo.cmple(self.hi)).all()
     }
 
@@ -47,21 +47,21 @@ impl Bounds {
 }
 
 /// A search tree over axis-aligned boxes, which finds the boxes that meet a given box.
-pub(crate) struct BoundsTree {
-    bounds: Vec<Bounds>,
+pub(crate) struct BoundingBoxTree {
+    bounds: Vec<BoundingBox>,
     bvh: Bvh,
 }
 
-impl BoundsTree {
+impl BoundingBoxTree {
     /// Builds the tree in O(n log n).
-    pub(crate) fn new(bounds: Vec<Bounds>) -> Self {
+    pub(crate) fn new(bounds: Vec<BoundingBox>) -> Self {
         let boxes: Vec<Aabb> = bounds.iter().map(to_parry_aabb).collect();
         let bvh = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        BoundsTree { bounds, bvh }
+        BoundingBoxTree { bounds, bvh }
     }
 
     /// Returns a box by its index.
-    pub(crate) fn get(&self, index: u32) -> &Bounds {
+    pub(crate) fn get(&self, index: u32) -> &BoundingBox {
         &self.bounds[index as usize]
     }
 
@@ -69,7 +69,7 @@ impl BoundsTree {
     /// first false result.
     pub(crate) fn all_meeting_boxes_satisfy(
         &self,
-        bounds: &Bounds,
+        bounds: &BoundingBox,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let aabb = to_parry_aabb(bounds);
@@ -78,7 +78,7 @@ impl BoundsTree {
     }
 }
 
-fn to_parry_aabb(bounds: &Bounds) -> Aabb {
+fn to_parry_aabb(bounds: &BoundingBox) -> Aabb {
     Aabb::new(to_parry_vector(bounds.lo), to_parry_vector(bounds.hi))
 }
 

@@ -22,7 +22,7 @@ impl DisjointSets {
     }
 
     /// Returns, for each element, the number of its set. Sets are numbered in the order of their smallest elements.
-    pub(crate) fn set_numbers(&mut self) -> Vec<u32> {
+    pub(crate) fn set_index_by_element(&mut self) -> Vec<u32> {
         let mut numbers = Vec::with_capacity(self.0.len());
         let mut count = 0;
         for k in 0..self.0.len() as u32 {
@@ -46,9 +46,9 @@ impl DisjointSets {
     }
 }
 
-/// Returns the elements of each set in ascending order, given the [number](DisjointSets::set_numbers) of each element's
+/// Returns the elements of each set in ascending order, given the [number](DisjointSets::set_index_by_element) of each element's
 /// set.
-pub(crate) fn members(numbers: &[u32]) -> Vec<Vec<u32>> {
+pub(crate) fn members_by_set(numbers: &[u32]) -> Vec<Vec<u32>> {
     let count = numbers.iter().max().map_or(0, |&last| last as usize + 1);
     let mut members = vec![Vec::new(); count];
     for (element, &number) in (0..).zip(numbers) {

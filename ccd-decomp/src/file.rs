@@ -43,7 +43,7 @@ impl Model {
     /// [`StoreFault::Unwritable`] if the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
-        ccd_file::write(path, |out| self.write_stored(out))
+        ccd_file::write(path, |out| self.write_stored_body(out))
             .map_err(|error| StoreError::new(path, StoreFault::Unwritable(error)))
     }
 
@@ -58,7 +58,7 @@ impl Model {
     pub fn load(path: impl AsRef<Path>) -> Result<Self, StoreError> {
         let path = path.as_ref();
         let file = File::open(path).map_err(StoreFault::Unreadable);
-        file.and_then(|file| Model::read_stored(BufReader::new(file)))
+        file.and_then(|file| Model::read_stored_body(BufReader::new(file)))
             .map_err(|fault| StoreError::new(path, fault))
     }
 
@@ -67,7 +67,9 @@ impl Model {
     /// # Errors
     /// [`StoreFault::Unwritable`] if the writer fails.
     pub fn write(&self, writer: impl Write) -> Result<(), StoreError> {
-        Ok(self.write_stored(writer).map_err(StoreFault::Unwritable)?)
+        Ok(self
+            .write_stored_body(writer)
+            .map_err(StoreFault::Unwritable)?)
     }
 
     /// Reads a model from any reader, to the end, with the guarantee of [`Model::load`].
@@ -75,10 +77,10 @@ impl Model {
     /// # Errors
     /// [`StoreError`], without the name of a file.
     pub fn read(reader: impl Read) -> Result<Self, StoreError> {
-        Ok(Model::read_stored(reader)?)
+        Ok(Model::read_stored_body(reader)?)
     }
 
-    fn write_stored(&self, writer: impl Write) -> io::Result<()> {
+    fn write_stored_body(&self, writer: impl Write) -> io::Result<()> {
         let Model {
             pieces,
             hierarchy,
@@ -97,7 +99,7 @@ impl Model {
         frame::write(writer, &payload)
     }
 
-    fn read_stored(reader: impl Read) -> Result<Self, StoreFault> {
+    fn read_stored_body(reader: impl Read) -> Result<Self, StoreFault> {
         let payload = frame::read(reader)?;
         let (stored, rest): (StoredFields, &[u8]) = postcard::take_from_bytes(&payload)
             .map_err(|error| StoreFault::invalid_content(&error))?;

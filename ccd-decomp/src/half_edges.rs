@@ -8,7 +8,7 @@ pub(crate) type HalfEdge = u32;
 
 /// The half-edges of a list of triangles, sorted so that the half-edges on one edge are adjacent. Edges are in
 /// ascending order of their end vertices, the smaller end first.
-pub(crate) struct Edges(Vec<EdgeUse>);
+pub(crate) struct SortedHalfEdges(Vec<EdgeUse>);
 
 /// A half-edge, with the undirected edge on which it lies.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ impl EdgeUse {
     }
 }
 
-impl Edges {
+impl SortedHalfEdges {
     /// Sorts the half-edges of some triangles by edge, without those from a vertex to itself. O(n log n) in the number
     /// of triangles.
     pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
@@ -50,7 +50,7 @@ impl Edges {
             let [lower, upper] = of.ends.map(u64::from);
             (lower << 32 | upper, of.half_edge)
         });
-        Edges(uses)
+        SortedHalfEdges(uses)
     }
 
     /// Iterates over the edges: for each, its two end vertices, and the half-edges on it in ascending order.
@@ -63,7 +63,7 @@ impl Edges {
 /// Returns the twin of every half-edge of some triangles: the half-edge along the same edge in the opposite direction.
 /// Returns `None` unless each half-edge has exactly one twin.
 pub(crate) fn twins(triangles: &[[u32; 3]]) -> Option<Vec<HalfEdge>> {
-    let edges = Edges::new(triangles);
+    let edges = SortedHalfEdges::new(triangles);
     // Every half-edge is the use of one edge.
     if edges.0.len() != 3 * triangles.len() {
         return None;

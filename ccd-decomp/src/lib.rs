@@ -49,7 +49,7 @@
 //! | `source` | bodies by their description on a command line, [`BodyError`] |
 //! | `file` | stored bodies, the OBJ writers, [`StoreError`] |
 //! | `prepare` | the model of a mesh: choice of pieces, report, [`PrepareError`] |
-//! | `tree` | hierarchies and hull trees over pieces, [`BuildError`] |
+//! | `tree` | hierarchies and hull trees over pieces, [`HullTreeBuildError`] |
 //! | `pieces` | a mesh in convex pieces: the solid itself, patches of its surface, or its outer hull |
 //! | `solid` | whether a mesh bounds a solid: edges, shells, intersecting faces, [`DecomposeError`] |
 //! | `mesh` | triangle meshes: file formats, repairs, [`MeshError`] |
@@ -113,4 +113,4 @@ pub use source::mesh_source::MeshSource;
 pub use source::{BodySource, parse_body};
 pub use tally::Tally;
 pub use tree::hierarchy::build_hierarchy;
-pub use tree::hull_tree::{BuildError, build_hull_tree};
+pub use tree::hull_tree::{HullTreeBuildError, build_hull_tree};

@@ -23,7 +23,7 @@ use error::{MeshError, MeshFault};
 use format::Format;
 use mesh_file::MeshFile;
 use polygons::Polygons;
-use repair::{Repairs, mark_covered_collapsed_faces, mark_duplicate_faces};
+use repair::{Repairs, covered_collapsed_face_flags, duplicate_face_flags};
 use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
@@ -49,7 +49,7 @@ pub struct TriangleMesh {
     faces: Vec<[u32; 3]>,
     face_ids: Vec<u32>,
     /// For each vertex, the index of the first vertex with exactly the same coordinates.
-    welded_vertices: Vec<u32>,
+    welded_index_by_vertex: Vec<u32>,
     /// The number of faces in the file, including those that were dropped.
     file_face_count: u32,
     repairs: Repairs,
@@ -121,9 +121,9 @@ impl TriangleMesh {
         face_count: u32,
         mut repairs: Repairs,
     ) -> Self {
-        let positions = weld_vertices(&vertices);
-        let drop_duplicate = mark_duplicate_faces(&all_faces, &positions);
-        let drop_collapsed = mark_covered_collapsed_faces(&all_faces, &positions);
+        let positions = weld_index_by_vertex(&vertices);
+        let drop_duplicate = duplicate_face_flags(&all_faces, &positions);
+        let drop_collapsed = covered_collapsed_face_flags(&all_faces, &positions);
         let mut faces = Vec::with_capacity(all_faces.len());
         let mut face_ids = Vec::with_capacity(all_faces.len());
         for (k, (face, id)) in all_faces.into_iter().zip(all_ids).enumerate() {
@@ -143,7 +143,7 @@ impl TriangleMesh {
             vertices,
             faces,
             face_ids,
-            welded_vertices: positions,
+            welded_index_by_vertex: positions,
             file_face_count: face_count,
             repairs,
         }
@@ -186,7 +186,7 @@ impl TriangleMesh {
     /// Returns a triangle's corners after welding: each corner is the index of the first vertex at exactly the same
     /// point.
     pub(crate) fn welded_face(&self, face: u32) -> [u32; 3] {
-        self.faces[face as usize].map(|v| self.welded_vertices[v as usize])
+        self.faces[face as usize].map(|v| self.welded_index_by_vertex[v as usize])
     }
 
     /// Returns the [welded](TriangleMesh::welded_face) corners of all triangles.
@@ -197,7 +197,7 @@ impl TriangleMesh {
 }
 
 /// Returns, for each vertex, the index of the first vertex at exactly the same point; 0 and −0 are equal.
-fn weld_vertices(vertices: &[DVec3]) -> Vec<u32> {
+fn weld_index_by_vertex(vertices: &[DVec3]) -> Vec<u32> {
     let mut first = HashMap::with_capacity(vertices.len());
     let number = |(vertex, point): (usize, &DVec3)| {
         let key = point.to_array().map(|x| (x + 0.0).to_bits());

@@ -13,7 +13,7 @@ mod oriented_box;
 mod planes;
 pub(crate) mod region;
 
-use crate::bounds::BoundsTree;
+use crate::bounds::BoundingBoxTree;
 use crate::work::WorkBudget;
 use box_tree::BoxTree;
 use ccd_core::glam::DVec3;
@@ -27,7 +27,7 @@ pub(crate) struct TriangleBoxes {
     tree_outside_fans: BoxTree,
     fans: Vec<Fan>,
     /// The axis-aligned boxes of the fans.
-    bounds: BoundsTree,
+    bounds: BoundingBoxTree,
 }
 
 impl TriangleBoxes {
@@ -36,7 +36,7 @@ impl TriangleBoxes {
         let (single, fans) = split_into_fans(points, faces);
         TriangleBoxes {
             tree_outside_fans: BoxTree::from_faces(points, faces, single),
-            bounds: BoundsTree::new(fans.iter().map(Fan::bounds).collect()),
+            bounds: BoundingBoxTree::new(fans.iter().map(Fan::bounds).collect()),
             fans,
         }
     }

@@ -66,7 +66,7 @@ mod gltf {
             gltf
         }
 
-        pub(crate) fn set(mut self, key: &str, value: Value) -> Self {
+        pub(crate) fn with_value(mut self, key: &str, value: Value) -> Self {
             self.json[key] = value;
             self
         }

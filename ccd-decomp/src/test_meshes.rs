@@ -150,7 +150,7 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
 
 /// Returns the outline of a quarter disc with a toothed rim. The first corner is its centre. All corners are visible
 /// from it, so that the fans of the caps are exact.
-pub(crate) fn toothed_disc_outline(count: u32) -> Vec<DVec3> {
+pub(crate) fn toothed_quadrant_outline(count: u32) -> Vec<DVec3> {
     let corner = |k: u32| {
         let share = f64::from(k) / f64::from(2 * count - 1);
         let angle = 0.5 * std::f64::consts::PI * share;

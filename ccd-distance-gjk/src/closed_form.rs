@@ -6,7 +6,7 @@ mod pierce;
 #[cfg(test)]
 mod tests;
 
-use crate::tolerance::{INTERSECTION_TEST_SHARE, MIN_CERTIFIED_SHARE};
+use crate::tolerance::{INTERSECTION_TEST_GAP_RATIO, MIN_CERTIFIED_SHARE};
 use axis::best_separating_axis;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
@@ -74,7 +74,7 @@ impl DistanceOracle for ClosedForm {
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
         let (p, q) = corners_in_local_frame(pair).ok_or(GiveUpReason::TooManyPoints)?;
         let near = nearest_points(self.level, &p, &q);
-        let w = near.difference(&p, &q);
+        let w = near.separation_vector(&p, &q);
         let separated = support_gap(&p, &q, w) >= MIN_CERTIFIED_SHARE * w.length_squared();
         let (axis, near) = if separated && w.length_squared().is_normal() {
             (w, near)
@@ -83,8 +83,8 @@ impl DistanceOracle for ClosedForm {
         };
         Ok(Claim {
             axis,
-            a: combination(near.a, pair.a.points.len()),
-            b: combination(near.b, pair.b.points.len()),
+            a: convex_combination(near.a, pair.a.points.len()),
+            b: convex_combination(near.b, pair.b.points.len()),
         })
     }
 }
@@ -98,9 +98,9 @@ fn best_axis_and_points(
     q: &Corners,
     near: NearestPoints,
 ) -> (DVec3, NearestPoints) {
-    let w = near.difference(p, q);
+    let w = near.separation_vector(p, q);
     let (axis, gap) = vectorize!(level, level => best_separating_axis(level, p, q, w));
-    if gap >= INTERSECTION_TEST_SHARE * w.length() && gap > 0.0 {
+    if gap >= INTERSECTION_TEST_GAP_RATIO * w.length() && gap > 0.0 {
         return (axis, near);
     }
     (
@@ -138,7 +138,7 @@ fn corners(piece: &Piece<'_>) -> Option<Corners> {
 }
 
 #[inline]
-fn combination(weights: [f64; 3], points: usize) -> ConvexCombination {
+fn convex_combination(weights: [f64; 3], points: usize) -> ConvexCombination {
     let mut out = ConvexCombination::EMPTY;
     for (k, weight) in weights.into_iter().enumerate() {
         out.push(k.min(points - 1) as u32, weight);

@@ -17,7 +17,7 @@ mod tests;
 mod tetrahedron;
 mod triangle;
 
-pub use bounds::{DistanceBounds, RequiredBounds, bound_distance};
+pub use bounds::{DistanceBounds, TerminationBounds, bound_distance};
 pub use oracle::Gjk;
 pub use simplex::Vertex;
 pub use start::Cache;

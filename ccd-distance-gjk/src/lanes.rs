@@ -82,7 +82,7 @@ impl<L: Simd> FourVectors<L> {
     /// zero.
     #[inline(always)]
     pub(crate) fn perpendicular_part(self, direction: Self) -> Self {
-        let t = self.dot(direction) * reciprocal(direction.dot(direction));
+        let t = self.dot(direction) * reciprocal_or_zero(direction.dot(direction));
         self.add_scaled(-t, direction)
     }
 }
@@ -94,7 +94,7 @@ pub(crate) fn splat<L: Simd>(level: L, x: f64) -> f64x4<L> {
 
 /// Returns `1 / x`, or 0 where x is not positive: projections onto zero vectors are zero.
 #[inline(always)]
-pub(crate) fn reciprocal<L: Simd>(x: f64x4<L>) -> f64x4<L> {
+pub(crate) fn reciprocal_or_zero<L: Simd>(x: f64x4<L>) -> f64x4<L> {
     let level = x.token();
     x.simd_gt(0.0)
         .select(splat(level, 1.0) / x, splat(level, 0.0))

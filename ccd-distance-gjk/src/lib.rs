@@ -84,7 +84,7 @@ mod tolerance;
 mod worst;
 
 pub use closed_form::ClosedForm;
-pub use gjk::{Cache, DistanceBounds, Gjk, RequiredBounds, Vertex, bound_distance};
+pub use gjk::{Cache, DistanceBounds, Gjk, TerminationBounds, Vertex, bound_distance};
 
 /// The recommended oracle: the closed form for up to three points, GJK otherwise.
 pub type Direct = ccd_core::OrElse<ClosedForm, Gjk>;

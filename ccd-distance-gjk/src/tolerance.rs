@@ -12,7 +12,7 @@ pub(crate) const MIN_CERTIFIED_SHARE: f64 = 63.0 / 64.0;
 
 /// Pieces are tested for intersection if the gap along the best axis is less than this fraction of the nearest points'
 /// distance. The nearest features' own axes keep [`MIN_CERTIFIED_SHARE`]; a half is far from it and from 0.
-pub(crate) const INTERSECTION_TEST_SHARE: f64 = 0.5;
+pub(crate) const INTERSECTION_TEST_GAP_RATIO: f64 = 0.5;
 
 /// The largest number of steps of a GJK search.
 ///

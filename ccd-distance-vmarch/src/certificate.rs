@@ -117,11 +117,11 @@ struct FeatureDirections {
 impl FeatureDirections {
     fn new<P: PlacedPolytope>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
         let shape: &Polytope = polytope.shape();
-        let mut edges = shape.edges_at(feature);
+        let mut edges = shape.edges_containing(feature);
         let slope = |e: u32| polytope.vector(shape.edge(e).direction).dot(offset).abs();
         edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
         edges.truncate(MAX_AXIS_EDGES);
-        let faces = shape.faces_at(feature, &edges);
+        let faces = shape.faces_containing(feature, &edges);
         let normals = faces.iter().map(|&f| shape.face(f).normal);
         let within = edges.iter().flat_map(|&e| shape.edge(e).inward_directions);
         let along = edges.iter().map(|&e| shape.edge(e).direction);

@@ -1,6 +1,6 @@
 //! Clips edges by the Voronoi planes of a face, and finds the overlap of parallel edges `[VCLIP98 §3.2]`.
 
-use crate::placed::{Line, PlacedPolytope, clamp};
+use crate::placed::{Line, PlacedPolytope, clamp_parameter};
 use ccd_core::glam::DVec3;
 
 /// One end of a clipped edge.
@@ -35,7 +35,8 @@ pub(crate) fn clip_to_prism<Y: PlacedPolytope>(
         if (at_start < 0.0) == (at_end < 0.0) {
             continue;
         }
-        let parameter = clamp(line.length * (at_start / (at_start - at_end)), line.length);
+        let parameter =
+            clamp_parameter(line.length * (at_start / (at_start - at_end)), line.length);
         let cut = ClipEnd {
             parameter,
             cutting_edge: Some(side.edge),

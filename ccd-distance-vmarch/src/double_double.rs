@@ -105,7 +105,7 @@ impl Add for DoubleDoubleVector {
 }
 
 /// Returns six times the volume of a tetrahedron, positive if the triangle is counterclockwise as seen from `d`.
-pub(crate) fn six_times_volume([a, b, c]: [DVec3; 3], d: DVec3) -> f64 {
+pub(crate) fn six_times_signed_volume([a, b, c]: [DVec3; 3], d: DVec3) -> f64 {
     let from = |p: DVec3| DoubleDoubleVector::difference(p, a);
     from(b).cross(from(c)).dot(from(d)).value()
 }

@@ -3,9 +3,9 @@
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
-use crate::placed::{Line, PlacedPolytope, RoundingScale, clamp};
+use crate::placed::{Line, PlacedPolytope, RoundingScale, clamp_parameter};
 use crate::polytope::Edge;
-use crate::tolerance::{MAX_PARALLEL_SINE, PRODUCT_ERROR};
+use crate::tolerance::{DOT_PRODUCT_ERROR_BOUND, MAX_PARALLEL_SINE};
 use crate::vertex_edge::face_towards_point;
 use ccd_core::glam::DVec3;
 
@@ -45,8 +45,8 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     if let Some(step) = facing.step_beyond_edge(y, edge_y, slope_y, (e, points[0])) {
         return step.swapped();
     }
-    let clear = edge_x.is_outside_face_planes(slope_x, facing.slack)
-        && edge_y.is_outside_face_planes(slope_y, facing.slack);
+    let clear = edge_x.is_outside_voronoi_planes(slope_x, facing.slack)
+        && edge_y.is_outside_voronoi_planes(slope_y, facing.slack);
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn nearest_parameters(one: &Line, other: &Line) -> NearestParameters 
     let between = other.start - one.start;
     let square = across.length_squared();
     let s = if square > MAX_PARALLEL_SINE * MAX_PARALLEL_SINE {
-        clamp(
+        clamp_parameter(
             between.cross(other.direction).dot(across) / square,
             one.length,
         )
@@ -94,7 +94,7 @@ pub(crate) fn nearest_parameters(one: &Line, other: &Line) -> NearestParameters 
         clip::parameter_of_overlap_middle(one, other)
     };
     let free = (one.point_at(s) - other.start).dot(other.direction);
-    let t = clamp(free, other.length);
+    let t = clamp_parameter(free, other.length);
     // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {
         s
@@ -142,7 +142,7 @@ impl NearestVector {
         NearestVector {
             offset,
             axis: across.unwrap_or(offset),
-            slack: across.map_or(scale.rounding(), |_| PRODUCT_ERROR),
+            slack: across.map_or(scale.rounding(), |_| DOT_PRODUCT_ERROR_BOUND),
         }
     }
 

@@ -27,7 +27,7 @@
 //!     let pair = PiecePair { a: piece, b: piece, b_to_a };
 //!     let claim = oracle.separation(&pair, &mut cache).unwrap();
 //!     let [on_a, on_b] = [claim.a, claim.b].map(|point| point.position(piece.points).unwrap());
-//!     let distance = on_a.distance(b_to_a.point(on_b));
+//!     let distance = on_a.distance(b_to_a.transform_point(on_b));
 //!     assert!((distance - (height - 1.0 - 3f64.sqrt())).abs() < 1e-15);
 //! }
 //! // The later calls found the nearest features where the first one left them.

@@ -35,15 +35,15 @@ pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) ->
             keep_if_nearer(distance, on_a, vertex_or_edge_at(&placed.b, f, t));
         }
     }
-    visit_vertex_pairs(&placed.a, &a.vertices, &placed.b, &b, &mut keep_if_nearer);
-    visit_vertex_pairs(&placed.b, &b.vertices, &placed.a, &a, |distance, v, w| {
+    visit_vertex_feature_pairs(&placed.a, &a.vertices, &placed.b, &b, &mut keep_if_nearer);
+    visit_vertex_feature_pairs(&placed.b, &b.vertices, &placed.a, &a, |distance, v, w| {
         keep_if_nearer(distance, w, v);
     });
     best.1
 }
 
 /// Offers each pair of a vertex of X with an edge or face around a feature of Y, and their distance.
-fn visit_vertex_pairs<X: PlacedPolytope, Y: PlacedPolytope>(
+fn visit_vertex_feature_pairs<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     vertices: &[u32],
     y: &Y,
@@ -75,8 +75,8 @@ struct SurroundingFeatures {
 impl SurroundingFeatures {
     fn new<P: PlacedPolytope>(polytope: &P, feature: Feature) -> Self {
         let shape = polytope.shape();
-        let own = shape.edges_at(feature);
-        let faces = shape.faces_at(feature, &own);
+        let own = shape.edges_containing(feature);
+        let faces = shape.faces_containing(feature, &own);
         let sides = faces.iter().flat_map(|&f| shape.sides_of(f));
         let mut edges: Vec<u32> = sides.map(|side| side.edge).chain(own).collect();
         let mut vertices: Vec<u32> = edges.iter().flat_map(|&e| shape.edge(e).ends).collect();

@@ -40,7 +40,7 @@ use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUpReason, Piece, PiecePa
 ///     facets: corner.map(facet).to_vec(),
 ///     ..Polytope::default()
 /// };
-/// let pieces = Pieces::polytopes(&[tetrahedron])?;
+/// let pieces = Pieces::from_polytopes(&[tetrahedron])?;
 /// let (mut oracle, mut cache) = (Vmarch::default(), Cache::default());
 /// for height in [3.0, 2.9] {
 ///     let b_to_a = Frame { translation: height * DVec3::Z, ..Frame::IDENTITY };
@@ -120,13 +120,13 @@ impl DistanceOracle for Vmarch {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     fn prepare(body: &Body) {
-        body.precompute(prepare);
+        body.precompute_cached_values(prepare);
     }
 
     fn effort(&self) -> Effort {
         Effort {
             steps: self.counters.steps,
-            cycles: self.counters.cycles,
+            cycle_count: self.counters.cycles,
             fallbacks: 0,
         }
     }

@@ -1,6 +1,6 @@
 //! Finds common points of two polytopes, and proves them by exact signs `[SHE97]`.
 
-use crate::double_double::six_times_volume;
+use crate::double_double::six_times_signed_volume;
 use crate::feature::{Crossing, WeightedCorners};
 use crate::placed::PlacedPolytope;
 use crate::tolerance::MAX_EDGE_FACE_PAIRS;
@@ -113,10 +113,11 @@ fn segment_crosses_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> b
 /// Returns the weights of a segment's ends, and of a triangle's corners, for the point in which the two intersect.
 fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 3]) {
     let (first, last) = (
-        six_times_volume([a, b, c], start).abs(),
-        six_times_volume([a, b, c], end).abs(),
+        six_times_signed_volume([a, b, c], start).abs(),
+        six_times_signed_volume([a, b, c], end).abs(),
     );
-    let parts = [[b, c], [c, a], [a, b]].map(|[p, q]| six_times_volume([start, p, q], end).abs());
+    let parts =
+        [[b, c], [c, a], [a, b]].map(|[p, q]| six_times_signed_volume([start, p, q], end).abs());
     let total = parts[0] + parts[1] + parts[2];
     (
         [last / (first + last), first / (first + last)],
@@ -133,7 +134,7 @@ fn barycentric_coordinates(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> 
     if !(behind && solid) {
         return None;
     }
-    let parts = faces.map(|face| six_times_volume(face, point).abs());
+    let parts = faces.map(|face| six_times_signed_volume(face, point).abs());
     let total = parts.iter().sum::<f64>();
     Some(parts.map(|part| part / total))
 }

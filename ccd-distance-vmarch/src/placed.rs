@@ -1,7 +1,7 @@
 //! Two polytopes in A's frame: A as it is stored, B transformed when needed.
 
 use crate::polytope::{Edge, Polytope};
-use crate::tolerance::PLACEMENT_ERROR;
+use crate::tolerance::PLACEMENT_ERROR_BOUND;
 use ccd_core::Frame;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -99,7 +99,7 @@ impl RoundingScale {
     /// Returns the largest rounding error of a difference of two transformed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
-        PLACEMENT_ERROR * self.size
+        PLACEMENT_ERROR_BOUND * self.size
     }
 }
 
@@ -112,13 +112,13 @@ impl Line {
     /// Returns the parameter of the edge's point that is nearest to a given point.
     #[inline(always)]
     pub(crate) fn nearest_parameter(&self, point: DVec3) -> f64 {
-        clamp((point - self.start).dot(self.direction), self.length)
+        clamp_parameter((point - self.start).dot(self.direction), self.length)
     }
 }
 
 /// Clamps a parameter to [0, length]; NaN becomes 0.
 #[inline(always)]
-pub(crate) fn clamp(parameter: f64, length: f64) -> f64 {
+pub(crate) fn clamp_parameter(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)
 }
 

@@ -87,7 +87,7 @@ pub(crate) struct Face {
     /// The outward unit normal.
     pub(crate) normal: DVec3,
     first_side: u32,
-    end_side: u32,
+    sides_end: u32,
 }
 
 /// A side of a face; the sides of a face are ordered counterclockwise as seen from outside.
@@ -107,7 +107,7 @@ impl Edge {
     /// Returns whether a point is outside of both face-edge planes by more than `slack`, given its components along
     /// `inward`.
     #[inline(always)]
-    pub(crate) fn is_outside_face_planes(&self, inward: [f64; 2], slack: f64) -> bool {
+    pub(crate) fn is_outside_voronoi_planes(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];
         alone || inward.iter().all(|&into| into < -slack)
     }
@@ -140,11 +140,11 @@ impl Polytope {
     #[inline]
     pub(crate) fn sides_of(&self, f: u32) -> &[Side] {
         let face = self.face(f);
-        &self.sides[face.first_side as usize..face.end_side as usize]
+        &self.sides[face.first_side as usize..face.sides_end as usize]
     }
 
     /// Returns the edges that contain a feature: those at a vertex, or the edge itself; an empty list for a face.
-    pub(crate) fn edges_at(&self, feature: Feature) -> Vec<u32> {
+    pub(crate) fn edges_containing(&self, feature: Feature) -> Vec<u32> {
         match feature {
             Feature::Vertex(v) => self
                 .outgoing_edges_of(v)
@@ -157,7 +157,7 @@ impl Polytope {
     }
 
     /// Returns the faces that contain a feature, in ascending order; `edges` are the edges that contain the feature.
-    pub(crate) fn faces_at(&self, feature: Feature, edges: &[u32]) -> Vec<u32> {
+    pub(crate) fn faces_containing(&self, feature: Feature, edges: &[u32]) -> Vec<u32> {
         let mut faces: Vec<u32> = match feature {
             Feature::Face(f) => vec![f],
             _ => edges.iter().flat_map(|&e| self.edge(e).faces).collect(),

@@ -12,13 +12,13 @@ const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 /// three products and three sums whose matrix is rounded (8u of its reach, per coordinate, √3 of
 /// that as a length), and subtracted (1u): below 16u. Points nearer than that are the same point.
 /// Without it the march would follow directions that are nothing but rounding.
-pub(crate) const PLACEMENT_ERROR: f64 = 16.0 * UNIT_ROUNDOFF;
+pub(crate) const PLACEMENT_ERROR_BOUND: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The largest rounding error of the scalar product of two unit vectors, one of them transformed. Each is rounded when
 /// it is made (1u), one is turned (3u), and the product adds 3u. Without it a march would wander between the corners of
 /// a face that is parallel to the other one. A larger value would stop at corners next to nearer ones, by that much of
 /// an edge's length.
-pub(crate) const PRODUCT_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
+pub(crate) const DOT_PRODUCT_ERROR_BOUND: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// The sine below which two edges count as parallel. Their cross product is then rounding, and all points of their
 /// overlap are equally near, to `MAX_PARALLEL_SINE` times the edges' length.
@@ -29,7 +29,7 @@ pub(crate) const MAX_PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
 pub(crate) const MIN_CERTAIN_DISTANCE_RATIO: f64 = 1.0 / 4.0;
 
 /// The largest difference between the distance and the support gap at which the distance counts as certified, in units
-/// of the pair's size. It equals [`PLACEMENT_ERROR`], the error of that distance. A larger value would accept a tie with
+/// of the pair's size. It equals [`PLACEMENT_ERROR_BOUND`], the error of that distance. A larger value would accept a tie with
 /// a nearer pair around it; a smaller one would search around in vain.
 pub(crate) const MAX_CERTIFIED_GAP_DEFICIT: f64 = 16.0 * UNIT_ROUNDOFF;
 

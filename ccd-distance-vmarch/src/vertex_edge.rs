@@ -3,7 +3,7 @@
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
 use crate::placed::{Line, PlacedPolytope, RoundingScale};
-use crate::tolerance::PRODUCT_ERROR;
+use crate::tolerance::DOT_PRODUCT_ERROR_BOUND;
 use ccd_core::glam::DVec3;
 
 /// Tests the corner against the edge's two vertex-edge planes and two face-edge planes, then the edge against the
@@ -46,7 +46,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     if approach.scaled_decrease_rate > 0.0 {
         return MarchStep::Continue(Feature::Edge(approach.edge), Feature::Edge(e));
     }
-    let clear = edge.is_outside_face_planes(inward, rounding) && !approach.is_tied;
+    let clear = edge.is_outside_voronoi_planes(inward, rounding) && !approach.is_tied;
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
@@ -108,7 +108,7 @@ fn steepest_edge_towards<X: PlacedPolytope>(
         }
         let across = slope - along.dot(line.direction) * offset.dot(line.direction);
         let sine = along.cross(line.direction).length();
-        let slack = rounding * sine + PRODUCT_ERROR * offset.length();
+        let slack = rounding * sine + DOT_PRODUCT_ERROR_BOUND * offset.length();
         if across - slack > out.scaled_decrease_rate {
             out.edge = spoke.edge;
             out.scaled_decrease_rate = across - slack;

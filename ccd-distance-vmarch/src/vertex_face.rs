@@ -3,7 +3,7 @@
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::placed::{PlacedPolytope, RoundingScale};
-use crate::tolerance::PRODUCT_ERROR;
+use crate::tolerance::DOT_PRODUCT_ERROR_BOUND;
 use crate::vertex_vertex::steepest_edge;
 
 /// Tests the corner against all face-edge planes, and continues with the edge of the most violated plane. Above the
@@ -48,7 +48,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
         return MarchStep::Stop(Tied);
     }
     let falling = steepest_edge(x, v, -normal);
-    if falling.slope > PRODUCT_ERROR {
+    if falling.slope > DOT_PRODUCT_ERROR_BOUND {
         return MarchStep::Continue(Feature::Edge(falling.edge), Feature::Face(f));
     }
     // The face's normal is accurate up to rounding, however near the corner is.

@@ -2,7 +2,7 @@
 
 use crate::edge_edge;
 use crate::feature::{Crossing, Feature, Pair, WeightedCorners, WhichPolytope};
-use crate::placed::{Line, PlacedPair, PlacedPolytope, RoundingScale, clamp};
+use crate::placed::{Line, PlacedPair, PlacedPolytope, RoundingScale, clamp_parameter};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, ConvexCombination};
@@ -226,7 +226,7 @@ fn project_onto_face<Y: PlacedPolytope>(
     let triangle = [first, at(k), at(k + 1)];
     let corners = WeightedCorners {
         vertices: [0, k, k + 1].map(|k| sides[k].vertex),
-        weights: clamped_foot_weights(point, triangle, normal),
+        weights: clamped_projection_weights(point, triangle, normal),
     };
     let ([_, p, q], [_, u, v]) = (triangle, corners.weights);
     let foot = first + u * (p - first) + v * (q - first);
@@ -238,7 +238,7 @@ fn project_onto_face<Y: PlacedPolytope>(
 /// The weights are computed across the longest side first, then along it with the residual
 /// corrected. For a needle, the first is as accurate as rounding permits, and the second as the
 /// needle's width.
-fn clamped_foot_weights(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f64; 3] {
+fn clamped_projection_weights(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f64; 3] {
     let square = |k: usize| triangle[(k + 1) % 3].distance_squared(triangle[k]);
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
     let (end, apex) = ((start + 1) % 3, (start + 2) % 3);
@@ -249,9 +249,9 @@ fn clamped_foot_weights(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f
     };
     let upward = normal.cross(base.direction);
     let [to_point, to_apex] = [point, triangle[apex]].map(|p| p - base.start);
-    let of_apex = clamp(to_point.dot(upward) / to_apex.dot(upward), 1.0);
+    let of_apex = clamp_parameter(to_point.dot(upward) / to_apex.dot(upward), 1.0);
     let along = (to_point - of_apex * to_apex).dot(base.direction) / base.length;
-    let of_end = clamp(along, 1.0 - of_apex);
+    let of_end = clamp_parameter(along, 1.0 - of_apex);
     let mut weights = [0.0; 3];
     weights[apex] = of_apex;
     weights[end] = of_end;

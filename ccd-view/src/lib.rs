@@ -12,18 +12,18 @@
 //! # Example
 //! ```
 //! use ccd_core::Motion;
-//! use ccd_view::{DrawnMesh, Group, Meshes, Page, ShownBody, View};
+//! use ccd_view::{DrawnMesh, AnimationGroup, Meshes, Page, ShownBody, Animation};
 //! use ccd_core::glam::DVec3;
 //!
 //! let mut meshes = Meshes::default();
 //! let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
 //! let triangle = meshes.add(&DrawnMesh { vertices: corners.to_vec(), faces: vec![[0, 1, 2]] });
 //! let slides = Motion::STILL;
-//! let view = View {
+//! let view = Animation {
 //!     bodies: vec![ShownBody::new("A", triangle, "#3a9d6e", &slides)],
-//!     ..View::new("at rest", "Nothing moves.", 1.0)
+//!     ..Animation::new("at rest", "Nothing moves.", 1.0)
 //! };
-//! let page = Page { title: "A triangle", meshes, groups: vec![Group { name: String::new(), views: vec![view] }] };
+//! let page = Page { title: "A triangle", meshes, groups: vec![AnimationGroup { name: String::new(), views: vec![view] }] };
 //! assert!(page.html()?.contains("Nothing moves."));
 //! # Ok::<(), ccd_view::PageError>(())
 //! ```

@@ -124,15 +124,15 @@ pub fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     let mut text = Vec::new();
     value.serialize(&mut Serializer::with_formatter(
         &mut text,
-        ControlCharFormatter,
+        ControlCharReplacingFormatter,
     ))?;
     Ok(String::from_utf8_lossy(&text).replace('<', "\\u003c"))
 }
 
 /// A JSON formatter that replaces control characters by U+FFFD.
-struct ControlCharFormatter;
+struct ControlCharReplacingFormatter;
 
-impl Formatter for ControlCharFormatter {
+impl Formatter for ControlCharReplacingFormatter {
     fn write_char_escape<W: ?Sized + io::Write>(
         &mut self,
         writer: &mut W,

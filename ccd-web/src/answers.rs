@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// The number of random throws whose answers the page checks.
 const THROW_COUNT: u32 = 400;
 /// The number of equal time steps into which each throw is divided.
-const STEPS: u32 = 60;
+const TIME_STEP_COUNT: u32 = 60;
 
 /// Returns random throws as JSON, each with its certified first contact and with tests at discrete time steps.
 pub(crate) fn random_throw_results() -> Result<Value, WebError> {
@@ -28,7 +28,7 @@ pub(crate) fn random_throw_results() -> Result<Value, WebError> {
         };
         let (one, other) = (Part::from_name(part)?, Part::from_name(target)?);
         let found = throw.first_contact(&one, &other)?;
-        let seen = throw.steps(&one, &other, STEPS)?;
+        let seen = throw.steps(&one, &other, TIME_STEP_COUNT)?;
         let numbers = [throw.place, throw.velocity, throw.spin].concat();
         Ok(json!({
             "part": part,

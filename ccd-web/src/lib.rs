@@ -13,7 +13,7 @@
 //! # Example
 //! ```
 //! use ccd_web::{Part, Throw};
-//! let (bullet, sheet) = (Part::named("bullet")?, Part::named("sheet")?);
+//! let (bullet, sheet) = (Part::from_name("bullet")?, Part::from_name("sheet")?);
 //! let throw = Throw { place: [-1.02, 0.0, 0.0], velocity: [9.4, 0.0, 0.0], spin: [0.0; 3] };
 //! let found = throw.first_contact(&bullet, &sheet)?;
 //! assert!(found.time > 0.105 && found.time < 0.106);

@@ -59,7 +59,7 @@ pub(crate) fn extract_body<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyRes
 }
 
 /// Warns if the tolerance is large relative to the smaller of two bodies.
-pub(crate) fn warn_of_tolerance(
+pub(crate) fn warn_of_large_tolerance(
     bodies: [&Bound<'_, PyAny>; 2],
     tolerance: f64,
     calls_up: i32,
@@ -146,7 +146,7 @@ impl PyBody {
                 return Err(input_error(format!("{}: is no file", path.display())));
             }
             std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
-            let model = if !is_prepared_body(&path) || part.is_some() {
+            let model = if !is_prepared_body_path(&path) || part.is_some() {
                 let source = MeshSource {
                     file: path,
                     part,
@@ -390,7 +390,7 @@ impl PyBody {
 }
 
 /// Returns whether a file is a prepared body, judged by its extension.
-fn is_prepared_body(path: &Path) -> bool {
+fn is_prepared_body_path(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_BODY_EXTENSION)
 }

@@ -2,7 +2,7 @@
 
 use crate::body::extract_body;
 use crate::cell_rows::{self, PathQuestion, PathRow};
-use crate::cell_solver::{CellWithCachedSolver, answer_all};
+use crate::cell_solver::{CellWithCachedSolver, answer_paths};
 use crate::errors::{Unresolved, input_error, input_error_from, unresolved_error, with_attribute};
 use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
@@ -169,25 +169,25 @@ impl PyCell {
     /// Args:
     ///     path: the path; for a mechanism with one joint `[[low], [high]]`.
     ///     resolution: the length of the shortest ranges that are examined, in segments of the path.
-    ///     pose_error: how far points of links may be from where the path places them. A closed loop of joints is a path of
+    ///     max_pose_error: how far points of links may be from where the path places them. A closed loop of joints is a path of
     ///         configurations in which the loop is closed; between these, points differ by the error of the interpolation.
     ///
     /// Returns:
     ///     A list of `PathRange`, in the order of the path.
-    #[pyo3(signature = (path, *, resolution = RangeSettings::DEFAULT.resolution, pose_error = 0.0, **settings))]
+    #[pyo3(signature = (path, *, resolution = RangeSettings::DEFAULT.resolution, max_pose_error = 0.0, **settings))]
     fn clearance_ranges<'py>(
         &self,
         py: Python<'py>,
         path: &Bound<'py, PyAny>,
         resolution: f64,
-        pose_error: f64,
+        max_pose_error: f64,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let settings = read(settings, CONTACT_SETTING_NAMES)?;
         let path = PathArray::read(path, "path")?;
         let how = RangeSettings {
             resolution,
-            pose_error,
+            max_pose_error,
         };
         let work = |stop: &Arc<_>| {
             let settings = Settings {
@@ -252,7 +252,7 @@ impl PyCell {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
         let ask = PathQuestion::from_name(ask)?;
-        let settings = read(settings, ask.known_settings())?;
+        let settings = read(settings, ask.allowed_setting_names())?;
         let threads = read_thread_count(threads)?;
         let cell = self.cell_with_solver.cell();
         let array = PathArray::read(paths, "paths")?;
@@ -263,14 +263,14 @@ impl PyCell {
                 stop: Some(Arc::clone(stop)),
                 ..settings
             };
-            answer_all(&cell, &settings, threads, array.paths(), |solver, path| {
+            answer_paths(&cell, &settings, threads, array.paths(), |solver, path| {
                 ask.answer(solver, path)
             })
         };
         let (rows, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen?;
         let batch = py
-            .detach(|| cell_rows::table(&rows, ask))
+            .detach(|| cell_rows::path_table(&rows, ask))
             .map_err(input_error)?;
         Ok(PyTable { batch })
     }
@@ -299,7 +299,7 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PathRow> {
-        let settings = read(settings, ask.known_settings())?;
+        let settings = read(settings, ask.allowed_setting_names())?;
         let path = PathArray::read(path, "path")?;
         let path = path.configurations();
         let question = |settings| {

@@ -47,7 +47,7 @@ impl PathQuestion {
         }
     }
 
-    pub(crate) fn known_settings(self) -> &'static [&'static str] {
+    pub(crate) fn allowed_setting_names(self) -> &'static [&'static str] {
         match self {
             PathQuestion::IsFree | PathQuestion::FirstContact => CONTACT_SETTING_NAMES,
             PathQuestion::ClosestApproach => DISTANCE_SETTING_NAMES,
@@ -73,18 +73,18 @@ impl PathQuestion {
         row.unwrap_or_else(|error| match error {
             PathError::Query(Error::Unresolved(known)) => PathRow {
                 limit: Some(known.limit),
-                ..PathRow::with_status("unresolved")
+                ..PathRow::from_status("unresolved")
             },
             error => PathRow {
                 error: Some(error.to_string()),
-                ..PathRow::with_status("error")
+                ..PathRow::from_status("error")
             },
         })
     }
 }
 
 impl PathRow {
-    fn with_status(status: &'static str) -> Self {
+    fn from_status(status: &'static str) -> Self {
         PathRow {
             status,
             at: None,
@@ -98,7 +98,7 @@ impl PathRow {
     }
 
     fn from_is_free(is_free: bool) -> Self {
-        PathRow::with_status(if is_free { "free" } else { "contact" })
+        PathRow::from_status(if is_free { "free" } else { "contact" })
     }
 
     pub(crate) fn is_free(&self) -> bool {
@@ -107,14 +107,14 @@ impl PathRow {
 
     fn first_contact(solver: &mut CellSolver<'_>, path: &[&[f64]]) -> Result<Self, PathError> {
         Ok(match solver.first_contact(path)? {
-            PathOutcome::Free => PathRow::with_status("free"),
-            PathOutcome::Contact(contact) => PathRow::with_status("contact").with_pair(&contact),
+            PathOutcome::Free => PathRow::from_status("free"),
+            PathOutcome::Contact(contact) => PathRow::from_status("contact").with_pair(&contact),
             PathOutcome::Unresolved { free_until, limit } => {
                 let PathPoint { segment, share } = free_until;
                 PathRow {
                     at: Some((segment, share)),
                     limit: Some(limit),
-                    ..PathRow::with_status("unresolved")
+                    ..PathRow::from_status("unresolved")
                 }
             }
         })
@@ -132,7 +132,7 @@ impl PathRow {
             lower: found.lower,
             upper: found.upper,
             limit: found.limit,
-            ..PathRow::with_status(status)
+            ..PathRow::from_status(status)
         };
         Ok(match &found.nearest {
             Some(nearest) => row.with_pair(nearest),
@@ -162,7 +162,7 @@ impl PathRow {
 }
 
 /// Returns the answers to a question as a table.
-pub(crate) fn table(rows: &[PathRow], ask: PathQuestion) -> Result<RecordBatch, ArrowError> {
+pub(crate) fn path_table(rows: &[PathRow], ask: PathQuestion) -> Result<RecordBatch, ArrowError> {
     let status: StringArray = rows.iter().map(|row| Some(row.status)).collect();
     let mut columns: Vec<(&str, ArrayRef)> = vec![("status", Arc::new(status))];
     if ask != PathQuestion::IsFree {

@@ -72,7 +72,7 @@ const PATHS_PER_TASK: usize = 32;
 /// Answers a question about many paths, on `threads` threads, or on all cores.
 ///
 /// `positions` has the paths one after another, each of `length` configurations of `joints` positions.
-pub(crate) fn answer_all<T: Send>(
+pub(crate) fn answer_paths<T: Send>(
     cell: &Cell,
     settings: &Settings,
     threads: Option<u16>,
@@ -80,7 +80,7 @@ pub(crate) fn answer_all<T: Send>(
     question: impl Fn(&mut CellSolver<'_>, &[&[f64]]) -> T + Sync,
 ) -> Vec<T> {
     let solver = || cell.solver().with_settings(settings.clone());
-    let tasks: Vec<&[f64]> = paths.tasks().collect();
+    let tasks: Vec<&[f64]> = paths.task_positions().collect();
     let count = threads.and_then(|threads| NonZeroUsize::new(usize::from(threads)));
     let mut solvers = match count {
         Some(count) => ParallelSolver::with_threads(count, solver),
@@ -110,7 +110,7 @@ pub(crate) struct Paths<'a> {
 }
 
 impl<'a> Paths<'a> {
-    fn tasks(&self) -> impl Iterator<Item = &'a [f64]> {
+    fn task_positions(&self) -> impl Iterator<Item = &'a [f64]> {
         self.positions
             .chunks(PATHS_PER_TASK * self.length * self.joints)
     }

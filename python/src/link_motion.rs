@@ -17,7 +17,7 @@ use rigid_ccd_robot::{ChainBetween, Robot};
 pub(crate) struct PyLinkMotion {
     /// The object of Python whose method `motion` made the motion.
     robot: Py<PyAny>,
-    motion_arguments: GivenMotion,
+    motion_arguments: RobotMotionArguments,
     chain: ChainBetween,
     /// The positions of the chain's joints at both ends.
     ends: [Vec<f64>; 2],
@@ -25,7 +25,7 @@ pub(crate) struct PyLinkMotion {
 
 /// The arguments of `Robot.motion`.
 #[derive(Clone, IntoPyObject)]
-pub(crate) struct GivenMotion(String, Vec<f64>, Vec<f64>, f64, Option<String>);
+pub(crate) struct RobotMotionArguments(String, Vec<f64>, Vec<f64>, f64, Option<String>);
 
 #[pymethods]
 impl PyLinkMotion {
@@ -50,7 +50,7 @@ impl PyLinkMotion {
     }
 
     fn __repr__(&self) -> String {
-        let GivenMotion(link, start, end, duration, seen_from) = &self.motion_arguments;
+        let RobotMotionArguments(link, start, end, duration, seen_from) = &self.motion_arguments;
         let seen = seen_from
             .as_ref()
             .map_or_else(String::new, |link| format!(", seen_from='{link}'"));
@@ -88,7 +88,7 @@ impl PyLinkMotion {
         warn(robot.py(), remarks.next(), 1)?;
         let motion = PyLinkMotion {
             robot: robot.clone().unbind(),
-            motion_arguments: GivenMotion(link, start, end, duration, seen_from),
+            motion_arguments: RobotMotionArguments(link, start, end, duration, seen_from),
             ends,
             chain,
         };

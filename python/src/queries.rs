@@ -1,7 +1,7 @@
 //! The Python functions that answer single queries.
 
 use crate::answers;
-use crate::body::{extract_body, warn_of_tolerance};
+use crate::body::{extract_body, warn_of_large_tolerance};
 use crate::errors::{input_error, panic_error, unresolved_distance_error, unresolved_error, warn};
 use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
@@ -129,7 +129,7 @@ fn ask(
     };
     let duration = pair.duration(duration)?;
     warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    warn_of_large_tolerance([a, b], settings.tolerance, 1)?;
     let bodies = pair.moving_bodies();
     let asked = PairQuestion {
         question,
@@ -272,7 +272,7 @@ pub(crate) fn distance<'py>(
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
     let settings = read(settings, DISTANCE_SETTING_NAMES)?;
-    warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    warn_of_large_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (extract_body(a, "a")?, extract_body(b, "b")?);
     let asked = PairQuestion {
         question: Question::Distance,

@@ -137,7 +137,7 @@ impl PyTable {
         let (rows, columns) = (self.batch.num_rows(), self.batch.num_columns());
         format!(
             "Table({rows} rows, {columns} columns{})",
-            self.describe_counts()
+            self.describe_status_counts()
         )
     }
 
@@ -181,7 +181,7 @@ impl PyTable {
     }
 
     /// Returns a text that says how many rows have each status; empty for a table without statuses.
-    fn describe_counts(&self) -> String {
+    fn describe_status_counts(&self) -> String {
         let column = self.batch.column_by_name("status");
         let Some(column) = column.and_then(|column| column.as_string_opt::<i32>()) else {
             return String::new();

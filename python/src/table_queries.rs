@@ -1,6 +1,6 @@
 //! The Python functions that answer a question about each row of a table.
 
-use crate::body::{extract_body, warn_of_tolerance};
+use crate::body::{extract_body, warn_of_large_tolerance};
 use crate::errors::{
     input_error as refuse, input_error_or_interrupt, interruption_error, warn, with_attribute,
     wrong_type_error,
@@ -13,7 +13,7 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Settings;
-use rigid_ccd::batch::{Bodies, Question};
+use rigid_ccd::batch::{BodyPair, Question};
 use rigid_ccd::table::motions::TableError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -39,7 +39,7 @@ pub(crate) fn answer_table(
         ..settings::read(settings, &allowed_setting_names(question))?
     };
     let asked = TableQuestion {
-        bodies: Bodies {
+        bodies: BodyPair {
             a: extract_body(a, "a")?,
             b: extract_body(b, "b")?,
         },
@@ -88,7 +88,7 @@ pub(crate) fn answer_table(
         }),
         (Ok(()), None) => {
             warn(py, remarks, STACK_FRAMES_TO_CALLER)?;
-            warn_of_tolerance([a, b], settings.tolerance, STACK_FRAMES_TO_CALLER)?;
+            warn_of_large_tolerance([a, b], settings.tolerance, STACK_FRAMES_TO_CALLER)?;
             Ok(table)
         }
     }
@@ -130,7 +130,7 @@ fn check_table_settings(asked: TableQuestion<'_>) -> PyResult<()> {
         }
         _ => {}
     }
-    let Bodies { a, b } = asked.bodies;
+    let BodyPair { a, b } = asked.bodies;
     let still = rigid_ccd::Pose::IDENTITY;
     let query = rigid_ccd::Query::new((a, still), (b, still), 1.0, asked.settings);
     query.map(drop).map_err(refuse)

@@ -162,7 +162,7 @@ def test_a_stop_limits_a_hinge() -> None:
     borders = [kept.end, violated.start, violated.end, again.start]
     assert np.multiply(3, borders) == pytest.approx([2 - half] * 2 + [2 + half] * 2, abs=2e-3)
     assert 3 * kept.end < 2 - half < 3 * violated.start
-    shorter = cell.clearance_ranges([[0], [3]], margin=0.01, pose_error=0.01)[0]
+    shorter = cell.clearance_ranges([[0], [3]], margin=0.01, max_pose_error=0.01)[0]
     assert 3 * shorter.end == pytest.approx(2 - 2 * math.asin(0.5 * 0.23), abs=2e-3)
     with pytest.raises(InputError, match="resolution: 0 is not at least 1e-9"):
         cell.clearance_ranges([[0], [3]], resolution=0)

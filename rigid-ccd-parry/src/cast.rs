@@ -6,7 +6,9 @@ use crate::interval::Interval;
 use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
-use crate::tolerance::{ENLARGEMENT_FACTOR, MAX_TOLERANCE_SHARE, VELOCITY_DIFFERENCE_ROUNDING};
+use crate::tolerance::{
+    ENLARGEMENT_FACTOR, MAX_TOLERANCE_RADIUS_RATIO, VELOCITY_DIFFERENCE_ROUNDING,
+};
 use crate::{BodyOfShape, CastError, Options};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
@@ -36,7 +38,7 @@ pub(crate) enum PreparedShape {
 
 /// A motion whose time 0 is the start of the cast's interval.
 #[derive(Clone, Copy, Debug)]
-struct MotionFromStart {
+struct MotionFromCastStart {
     motion: Motion,
     /// A bound on the motion's deviation due to rounding.
     deviation_bound: DeviationBound,
@@ -64,10 +66,10 @@ impl Cast {
                 then(&self.scene_of_bodies([a, b], shifted)?)
             }
             [PreparedShape::HalfSpace(plane), PreparedShape::Body(body)] => {
-                self.with_plane_scene(plane, 0, body, shifted, then)
+                self.with_half_space_scene(plane, 0, body, shifted, then)
             }
             [PreparedShape::Body(body), PreparedShape::HalfSpace(plane)] => {
-                self.with_plane_scene(plane, 1, body, shifted, then)
+                self.with_half_space_scene(plane, 1, body, shifted, then)
             }
             [PreparedShape::HalfSpace(_), PreparedShape::HalfSpace(_)] => {
                 Err(CastError::BothHalfSpaces)
@@ -78,7 +80,7 @@ impl Cast {
     fn scene_of_bodies<'b>(
         &self,
         bodies: [&'b BodyOfShape; 2],
-        shifted: [MotionFromStart; 2],
+        shifted: [MotionFromCastStart; 2],
     ) -> Result<Scene<'b>, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
         let shifted = [0, 1].map(|k| shifted[k].without_ball_rotation(bodies[k]));
@@ -86,7 +88,7 @@ impl Cast {
         let slack = |k: usize| {
             bodies[k].slack() + max_point_deviation(shifted[k].deviation_bound, &sides[k])
         };
-        let rounded = self.displacement_rounding(max_relative_displacement(
+        let rounded = self.displacement_error_bound(max_relative_displacement(
             &sides,
             self.target + self.tolerance(&bodies),
         ));
@@ -105,19 +107,19 @@ impl Cast {
 
     /// Builds the engine's scene for a cast of a body against a half-space, which is shape `index` (0 or 1) of the
     /// cast.
-    fn with_plane_scene<T>(
+    fn with_half_space_scene<T>(
         &self,
         plane: &HalfSpace,
         index: usize,
         body: &BodyOfShape,
-        shifted: [MotionFromStart; 2],
+        shifted: [MotionFromCastStart; 2],
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
         let side = shifted[1 - index].without_ball_rotation(body);
         let stray = side.deviation_bound;
         let side = side.motion_with_extent(body);
-        let of_plane = shifted[index].plane_motion_with_extent(&side);
+        let of_plane = shifted[index].half_space_motion(&side);
         let within = self.settings(&[body], body.slack())?;
         let within = within.margin + within.tolerance;
         let wanted = self.interval.length();
@@ -131,7 +133,7 @@ impl Cast {
         let slack = body.slack()
             + max_point_deviation(stray, &side)
             + off
-            + self.displacement_rounding(reach);
+            + self.displacement_error_bound(reach);
         let settings = self.settings(&[body], slack)?;
         let stand_in =
             plane
@@ -174,14 +176,15 @@ impl Cast {
 
     /// Returns both motions from the start of the interval on, as seen by an observer who moves with the velocity of
     /// the second body. A large common velocity then costs no digits.
-    fn relative_motions_from_start(&self) -> Result<[MotionFromStart; 2], CastError> {
+    fn relative_motions_from_start(&self) -> Result<[MotionFromCastStart; 2], CastError> {
         let along = self.motions[1].velocity();
-        let shifted = |motion: &Motion| MotionFromStart::new(motion, self.interval.start, along);
+        let shifted =
+            |motion: &Motion| MotionFromCastStart::new(motion, self.interval.start, along);
         CastError::motions_or_error(self.motions.each_ref().map(shifted))
     }
 
     /// Bounds the rounding error of subtracting the velocities, for bodies that move `displacement` past each other.
-    fn displacement_rounding(&self, displacement: f64) -> f64 {
+    fn displacement_error_bound(&self, displacement: f64) -> f64 {
         if self.motions[1].velocity() == DVec3::ZERO {
             0.0
         } else {
@@ -194,7 +197,7 @@ impl Cast {
         let sizes = bodies.iter().map(|body| body.ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
         let by_default = sizes.fold(self.default_tolerance, |least, size| {
-            lesser(least, MAX_TOLERANCE_SHARE * size)
+            lesser(least, MAX_TOLERANCE_RADIUS_RATIO * size)
         });
         let asked = self.options.tolerance;
         asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
@@ -221,7 +224,7 @@ impl Cast {
     }
 }
 
-impl MotionFromStart {
+impl MotionFromCastStart {
     fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
         // All points of a body that does not rotate move straight; its origin as the centre rounds least.
         let centre = if motion.spin() == DVec3::ZERO {
@@ -236,7 +239,7 @@ impl MotionFromStart {
             ..
         } = motion.stretch_between(start, start)?;
         let velocity = motion.velocity() - along;
-        Ok(MotionFromStart {
+        Ok(MotionFromCastStart {
             motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,
             deviation_bound: stray,
         })
@@ -263,7 +266,7 @@ impl MotionFromStart {
 
     /// Returns the motion of a half-space, about the other body's start position or, if the half-space rotates, about
     /// the centre.
-    fn plane_motion_with_extent(&self, other: &MotionWithExtent) -> MotionWithExtent {
+    fn half_space_motion(&self, other: &MotionWithExtent) -> MotionWithExtent {
         let start = self.motion.start();
         let beside = start.inverse().transform_point(other.start_position());
         MotionWithExtent {
@@ -280,7 +283,7 @@ impl MotionFromStart {
         }
         let [velocity, centre] = [self.motion.velocity(), self.motion.centre()];
         let slides = Motion::about(self.motion.start(), velocity, DVec3::ZERO, centre);
-        MotionFromStart {
+        MotionFromCastStart {
             motion: slides.unwrap_or(self.motion),
             ..self
         }

@@ -277,7 +277,7 @@ impl ShapeGeometry {
             vertex_ids: vec![part.number; part.polytope.points.len()],
             ..part.polytope.clone()
         };
-        let pieces = Pieces::polytopes(&parts.iter().map(numbered).collect::<Vec<_>>())?;
+        let pieces = Pieces::from_polytopes(&parts.iter().map(numbered).collect::<Vec<_>>())?;
         // Each piece is filled by itself.
         Body::new(&pieces, Volume::Surface)
     }
@@ -346,7 +346,7 @@ impl ShapeGeometry {
 /// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
 fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
-        Excess::RadiusFraction => round.default_excess(),
+        Excess::DefaultRadiusFraction => round.default_excess(),
         Excess::Length(length) => length,
         Excess::NotAllowed => return Err(ShapeError::SolidOfRevolutionRefused),
     };

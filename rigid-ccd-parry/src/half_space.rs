@@ -6,7 +6,7 @@
 use crate::form::ShapeGeometry;
 use crate::horizon::{MotionWithExtent, QueryDuration, repetition_time, rotation_period};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_PLANE_EXTENT_RATIO, PLANE_ROUNDING};
+use crate::tolerance::{ENLARGEMENT_FACTOR, MAX_BOX_EXTENT_RATIO, PLANE_HEIGHT_ROUNDING};
 use crate::{BodyOfShape, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
@@ -43,13 +43,13 @@ impl HalfSpace {
         within: f64,
         wanted: f64,
     ) -> QueryDuration {
-        let needed = self.sufficient_duration(plane, body, within);
+        let needed = self.duration_until_decided(plane, body, within);
         let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
         let horizon = QueryDuration::for_duration([plane, body], needed);
         // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
         let size = body.reach + within + length(body.start_position() - plane.start_position());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let most = LARGEST_PLANE_EXTENT_RATIO * size / speed;
+        let most = MAX_BOX_EXTENT_RATIO * size / speed;
         if speed > 0.0 && horizon.duration() > most {
             QueryDuration::Part(most)
         } else {
@@ -59,7 +59,7 @@ impl HalfSpace {
 
     /// Returns a time after which the body stays inside or outside of the half-space or repeats its motion; `None` if
     /// there is no such time.
-    fn sufficient_duration(
+    fn duration_until_decided(
         &self,
         plane: MotionWithExtent,
         body: MotionWithExtent,
@@ -82,10 +82,10 @@ impl HalfSpace {
         let normal = p.start().rotation() * self.normal;
         let (from, to) = (p.start().translation(), body.start_position());
         let rate = normal.dot(velocity);
-        let rounding = PLANE_ROUNDING * length(velocity);
-        let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
+        let rounding = PLANE_HEIGHT_ROUNDING * length(velocity);
+        let spread = plane.position_magnitude_sum() + body.position_magnitude_sum();
         let height = normal.dot(to - from);
-        let reach = (body.reach + within + PLANE_ROUNDING * spread) * ENLARGEMENT_FACTOR;
+        let reach = (body.reach + within + PLANE_HEIGHT_ROUNDING * spread) * ENLARGEMENT_FACTOR;
         let needed = if rate < 0.0 {
             height + reach
         } else {
@@ -105,8 +105,8 @@ impl HalfSpace {
     ) -> f64 {
         let [p, b] = [plane.start_position(), body.start_position()];
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
-        (length(b - p) + speed * duration + body.reach + within + PLANE_ROUNDING * spread)
+        let spread = plane.position_magnitude_sum() + body.position_magnitude_sum();
+        (length(b - p) + speed * duration + body.reach + within + PLANE_HEIGHT_ROUNDING * spread)
             * ENLARGEMENT_FACTOR
     }
 
@@ -122,7 +122,7 @@ impl HalfSpace {
         let across = normal.any_orthonormal_vector();
         let along = normal.cross(across);
         // The face is above the plane, whatever rounding does to the corners.
-        let above = PLANE_ROUNDING * (reach + length(plane.about));
+        let above = PLANE_HEIGHT_ROUNDING * (reach + length(plane.about));
         let below = -(reach + above) + lesser(height, 0.0);
         let wide = reach * ENLARGEMENT_FACTOR + above;
         let corner = |k: u32| {

@@ -27,7 +27,7 @@ impl MotionWithExtent {
     }
 
     /// Returns the sum of the lengths from which the position is computed, for a bound on its rounding error.
-    pub(crate) fn sum_of_magnitudes(&self) -> f64 {
+    pub(crate) fn position_magnitude_sum(&self) -> f64 {
         length(self.motion.start().translation()) + length(self.about)
     }
 }
@@ -80,7 +80,8 @@ fn time_when_past_each_other(bodies: [MotionWithExtent; 2], within: f64) -> Opti
 
 /// Returns a bound on the relative displacement of the bodies, from the start until contact is no longer possible.
 pub(crate) fn max_relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
-    let rounding = (ENLARGEMENT_FACTOR - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
+    let rounding =
+        (ENLARGEMENT_FACTOR - 1.0) * (a.position_magnitude_sum() + b.position_magnitude_sum());
     length(b.start_position() - a.start_position()) + rounding + a.reach + b.reach + within
 }
 

@@ -8,7 +8,7 @@ mod direction;
 use crate::form::ShapeGeometry;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
-use crate::tolerance::{ENLARGEMENT_FACTOR, LARGEST_SLIDING_RATE_SHARE};
+use crate::tolerance::{ENLARGEMENT_FACTOR, MAX_SLIDING_APPROACH_RATIO};
 use crate::{BodyOfShape, CastError};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
@@ -27,7 +27,7 @@ pub(crate) fn first_contact_unless_parting(
     solver: &mut Solver,
 ) -> Result<Option<CastHit>, CastError> {
     // Each task is two sets of pieces, one of each body, all pairs of which are to be examined.
-    let mut tasks = vec![[0, 1].map(|k| pieces_near_other(scene, k))];
+    let mut tasks = vec![[0, 1].map(|k| piece_indices_near_other(scene, k))];
     let (mut first, mut left_out): (Option<CastHit>, _) = (None, 0);
     while let Some(task) = tasks.pop() {
         if task.iter().any(Vec::is_empty) {
@@ -96,7 +96,7 @@ fn body_of_pieces(body: &BodyOfShape, pieces: &[u32]) -> Result<BodyOfShape, cra
 }
 
 /// Returns the indices of the pieces of body `k` that the other body may reach during the cast.
-fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
+fn piece_indices_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
     let displacement = velocity * scene.horizon.duration();
@@ -144,7 +144,7 @@ fn pieces_begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solve
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
     // The comparison is false for NaN, which does not part.
-    let least = -LARGEST_SLIDING_RATE_SHARE * length(velocity);
+    let least = -MAX_SLIDING_APPROACH_RATIO * length(velocity);
     direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= least)
 }
 

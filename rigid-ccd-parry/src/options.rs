@@ -48,7 +48,7 @@ impl Default for Options {
 pub enum Excess {
     /// The polytope may exceed the shape by 1/4000 of the radius.
     #[default]
-    RadiusFraction,
+    DefaultRadiusFraction,
     /// The polytope may exceed the shape by this length.
     Length(f64),
     /// Cylinders and cones are refused.

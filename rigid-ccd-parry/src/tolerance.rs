@@ -19,7 +19,7 @@ pub(crate) const DEFAULT_TOLERANCE_F64: f64 = 1e-9;
 
 /// The largest default tolerance, as a share of the smaller body's radius, so that tiny bodies are not in contact at a
 /// distance of their own size.
-pub(crate) const MAX_TOLERANCE_SHARE: f64 = 1.0 / (1 << 20) as f64;
+pub(crate) const MAX_TOLERANCE_RADIUS_RATIO: f64 = 1.0 / (1 << 20) as f64;
 
 /// A bound on the rounding error of a point to which a pose is applied in f64, relative to the lengths of the point and
 /// of the translation.
@@ -38,11 +38,11 @@ pub(crate) const VOXEL_ROUNDING: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 ///
 /// In units of `u`: a normal made a unit is off by 3, an axis across it by 6 and not at a right angle by 6, the other one
 /// by 10; products and sums add 8. That is 33; 64 are taken.
-pub(crate) const PLANE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
+pub(crate) const PLANE_HEIGHT_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// The maximum extent of the box that stands for a half-space, in units of the sum of the body's size and its distance
 /// at the start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
-pub(crate) const LARGEST_PLANE_EXTENT_RATIO: f64 = (1 << 26) as f64;
+pub(crate) const MAX_BOX_EXTENT_RATIO: f64 = (1 << 26) as f64;
 
 /// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of
 /// that displacement. The subtraction is one operation; the displacement's own rounding adds as much.
@@ -63,4 +63,4 @@ pub(crate) const NEAREST_POINTS_BUDGET: u64 = 1 << 16;
 
 /// The largest approach rate of overlapping bodies that counts as sliding, relative to their speed. The direction of
 /// least overlap has an error of some thousand `u`.
-pub(crate) const LARGEST_SLIDING_RATE_SHARE: f64 = 1.0 / (1u64 << 40) as f64;
+pub(crate) const MAX_SLIDING_APPROACH_RATIO: f64 = 1.0 / (1u64 << 40) as f64;

@@ -27,14 +27,14 @@ pub struct Cell {
     parts: Vec<Part>,
     robot_part_count: usize,
     /// Where the robot holds each of its bodies, in the order of the bodies.
-    robot_bodies: Vec<RobotBody>,
+    robot_body_placements: Vec<RobotBodyPlacement>,
     obstacle_names: Vec<String>,
     margins: Margins,
 }
 
 /// Where a robot holds a body.
 #[derive(Clone, Debug)]
-struct RobotBody {
+struct RobotBodyPlacement {
     /// The number of the link.
     link: usize,
     /// The pose of the body in the link's frame.
@@ -81,12 +81,12 @@ impl Cell {
             bodies: Vec::new(),
             parts: Vec::new(),
             robot_part_count: 0,
-            robot_bodies: Vec::new(),
+            robot_body_placements: Vec::new(),
             obstacle_names: Vec::new(),
         };
         for link in 0..cell.robot.links().len() {
             for body in cell.robot.links()[link].bodies.clone() {
-                cell.add_robot_body(body.body, RobotBody::of_link(link, body.pose));
+                cell.add_robot_body(body.body, RobotBodyPlacement::of_link(link, body.pose));
             }
         }
         cell
@@ -115,7 +115,7 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchObstacle`].
     pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
-        let number = self.robot_bodies.len() + self.obstacle_number(name)?;
+        let number = self.robot_body_placements.len() + self.obstacle_number(name)?;
         self.bodies[number].pose = pose;
         let moved = self.bodies[number].parts(number);
         let first = self.parts.partition_point(|part| part.owner < number);
@@ -130,7 +130,7 @@ impl Cell {
     pub fn remove_obstacle(&mut self, name: &str) -> Result<(), RobotError> {
         let obstacle = self.obstacle_number(name)?;
         self.obstacle_names.remove(obstacle);
-        self.remove(self.robot_bodies.len() + obstacle);
+        self.remove(self.robot_body_placements.len() + obstacle);
         Ok(())
     }
 
@@ -152,7 +152,7 @@ impl Cell {
         let name = name.into();
         self.check_new_name(&name)?;
         let attachment = Some(Attachment { name, may_touch });
-        let held = RobotBody {
+        let held = RobotBodyPlacement {
             link,
             pose,
             attachment,
@@ -166,8 +166,8 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchAttachedBody`].
     pub fn detach(&mut self, name: &str) -> Result<(), RobotError> {
-        let number = self.attached_number(name)?;
-        self.robot_bodies.remove(number);
+        let number = self.attached_body_number(name)?;
+        self.robot_body_placements.remove(number);
         let parts = self.parts.iter().filter(|part| part.owner == number);
         self.robot_part_count -= parts.count();
         self.remove(number);
@@ -187,7 +187,7 @@ impl Cell {
     /// Returns the names of the bodies that are attached to links, in the order in which they were attached.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
         let attachments = self
-            .robot_bodies
+            .robot_body_placements
             .iter()
             .filter_map(|held| held.attachment.as_ref());
         attachments.map(|attachment| attachment.name.as_str())
@@ -200,7 +200,7 @@ impl Cell {
     pub fn item_named<'c>(&self, name: &'c str) -> Result<Item<'c>, RobotError> {
         if self.robot.link_number(name).is_ok() {
             Ok(Item::Link(name))
-        } else if self.attached_number(name).is_ok() {
+        } else if self.attached_body_number(name).is_ok() {
             Ok(Item::Attached(name))
         } else if self.obstacle_number(name).is_ok() {
             Ok(Item::Obstacle(name))
@@ -220,7 +220,7 @@ impl Cell {
 
     /// Returns the number of bodies that the robot holds.
     pub(crate) fn robot_body_count(&self) -> usize {
-        self.robot_bodies.len()
+        self.robot_body_placements.len()
     }
 
     /// Returns the convex parts of all bodies, in the order of the bodies.
@@ -234,19 +234,19 @@ impl Cell {
 
     /// Returns the number of the link that holds one of the robot's bodies.
     pub(crate) fn link_of(&self, body: usize) -> usize {
-        self.robot_bodies[body].link
+        self.robot_body_placements[body].link
     }
 
     /// Returns the pose of one of the robot's bodies in its link.
     pub(crate) fn pose_in_link(&self, body: usize) -> Pose {
-        self.robot_bodies[body].pose
+        self.robot_body_placements[body].pose
     }
 
     /// Returns the name of what a body belongs to.
     pub(crate) fn item(&self, body: usize) -> Item<'_> {
-        match self.robot_bodies.get(body) {
-            None => Item::Obstacle(&self.obstacle_names[body - self.robot_bodies.len()]),
-            Some(RobotBody {
+        match self.robot_body_placements.get(body) {
+            None => Item::Obstacle(&self.obstacle_names[body - self.robot_body_placements.len()]),
+            Some(RobotBodyPlacement {
                 attachment: Some(attachment),
                 ..
             }) => Item::Attached(&attachment.name),
@@ -255,7 +255,7 @@ impl Cell {
     }
 
     /// Iterates over the pairs of the robot's own parts that are checked.
-    pub(crate) fn checked_own_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+    pub(crate) fn checked_robot_part_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let parts = || self.parts[..self.robot_part_count].iter().enumerate();
         parts().flat_map(move |(a, part_a)| {
             let earlier = parts().take(a);
@@ -267,11 +267,14 @@ impl Cell {
 
     /// Returns whether two of the robot's bodies are checked against each other.
     fn is_checked(&self, a: usize, b: usize) -> bool {
-        let [a, b] = [&self.robot_bodies[a], &self.robot_bodies[b]];
+        let [a, b] = [
+            &self.robot_body_placements[a],
+            &self.robot_body_placements[b],
+        ];
         if a.attachment.is_none() && b.attachment.is_none() {
             return self.pairs.is_checked(a.link, b.link);
         }
-        let may_touch = |held: &RobotBody, link: usize| {
+        let may_touch = |held: &RobotBodyPlacement, link: usize| {
             let attachment = held.attachment.as_ref();
             attachment.is_some_and(|attachment| attachment.may_touch.contains(&link))
         };
@@ -281,12 +284,12 @@ impl Cell {
     }
 
     /// Adds a body that the robot holds.
-    fn add_robot_body(&mut self, body: Arc<Body>, held: RobotBody) {
+    fn add_robot_body(&mut self, body: Arc<Body>, held: RobotBodyPlacement) {
         let (frame, link_pose) = self.kinematics.link(held.link);
         let pose = link_pose.compose(&held.pose);
         let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
-        let number = self.robot_bodies.len();
-        self.robot_bodies.push(held);
+        let number = self.robot_body_placements.len();
+        self.robot_body_placements.push(held);
         self.robot_part_count += self.insert(number, placed);
     }
 
@@ -327,19 +330,19 @@ impl Cell {
         number.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
     }
 
-    fn attached_number(&self, name: &str) -> Result<usize, RobotError> {
-        let has_name = |held: &RobotBody| {
+    fn attached_body_number(&self, name: &str) -> Result<usize, RobotError> {
+        let has_name = |held: &RobotBodyPlacement| {
             let attachment = held.attachment.as_ref();
             attachment.is_some_and(|attachment| attachment.name == name)
         };
-        let number = self.robot_bodies.iter().position(has_name);
+        let number = self.robot_body_placements.iter().position(has_name);
         number.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
     }
 }
 
-impl RobotBody {
+impl RobotBodyPlacement {
     fn of_link(link: usize, pose: Pose) -> Self {
-        RobotBody {
+        RobotBodyPlacement {
             link,
             pose,
             attachment: None,

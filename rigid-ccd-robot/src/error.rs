@@ -127,7 +127,7 @@ pub enum PathError {
     Empty,
     /// A configuration does not fit the robot.
     #[error("configuration {number} of the path: {error}")]
-    Configuration {
+    InvalidConfiguration {
         /// The number of the configuration, from 0.
         number: usize,
         /// The reason why it does not fit.
@@ -135,7 +135,7 @@ pub enum PathError {
     },
     /// A number of the [`RangeSettings`](crate::RangeSettings) is out of its range.
     #[error("{name}: {value} is not {allowed}")]
-    RangeSetting {
+    InvalidRangeSetting {
         /// The name of the number.
         name: &'static str,
         /// The number.

@@ -1,7 +1,7 @@
 //! Robots and mechanisms as trees of links and joints, from URDF and SRDF or from code, for certified collision checks.
 //!
 //! ```
-//! use rigid_ccd_robot::{Joint, Link, Position, Robot};
+//! use rigid_ccd_robot::{Joint, Link, PositionRule, Robot};
 //! use rigid_ccd::{Body, Pose, trajectory};
 //!
 //! let rod = || Body::capsule(0.1, 0.4);
@@ -12,7 +12,7 @@
 //!     parent: "base".into(),
 //!     child: "arm".into(),
 //!     joint: hinge,
-//!     position: Position::Free,
+//!     position: PositionRule::Free,
 //! }];
 //! let robot = Robot::new(links, joints)?;
 //! assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["hinge"]);

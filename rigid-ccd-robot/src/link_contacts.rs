@@ -11,7 +11,7 @@ use search::PairSearch;
 
 /// The distance, in metres, at which a body holds a point of a joint's axis. Two bodies that hold it are at most twice as
 /// far apart.
-const TOUCHING_DISTANCE: f64 = 1e-9;
+const AXIS_CONTACT_DISTANCE: f64 = 1e-9;
 
 /// Whether two links touch, over all configurations within the limits of the joints.
 #[derive(Clone, Debug, PartialEq)]

@@ -122,7 +122,7 @@ impl<'c> CellSolver<'c> {
     /// # Errors
     /// [`PathError`]; also if a limit is reached.
     pub fn is_free<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<bool, PathError> {
-        Ok(self.find_contact(path)?.is_none())
+        Ok(self.find_any_contact(path)?.is_none())
     }
 
     /// Returns any contact on a path, perhaps not the first one.
@@ -133,7 +133,7 @@ impl<'c> CellSolver<'c> {
         &mut self,
         path: &[Q],
     ) -> Result<Option<PathContact<'c>>, PathError> {
-        let found = self.find_contact(path)?;
+        let found = self.find_any_contact(path)?;
         Ok(found.map(|found| self.contact(found)).transpose()?)
     }
 
@@ -150,7 +150,7 @@ impl<'c> CellSolver<'c> {
         path: &[Q],
     ) -> Result<PathOutcome<'c>, PathError> {
         self.answer(Question::FirstContact, path)?;
-        let found = &self.search.found;
+        let found = &self.search.result;
         Ok(match (found.limit, found.nearest) {
             (Some((limit, until)), _) => PathOutcome::Unresolved {
                 free_until: PathPoint::of(until, self.search.segment_count()),
@@ -177,7 +177,7 @@ impl<'c> CellSolver<'c> {
     ) -> Result<ClosestApproach<'c>, PathError> {
         self.answer(Question::ClosestApproach, path)?;
         let (lower, upper) = self.search.distance_bounds();
-        let found = self.search.found;
+        let found = self.search.result;
         Ok(ClosestApproach {
             lower,
             upper,
@@ -186,12 +186,12 @@ impl<'c> CellSolver<'c> {
         })
     }
 
-    fn find_contact<Q: AsRef<[f64]>>(
+    fn find_any_contact<Q: AsRef<[f64]>>(
         &mut self,
         path: &[Q],
     ) -> Result<Option<(f64, PartPair)>, PathError> {
         self.answer(Question::AnyContact, path)?;
-        let found = &self.search.found;
+        let found = &self.search.result;
         if found.nearest.is_none()
             && let Some((limit, _)) = found.limit
         {
@@ -202,19 +202,19 @@ impl<'c> CellSolver<'c> {
     }
 
     fn answer<Q: AsRef<[f64]>>(&mut self, question: Question, path: &[Q]) -> Result<(), PathError> {
-        self.begin(path)?;
+        self.set_path(path)?;
         let whole = self.search.whole_path();
         Ok(self.search.answer(question, whole)?)
     }
 
     /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
-    fn begin<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<(), PathError> {
+    fn set_path<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<(), PathError> {
         if path.is_empty() {
             return Err(PathError::Empty);
         }
         for (number, configuration) in path.iter().enumerate() {
             let checked = self.cell.robot().check(configuration.as_ref());
-            checked.map_err(|error| PathError::Configuration { number, error })?;
+            checked.map_err(|error| PathError::InvalidConfiguration { number, error })?;
         }
         self.search.settings().check().map_err(Error::from)?;
         self.search.begin(path);
@@ -223,7 +223,7 @@ impl<'c> CellSolver<'c> {
 
     /// Measures a pair at a point of the path.
     fn contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
-        let bodies = pair.owners(self.cell.parts());
+        let bodies = pair.body_numbers(self.cell.parts());
         let placement = self.search.place_frames(at);
         let (a, b) = (
             placement.body(self.cell, bodies[0])?,

@@ -70,7 +70,7 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
 }
 
 /// Returns a robot whose joints have limits of the same size to both sides.
-pub(crate) fn with_limits(robot: &Robot, limit: f64) -> Robot {
+pub(crate) fn with_symmetric_limits(robot: &Robot, limit: f64) -> Robot {
     let mut joints = robot.joints().to_vec();
     for joint in &mut joints {
         if !joint.joint.is_fixed() {

@@ -2,22 +2,22 @@
 
 /// The length of a stretch, in segments of the path, at which open pairs go to the engine. Each halving costs the frames of
 /// all links and a distance for each open pair; the engine costs about ten of these.
-pub(crate) const ENGINE_STRETCH_LENGTH: f64 = 1.0 / 16.0;
+pub(crate) const MAX_ENGINE_STRETCH_LENGTH: f64 = 1.0 / 16.0;
 
 /// The same for the closest approach, for which the engine has to measure a distance, and not only to decide.
-pub(crate) const ENGINE_LENGTH_FOR_APPROACH: f64 = 1.0 / 64.0;
+pub(crate) const MAX_APPROACH_STRETCH_LENGTH: f64 = 1.0 / 64.0;
 
 /// The displacement, in metres, below which a pair goes to the engine at once after this number of halvings.
-pub(crate) const ENGINE_DISPLACEMENT: f64 = 0.01;
-pub(crate) const MIN_HALVINGS: u32 = 4;
+pub(crate) const MAX_ENGINE_DISPLACEMENT: f64 = 0.01;
+pub(crate) const MIN_ENGINE_HALVINGS: u32 = 4;
 
 /// The displacement in half a stretch, in metres, beyond which the distance in the middle of the stretch hardly ever
 /// proves it free. Pairs are then measured only if their boxes meet there.
-pub(crate) const FAR_DISPLACEMENT: f64 = 0.1;
+pub(crate) const MIN_BOX_TEST_DISPLACEMENT: f64 = 0.1;
 
 /// The squared length, in square metres, below which the offset from a centre to an obstacle's box is no first direction:
 /// the centre is then nearly in the box.
-pub(crate) const MIN_SQUARED_AXIS: f64 = 1e-6;
+pub(crate) const MIN_SQUARED_OFFSET: f64 = 1e-6;
 
 /// The largest number of convex hulls around parts of an obstacle that is not convex, and around parts of a link. The
 /// hulls of an obstacle are found by their boxes; those of links are all compared.

@@ -26,14 +26,14 @@ use std::num::NonZeroUsize;
 
 /// The two bodies of a query; both may be the same body.
 #[derive(Clone, Copy, Debug)]
-pub struct Bodies<'a> {
+pub struct BodyPair<'a> {
     /// The body that the first motion of a row moves.
     pub a: &'a Body,
     /// The body that the second motion of a row moves.
     pub b: &'a Body,
 }
 
-impl<'q> Bodies<'q> {
+impl<'q> BodyPair<'q> {
     /// Builds the query about both bodies for the motions or paths of a row. For a distance question, the bodies rest
     /// at their start poses.
     ///
@@ -45,7 +45,7 @@ impl<'q> Bodies<'q> {
         course: &'q Movements,
         settings: &'q Settings,
     ) -> Result<Query<'q>, InputError> {
-        let Bodies { a, b } = self;
+        let BodyPair { a, b } = self;
         if question == Question::Distance {
             let [pose_a, pose_b] = course.poses(0.0)?;
             return Query::new((a, pose_a), (b, pose_b), 0.0, settings);

@@ -20,7 +20,7 @@ pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
 pub use verdict::{QueryContext, TimeMeaning};
 
 use crate::Solver;
-use crate::batch::Bodies;
+use crate::batch::BodyPair;
 use crate::table::courses::Movements;
 use crate::table::results::{ResultRow, Status};
 use ccd_core::glam::DVec3;
@@ -33,10 +33,10 @@ pub const BODY_COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 
 /// Makes views of a page from answers about two bodies.
 pub struct Painter<'a> {
-    bodies: Bodies<'a>,
+    bodies: BodyPair<'a>,
     query_context: QueryContext,
     meshes: Meshes,
-    mesh_indices: [usize; 2],
+    mesh_index_by_body: [usize; 2],
     solver: Solver,
 }
 
@@ -63,14 +63,14 @@ pub enum ViewError {
 
 impl<'a> Painter<'a> {
     /// Creates a painter for answers about two bodies; `asked` describes the query of the answers.
-    pub fn new(bodies: Bodies<'a>, asked: QueryContext) -> Self {
+    pub fn new(bodies: BodyPair<'a>, asked: QueryContext) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn_mesh(body)));
         Painter {
             bodies,
             query_context: asked,
             meshes,
-            mesh_indices: numbers,
+            mesh_index_by_body: numbers,
             solver: Solver::new(),
         }
     }
@@ -116,11 +116,11 @@ impl<'a> Painter<'a> {
             let found = gap(&mut self.solver, self.bodies, query, floor)?;
             view.ghost_times = found.ghost_times(duration);
             proven = found.least_proven_gap();
-            nearest = found.nearest_time();
+            nearest = found.least_distance_time();
             view.gap = Some(found.gap);
         }
         view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
-        let looks = self.mesh_indices.into_iter().zip(BODY_COLORS);
+        let looks = self.mesh_index_by_body.into_iter().zip(BODY_COLORS);
         let shown = ["A", "B"].iter().zip(looks).zip(shown_motions(query)?);
         view.bodies = shown
             .map(|((name, (mesh, color)), motion)| ShownBody::new(name, mesh, color, motion))
@@ -133,7 +133,7 @@ impl<'a> Painter<'a> {
                 _ => time.unwrap_or(nearest),
             },
             origin: (query.poses(0.0)?[1]
-                .transform_point(self.meshes.middle(self.mesh_indices[1])))
+                .transform_point(self.meshes.middle(self.mesh_index_by_body[1])))
             .to_array(),
             contacts: contact.into_iter().collect(),
             ..view

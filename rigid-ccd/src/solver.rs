@@ -212,12 +212,12 @@ impl<O: DistanceOracle> Solver<O> {
     /// let passes = Motion::new(Pose::at([-3.0, 1.2, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
     /// let closest = Solver::new().closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
     /// assert!(closest.outcome.lower() <= 0.2 && closest.outcome.upper() >= 0.2);
-    /// assert_eq!(closest.outcome.clearance(0.19), ClearanceVerdict::Kept);
+    /// assert_eq!(closest.outcome.clearance_verdict(0.19), ClearanceVerdict::Kept);
     ///
     /// let keeping = Settings { clearance: Some(0.1), ..Settings::DEFAULT };
     /// let mut solver = Solver::new().with_settings(keeping);
     /// let closest = solver.closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
-    /// assert_eq!(closest.outcome.clearance(0.1), ClearanceVerdict::Kept);
+    /// assert_eq!(closest.outcome.clearance_verdict(0.1), ClearanceVerdict::Kept);
     /// # Ok::<(), rigid_ccd::Error>(())
     /// ```
     pub fn closest_approach<'b>(

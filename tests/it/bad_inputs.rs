@@ -97,7 +97,10 @@ fn faces_have_as_many_numbers() {
     let unnumbered = Pieces::triangles(&triangle, &[[0, 1, 2]], &[]).map(drop);
     assert_eq!(
         unnumbered,
-        Err(InputError::FaceIdCountMismatch { faces: 1, ids: 0 })
+        Err(InputError::FaceIdCountMismatch {
+            faces: 1,
+            id_count: 0
+        })
     );
 }
 

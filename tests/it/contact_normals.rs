@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 const MAX_ANGLE_FROM_CONE: f64 = 1e-12;
 
 /// The rounding error of the direction between two points, multiplied by their distance.
-const DIRECTION_ROUNDING: f64 = 4e-15;
+const DIRECTION_ERROR_TIMES_DISTANCE: f64 = 4e-15;
 
 /// The distance between witnesses above which the direction between them is accurate enough for a normal.
 const MIN_WITNESS_DISTANCE: f64 = 1e-8;
@@ -29,7 +29,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
     let (mut checked, mut blurred) = ([0; 3], 0);
     for round in 0..runner(150).config().cases {
         let touch = FeatureContactCase::draw(rng);
-        for bodies in touch.query.bodies_of_all_kinds() {
+        for bodies in touch.query.bodies_of_kind_pairs() {
             let settings = touch.config();
             let problem = touch.query.problem(&bodies, &settings);
             let pairs = problem.contacts_at(0.0).unwrap();
@@ -78,7 +78,7 @@ impl FeatureContactCase {
         } else {
             random_shape(rng)
         };
-        let [a, b] = [&shape_a, &shape_b].map(|shape| Support::draw(rng, shape));
+        let [a, b] = [&shape_a, &shape_b].map(|shape| SupportFeature::draw(rng, shape));
         let gap = TESTED_GAPS[rng.random_range(0..TESTED_GAPS.len())];
         let frame = if rng.random_bool(0.3) {
             Pose::IDENTITY
@@ -142,7 +142,7 @@ impl FeatureContactCase {
         let allowed = if way < MIN_WITNESS_DISTANCE {
             MAX_ANGLE_FROM_CONE
         } else {
-            MAX_ANGLE_FROM_CONE + DIRECTION_ROUNDING / way
+            MAX_ANGLE_FROM_CONE + DIRECTION_ERROR_TIMES_DISTANCE / way
         };
         let off_a = sine_from_normal_cone(&self.query.a, witness_a, normal);
         let off_b = sine_from_normal_cone(&self.query.b, witness_b, -normal);
@@ -189,7 +189,7 @@ fn sine_from_normal_cone(actor: &MovingShape, at: DVec3, n: DVec3) -> f64 {
 }
 
 /// A random feature of a shape that is extreme along a direction, with a point on it.
-struct Support {
+struct SupportFeature {
     normal: DVec3,
     point: DVec3,
     /// A direction perpendicular to the normal, along an edge of the feature if there is one.
@@ -197,7 +197,7 @@ struct Support {
     dimension: usize,
 }
 
-impl Support {
+impl SupportFeature {
     fn draw(rng: &mut Pcg64, shape: &Shape) -> Self {
         let mesh = &shape.mesh;
         let normal = |face: usize| {
@@ -240,7 +240,7 @@ impl Support {
             0 => normal.any_orthonormal_vector(),
             _ => (b - a).reject_from(normal).normalize(),
         };
-        Support {
+        SupportFeature {
             normal,
             point,
             edge_direction: along,

@@ -27,7 +27,7 @@ fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
 fn scene_contacts(name: &str) -> Vec<([PieceKind; 2], Vec<Contact>)> {
     let scenes = scenes_with_name_prefix(name);
     let query = &scenes[0].query;
-    let bodies = query.bodies_of_all_kinds();
+    let bodies = query.bodies_of_kind_pairs();
     let of_kind = |bodies: &Bodies| {
         let problem = query.problem(bodies, &Settings::DEFAULT);
         let (time, _) = first_contact(&problem).expect("a hit");
@@ -123,7 +123,7 @@ fn contacts_of_random_cases_hold() {
         let query = case.query();
         let mut at = None;
         let mut exact: Option<BTreeSet<Names>> = None;
-        for bodies in query.bodies_of_all_kinds() {
+        for bodies in query.bodies_of_kind_pairs() {
             let settings = case.config();
             let problem = query.problem(&bodies, &settings);
             let Some((time, upper)) = at.map_or_else(|| first_contact(&problem), Some) else {
@@ -142,7 +142,7 @@ fn contacts_of_random_cases_hold() {
                 None if bodies.piece_kinds == [PieceKind::Triangles; 2] => {
                     exact.insert(names.clone())
                 }
-                Some(exact) if !bodies.piece_kinds.contains(&PieceKind::Parts) => exact,
+                Some(exact) if !bodies.piece_kinds.contains(&PieceKind::ConvexParts) => exact,
                 _ => continue,
             };
             let count = if *exact == names { &same } else { &coarser };
@@ -217,7 +217,7 @@ fn check_pairs(
             && (it.normal.length() - 1.0).abs() <= 1e-12;
         let off_a = distance_from_feature(&query.a, time, pair.feature_a, it.witness_a);
         let off_b = distance_from_feature(&query.b, time, pair.feature_b, it.witness_b);
-        let parts = kinds.contains(&PieceKind::Parts);
+        let parts = kinds.contains(&PieceKind::ConvexParts);
         if !good || !parts && !(greater(off_a, off_b) <= rounding) {
             return Err(format!(
                 "{kinds:?}: {pair:?} at {time}: off by {off_a}, {off_b}"

@@ -222,8 +222,8 @@ fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
                 decompose_shape(&flipped, order).expect(&model.name),
             );
             assert_eq!(
-                sorted_faces(&here),
-                sorted_faces(&there),
+                sorted_faces_by_patch(&here),
+                sorted_faces_by_patch(&there),
                 "{}, {order:?}",
                 model.name
             );
@@ -243,7 +243,7 @@ fn faces_by_patch(decomposition: &Decomposition) -> Vec<&[u32]> {
         .collect()
 }
 
-fn sorted_faces(decomposition: &Decomposition) -> Vec<Vec<u32>> {
+fn sorted_faces_by_patch(decomposition: &Decomposition) -> Vec<Vec<u32>> {
     let mut all: Vec<Vec<u32>> = faces_by_patch(decomposition)
         .iter()
         .map(|f| f.to_vec())

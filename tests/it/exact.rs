@@ -157,7 +157,7 @@ fn solid_angles_give_the_same_locations() {
         };
         for p in samples(&hull(mesh), effort, 1) {
             let near = p.rounded();
-            if (0..mesh.faces.len()).any(|k| is_within_rounding(near, mesh.triangle(k))) {
+            if (0..mesh.faces.len()).any(|k| is_almost_on_triangle(near, mesh.triangle(k))) {
                 continue;
             }
             let by_angle = contains(mesh, &mesh.vertices, near);
@@ -182,7 +182,7 @@ fn solid_angles_give_the_same_locations() {
 }
 
 /// Returns true if a point is so near to a triangle that rounding may decide on which side it is.
-fn is_within_rounding(p: DVec3, triangle: [DVec3; 3]) -> bool {
+fn is_almost_on_triangle(p: DVec3, triangle: [DVec3; 3]) -> bool {
     nearest_on_triangle(p, triangle).distance(p) <= 1e-9
 }
 

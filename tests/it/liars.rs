@@ -52,7 +52,7 @@ fn check_every_breach(case: &Case, count: impl Fn(&Answer)) -> CheckResult {
         ..case.config()
     };
     let judge = Judge::new(&query, &config);
-    for bodies in query.bodies_of_all_kinds() {
+    for bodies in query.bodies_of_kind_pairs() {
         let problem = query.problem(&bodies, &config);
         for lie in ContractBreach::ALL {
             let answer = best_first().solve_with(&problem, &mut FaultyOracle::new(lie));
@@ -74,7 +74,7 @@ fn a_missing_oracle_is_reported() {
         MovingShape::still(cube(), DVec3::ZERO),
         MovingShape::moving(cube(), 3.0 * DVec3::X, -4.0 * DVec3::X, DVec3::Z),
     );
-    for bodies in query.bodies_of_all_kinds() {
+    for bodies in query.bodies_of_kind_pairs() {
         let problem = query.problem(&bodies, &Settings::DEFAULT);
         let answer =
             best_first().solve_with(&problem, &mut FaultyOracle::new(ContractBreach::GivesUp));

@@ -57,7 +57,7 @@ fn combs_of_many_teeth() {
     let teeth = if slow_tests_enabled() { 512 } else { 96 };
     let scene = combs_closing(teeth);
     let ExpectedOutcome::Hit {
-        earliest_time_of_distance: earliest,
+        first_time_within_distance: earliest,
         latest_time: latest,
     } = &scene.expected
     else {

@@ -18,13 +18,13 @@ fn cube() -> (Mesh, Polytope) {
     (shape.mesh, polytope)
 }
 
-const ALL_FACES: [u32; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
+const CUBE_FACE_INDICES: [u32; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
 fn assert_refused(lie: impl Fn(&mut Polytope), why: &str) {
     let (mesh, mut polytope) = cube();
     lie(&mut polytope);
     let claim = Claim {
-        faces: &ALL_FACES,
+        faces: &CUBE_FACE_INDICES,
         polytope: &polytope,
     };
     let law = check_polytope(&mesh, &claim);
@@ -38,7 +38,7 @@ fn assert_refused(lie: impl Fn(&mut Polytope), why: &str) {
 fn an_honest_patch_keeps_every_law() {
     let (mesh, polytope) = cube();
     let claim = Claim {
-        faces: &ALL_FACES,
+        faces: &CUBE_FACE_INDICES,
         polytope: &polytope,
     };
     assert_eq!(check_polytope(&mesh, &claim), Ok(()));
@@ -84,9 +84,12 @@ fn an_invalid_cover_is_found() {
         polytope: &polytope,
     };
     for (faces, why) in [
-        (&[&ALL_FACES[..11]][..], "face 11 is of 0"),
-        (&[&ALL_FACES[..], &ALL_FACES[3..4]], "face 3 is of 2"),
-        (&[&ALL_FACES[..], &[12]], "no face 12"),
+        (&[&CUBE_FACE_INDICES[..11]][..], "face 11 is of 0"),
+        (
+            &[&CUBE_FACE_INDICES[..], &CUBE_FACE_INDICES[3..4]],
+            "face 3 is of 2",
+        ),
+        (&[&CUBE_FACE_INDICES[..], &[12]], "no face 12"),
     ] {
         let claims: Vec<Claim<'_>> = faces.iter().map(|faces| claim(*faces)).collect();
         let law = check_partition(&mesh, &claims);
@@ -111,7 +114,7 @@ fn face_pair_as_patch(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
 
 /// Counts the pairs of faces whose hull is found to leave the solid, and checks each finding against `leaves` where
 /// that is known.
-fn count_leaving_hulls(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
+fn count_hulls_leaving_solid(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     let solid = Solid::new(mesh);
     let mut found = 0;
     let count = mesh.faces.len() as u32;
@@ -134,7 +137,7 @@ fn count_leaving_hulls(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -
 #[test]
 fn a_hull_across_the_inner_corner_of_an_l_is_found() {
     let mesh = l_prism().mesh;
-    let found = count_leaving_hulls(&mesh, |faces| {
+    let found = count_hulls_leaving_solid(&mesh, |faces| {
         let corners = faces.map(|f| mesh.triangle(f as usize));
         let all = || corners.iter().flatten();
         let in_bar = |wide: fn(&DVec3) -> f64| all().all(|p| wide(p) <= 1.0);
@@ -152,7 +155,7 @@ fn a_hull_across_the_inner_corner_of_an_l_is_found() {
 #[test]
 fn a_hull_across_the_hole_of_a_torus_is_found() {
     let mesh = torus(1.0, 0.25, 8, 5).mesh;
-    let found = count_leaving_hulls(&mesh, |faces| {
+    let found = count_hulls_leaving_solid(&mesh, |faces| {
         let [f, g] = faces.map(|f| {
             let corners = mesh.triangle(f as usize);
             (corners[0] + corners[1] + corners[2]) / 3.0

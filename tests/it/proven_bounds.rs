@@ -239,14 +239,14 @@ impl<'s> Case<'s> {
             .iter()
             .all(|&kind| courses::is_motion_kind(kind))
         {
-            self.check_motions(solver, tally)
+            self.check_single_motion_answers(solver, tally)
         } else {
             Ok(())
         }
     }
 
     /// Checks the answers of the questions for single motions, which have code of their own, by the same rules.
-    fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> CheckResult {
+    fn check_single_motion_answers(&self, solver: &mut Solver, tally: &mut Tally) -> CheckResult {
         let motion = |k: usize| -> Motion {
             let way = self.scene.trajectories[k].stretch_between(0.0, 1.0);
             way.expect("a motion").motion

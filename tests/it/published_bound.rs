@@ -34,7 +34,7 @@ fn delay_after_contact(answer: &Answer, contact: f64) -> f64 {
 fn bodies(query: &Query) -> Bodies {
     let kind = |actor: &MovingShape| {
         let kinds: Vec<PieceKind> = actor.shape.piece_kinds().collect();
-        *[PieceKind::Patches, PieceKind::Parts]
+        *[PieceKind::Patches, PieceKind::ConvexParts]
             .iter()
             .find(|kind| kinds.contains(kind))
             .expect("convex pieces")

@@ -95,7 +95,7 @@ fn check_finding(
     match (expect, judge.finding()) {
         (
             ExpectedOutcome::Hit {
-                earliest_time_of_distance: earliest,
+                first_time_within_distance: earliest,
                 latest_time: latest,
             },
             Finding::Hit { lo, hi },
@@ -173,7 +173,7 @@ fn check_answer(
     match (expect, &answer.outcome) {
         (
             ExpectedOutcome::Hit {
-                earliest_time_of_distance: earliest,
+                first_time_within_distance: earliest,
                 latest_time: latest,
             },
             Outcome::Contact { time, .. },

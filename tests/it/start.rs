@@ -1,7 +1,7 @@
 //! Tests contacts at the start, which are reported, or ignored as long as the bodies do not approach.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
-use ccd_core::rounding::MIN_APPROACH;
+use ccd_core::rounding::MIN_APPROACH_PER_ROUNDING;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{
     Body, Claim, DistanceOracle, GiveUpReason, Motion, Outcome, PiecePair, Pieces, Pose, Settings,
@@ -117,7 +117,7 @@ fn touching_and_approaching_is_a_contact_at_once() {
             |outcome| match outcome {
                 // An approach at speed 1 is visible once the distance has decreased by more than rounding.
                 Outcome::Contact { time, .. } => {
-                    (0.0..=gap + MIN_APPROACH * query.rounding()).contains(&time)
+                    (0.0..=gap + MIN_APPROACH_PER_ROUNDING * query.rounding()).contains(&time)
                 }
                 _ => false,
             },
@@ -205,7 +205,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
                 assert!(expected, "{gap} {setup:?}\n{answer:?}");
             });
             let query = at(across - 0.01 * DVec3::Z);
-            let allowed = 2.0 * MIN_APPROACH * query.rounding() / 0.01;
+            let allowed = 2.0 * MIN_APPROACH_PER_ROUNDING * query.rounding() / 0.01;
             check_outcomes(&query, &config(margin), |outcome| match outcome {
                 Outcome::Contact { time, .. } => time <= allowed,
                 _ => false,

@@ -25,7 +25,7 @@ pub enum ExpectedOutcome {
     /// The bodies touch, at a known time or within known bounds.
     Hit {
         /// The first time at which the distance falls to a given value. It bounds the time of contact from below.
-        earliest_time_of_distance: TimeOfDistance,
+        first_time_within_distance: TimeOfDistance,
         /// An upper bound of the time of contact.
         latest_time: f64,
     },
@@ -81,7 +81,7 @@ impl ExpectedOutcome {
     fn exact_hit(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         ExpectedOutcome::Hit {
             latest_time: distance(0.0),
-            earliest_time_of_distance: Box::new(distance),
+            first_time_within_distance: Box::new(distance),
         }
     }
 }

@@ -136,7 +136,7 @@ pub fn for_each_setup(
     config: &Settings,
     mut check: impl FnMut(&Bodies, BackendSetup, Answer),
 ) {
-    for bodies in query.bodies_of_all_kinds() {
+    for bodies in query.bodies_of_kind_pairs() {
         let problem = query.problem(&bodies, config);
         for backend in Backend::all().filter(|backend| backend.suits_bodies(&bodies)) {
             let setup = BackendSetup {

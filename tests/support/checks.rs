@@ -159,7 +159,7 @@ impl<'a> Judge<'a> {
         let placements = RelativeMotion::pair(self.query);
         let to_world = |p| placements[body].point_position_at(0.0, p) + placements[0].origin();
         let mesh = &[&self.query.a, &self.query.b][body].shape.mesh;
-        kind == PieceKind::Parts
+        kind == PieceKind::ConvexParts
             || kind != PieceKind::Triangles && self.referee.contains_at_start(body, point)
             || distance_to_mesh(point, mesh, to_world) <= self.query.rounding()
     }
@@ -324,7 +324,7 @@ impl ContactSide<'_> {
             PieceKind::Triangles | PieceKind::Patches | PieceKind::Hull => {
                 distance_to_mesh_feature(witness, feature, &shape.mesh, self.to_world)?
             }
-            PieceKind::Parts => {
+            PieceKind::ConvexParts => {
                 distance_to_part_feature(witness, feature, &shape.parts, self.to_world)?
             }
         };

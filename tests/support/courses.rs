@@ -72,7 +72,7 @@ fn random_trajectory(
             let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
             Box::new(Spline::new(
                 curve,
-                OrientationCurve::slerp(&random_orientations(rng))?,
+                OrientationCurve::piecewise_slerp(&random_orientations(rng))?,
             ))
         }
         "link" => last_link_trajectory(rng, reach)?,
@@ -112,8 +112,11 @@ fn bezier_trajectory(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>,
     let count = rng.random_range(1..6);
     let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
     Ok(Box::new(
-        Spline::new(curve, OrientationCurve::slerp(&random_orientations(rng))?)
-            .about(random_vector(rng, 0.3 * reach))?,
+        Spline::new(
+            curve,
+            OrientationCurve::piecewise_slerp(&random_orientations(rng))?,
+        )
+        .about(random_vector(rng, 0.3 * reach))?,
     ))
 }
 

@@ -13,7 +13,7 @@ pub use samples::{SampleCounts, samples};
 use crate::models::Mesh;
 use blend::LazyPoint;
 use ccd_core::glam::{DVec2, DVec3};
-use predicates::{PROJECTION_AXES, side, triangle_contains, turn};
+use predicates::{PROJECTION_AXES, side, triangle_contains_lazy_point, turn};
 use std::cmp::Ordering;
 
 /// The location of a point relative to a closed mesh.
@@ -41,7 +41,7 @@ pub fn side_of(triangle: [DVec3; 3], point: &ConvexCombination) -> Ordering {
 
 /// Returns true, by exact arithmetic, if a triangle with its boundary contains a point.
 pub fn triangle_contains_point(triangle: [DVec3; 3], point: &ConvexCombination) -> bool {
-    triangle_contains(triangle, &LazyPoint::new(point))
+    triangle_contains_lazy_point(triangle, &LazyPoint::new(point))
 }
 
 /// Returns true, by exact arithmetic, if a triangle has no area.
@@ -95,7 +95,7 @@ impl<'a> Solid<'a> {
             {
                 continue;
             }
-            if triangle_contains(triangle, &p) {
+            if triangle_contains_lazy_point(triangle, &p) {
                 return Location::Surface;
             }
             windings += crossing(triangle, &p);

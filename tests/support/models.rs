@@ -18,9 +18,9 @@ pub use cells::{
     divided_cube, divided_l_prism, gear, interlocking_combs, perforated_plate, slotted_plate,
     terrain,
 };
-pub use lumps::{blob, boulder, dented_cube, hollow, merged_solids};
+pub use lumps::{blob, boulder, dented_cube, disjoint_solids, hollow};
 pub use round::{icosphere, inradius, torus, torus_knot};
-pub use thread::{PITCH, nut, screw};
+pub use thread::{PITCH, nut_thread, screw};
 pub use voxels::pile;
 
 use ccd_core::glam::{DQuat, DVec3};
@@ -53,7 +53,7 @@ pub enum PieceKind {
     /// Makes one piece of each triangle.
     Triangles,
     /// Makes one piece of each known convex part.
-    Parts,
+    ConvexParts,
     /// Makes one piece of each convex patch of the surface.
     Patches,
     /// Makes one piece of the whole shape, its convex hull.
@@ -64,7 +64,7 @@ impl PieceKind {
     /// All kinds of pieces.
     pub const ALL: [PieceKind; 4] = [
         PieceKind::Triangles,
-        PieceKind::Parts,
+        PieceKind::ConvexParts,
         PieceKind::Patches,
         PieceKind::Hull,
     ];
@@ -179,7 +179,7 @@ impl Shape {
     pub fn piece_kinds(&self) -> impl Iterator<Item = PieceKind> {
         PieceKind::ALL.into_iter().filter(|kind| match kind {
             PieceKind::Triangles => !self.mesh.faces.is_empty(),
-            PieceKind::Parts => !self.parts.is_empty(),
+            PieceKind::ConvexParts => !self.parts.is_empty(),
             PieceKind::Patches => self.is_solid() && !self.mesh.faces.is_empty(),
             PieceKind::Hull => self.is_convex() && !self.mesh.faces.is_empty(),
         })
@@ -197,8 +197,8 @@ impl Shape {
     pub fn body(&self, kind: PieceKind) -> Body {
         match kind {
             PieceKind::Triangles => expect_body(self.mesh.pieces(), self.volume),
-            PieceKind::Parts => {
-                let body = expect_body(Pieces::polytopes(&self.parts), Volume::Surface);
+            PieceKind::ConvexParts => {
+                let body = expect_body(Pieces::from_polytopes(&self.parts), Volume::Surface);
                 let tree = build_hull_tree(body.pieces()).expect("a hull tree");
                 body.with_hull_tree(tree).expect("its own hull tree")
             }

@@ -64,12 +64,12 @@ pub fn check_hull_in_solid(
 /// # Errors
 /// Names the point, facet or face that is not.
 pub fn check_polytope(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
-    check_points(mesh, claim.polytope)?;
+    check_vertex_ids(mesh, claim.polytope)?;
     check_hull(claim.polytope)?;
     check_face_names(mesh, claim)
 }
 
-fn check_points(mesh: &Mesh, polytope: &Polytope) -> CheckResult {
+fn check_vertex_ids(mesh: &Mesh, polytope: &Polytope) -> CheckResult {
     if polytope.points.len() != polytope.vertex_ids.len() || polytope.radius != 0.0 {
         return Err("not as many numbers as points, or a radius".into());
     }

@@ -76,7 +76,7 @@ impl Query {
 
     /// Returns the bodies for several combinations of kinds of pieces: each kind with itself and with triangles, and
     /// the two kinds with the fewest pieces.
-    pub fn bodies_of_all_kinds(&self) -> Vec<Bodies> {
+    pub fn bodies_of_kind_pairs(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
         let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
         let both = |(ka, a): &(PieceKind, Rc<Body>), (kb, b): &(PieceKind, Rc<Body>)| {

@@ -114,7 +114,7 @@ pub fn for_each_trajectory_answer_set(
 }
 
 fn for_each_oracle_setup(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
-    for bodies in query.bodies_of_all_kinds() {
+    for bodies in query.bodies_of_kind_pairs() {
         for oracle in OracleKind::ALL
             .into_iter()
             .filter(|oracle| oracle.supports(&bodies))

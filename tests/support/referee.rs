@@ -13,7 +13,7 @@ pub(crate) use triangles::{Face, distance_squared};
 pub use triangles::{contains, nearest_on_segment, nearest_on_triangle};
 
 use crate::query::Query;
-use crate::tolerance::{STEP_FRACTION, TOUCHING_DISTANCE_FRACTION};
+use crate::tolerance::{NEAR_CONTACT_DISTANCE_FRACTION, STEP_FRACTION};
 use ccd_core::glam::DVec3;
 use triangles::PosedMesh;
 
@@ -102,7 +102,7 @@ impl<'a> Referee<'a> {
     /// Searches for the first contact of the bodies.
     pub fn finding(&self) -> Finding {
         let speed = self.distance_rate_bound();
-        let close = TOUCHING_DISTANCE_FRACTION * self.size();
+        let close = NEAR_CONTACT_DISTANCE_FRACTION * self.size();
         let (mut time, mut least) = (0.0, f64::INFINITY);
         for _ in 0..MAX_STEPS {
             let gap = self.gap(time) - self.margin;

@@ -232,7 +232,7 @@ pub fn model() -> impl Strategy<Value = Model> {
         1 => ring,
         1 => Just(Model::LPrism),
         1 => Just(Model::UHook),
-        3 => solid_model(),
+        3 => nonconvex_model(),
         1 => prop::collection::vec(triangle(), 1..24).prop_map(|triangles| Model::Soup { triangles }),
         1 => (1..12usize, -9.0..-1.0f64)
             .prop_map(|(count, width)| Model::Needles { count, width: 10.0f64.powf(width) }),
@@ -240,7 +240,7 @@ pub fn model() -> impl Strategy<Value = Model> {
 }
 
 /// Generates a non-convex solid.
-fn solid_model() -> impl Strategy<Value = Model> {
+fn nonconvex_model() -> impl Strategy<Value = Model> {
     prop_oneof![
         1 => (0.2..0.6f64, 0.1..0.9f64)
             .prop_map(|(half, deep)| Model::DentedCube { half, depth: 2.0 * half * deep }),

@@ -16,7 +16,7 @@ pub const MAX_LATENESS_FRACTION: f64 = 1e-13;
 
 /// The distance, as a fraction of a scene's size, below which the referee looks for an intersection nearby. It is 2²³
 /// times the rounding of the referee's distances, and less than any tolerance tested.
-pub const TOUCHING_DISTANCE_FRACTION: f64 = 1e-10;
+pub const NEAR_CONTACT_DISTANCE_FRACTION: f64 = 1e-10;
 
 /// The fraction of each proven step that the referee takes, less than 1 to allow for rounding.
 pub const STEP_FRACTION: f64 = 1.0 - 1e-9;

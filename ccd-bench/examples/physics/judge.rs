@@ -46,7 +46,7 @@ impl Tally {
             let pair = BodyPair {
                 world,
                 motions: moved,
-                pair,
+                body_indices: pair,
             };
             self.max_penetration_depth =
                 greater(self.max_penetration_depth, pair.penetration_depth(duration));
@@ -60,7 +60,7 @@ impl Tally {
 struct BodyPair<'w> {
     world: &'w World,
     motions: &'w [StoppedMotion],
-    pair: [usize; 2],
+    body_indices: [usize; 2],
 }
 
 impl BodyPair<'_> {
@@ -81,7 +81,7 @@ impl BodyPair<'_> {
         if self.overlaps(0.0) || self.overlaps(duration) {
             return false;
         }
-        let [a, b] = self.pair.map(|k| self.motions[k].0);
+        let [a, b] = self.body_indices.map(|k| self.motions[k].0);
         let travel = (a.velocity() - b.velocity()).length() * duration;
         let turn = (a.spin().length() + b.spin().length()) * duration;
         let samples = 2.0 * (travel + turn) / self.world.min_thickness;
@@ -90,13 +90,13 @@ impl BodyPair<'_> {
     }
 
     fn poses(&self, time: f64) -> [parry3d_f64::math::Pose; 2] {
-        self.pair.map(|k| {
+        self.body_indices.map(|k| {
             let (motion, stop) = &self.motions[k];
             to_rapier_pose(motion.pose(lesser(time, *stop)))
         })
     }
 
     fn shapes(&self) -> [&dyn parry3d_f64::shape::Shape; 2] {
-        self.pair.map(|k| &*self.world.bodies[k].shape)
+        self.body_indices.map(|k| &*self.world.bodies[k].shape)
     }
 }

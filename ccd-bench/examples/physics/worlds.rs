@@ -151,7 +151,7 @@ fn create_bunny_world(ccd: bool) -> Result<World> {
             return;
         }
         for index in BOX_SIDE_COUNT..world.bodies.len() {
-            let place = bunny_position(index - BOX_SIDE_COUNT) + 0.05 * world.random_vector();
+            let place = bunny_start_position(index - BOX_SIDE_COUNT) + 0.05 * world.random_vector();
             let towards = (place - Vector::new(0.0, 0.0, 0.4)).normalize();
             let velocity = -40.0 * towards + 5.0 * world.random_vector();
             world.throw_body(index, place, velocity);
@@ -171,12 +171,12 @@ fn create_bunny_world(ccd: bool) -> Result<World> {
     let shape = SharedShape::convex_decomposition(&vertices, mesh.faces());
     let body = body(&*shape, &Options::default())?.body().clone();
     for number in 0..12 {
-        world.add_dynamic_body(bunny_position(number), shape.clone(), body.clone());
+        world.add_dynamic_body(bunny_start_position(number), shape.clone(), body.clone());
     }
     Ok(world)
 }
 
-fn bunny_position(number: usize) -> Vector {
+fn bunny_start_position(number: usize) -> Vector {
     let [x, y] = [number % 3, number / 3].map(|k| 0.8 * k as f64);
     Vector::new(x - 0.8, y - 1.2, 1.5)
 }

@@ -10,7 +10,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use ccd_core::Body;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
-use rigid_ccd::batch::{Bodies, ScheduleKind};
+use rigid_ccd::batch::{BodyPair, ScheduleKind};
 use rigid_ccd::command::{OutputError, RunOutcome};
 use std::cell::OnceCell;
 use std::io::{self, Write};
@@ -39,7 +39,7 @@ pub(super) fn run(args: &AnswerArgs) -> Result<RunOutcome> {
     exit_when_parent_ends();
     let name = &args.method;
     let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
-    let (meshes, bodies) = (args.meshes.read()?, OnceCell::new());
+    let (meshes, bodies) = (args.meshes.read_meshes()?, OnceCell::new());
     match solver(method, &meshes, args.margin, &bodies) {
         Ok(mut solver) => serve_standard_streams(solver.as_mut(), args.tolerance)?,
         Err(refusal) => {
@@ -70,7 +70,7 @@ fn solver<'b>(
             if kind.schedule == ScheduleKind::Naive && pairs > MAX_PAIRS_FOR_NAIVE_SCHEDULE {
                 bail!("{pairs} pairs are too many");
             }
-            Box::new(ProjectSolver::new(kind, Bodies { a, b }, margin))
+            Box::new(ProjectSolver::new(kind, BodyPair { a, b }, margin))
         }
         Method::Rival(kind) => kind.solver(a, b),
         Method::Peer(kind) => kind.solver(a, b)?,

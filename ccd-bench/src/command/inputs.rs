@@ -31,7 +31,7 @@ impl MeshPairArgs {
     ///
     /// # Errors
     /// If a file cannot be read, or is no mesh.
-    pub(super) fn read(&self) -> Result<[TriangleMesh; 2]> {
+    pub(super) fn read_meshes(&self) -> Result<[TriangleMesh; 2]> {
         let read = |path, option| TriangleMesh::read(path).context(option);
         Ok([read(&self.a, "--a")?, read(&self.b, "--b")?])
     }

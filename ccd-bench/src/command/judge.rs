@@ -50,7 +50,7 @@ const VERDICT_COLUMNS: [&str; 7] = ["id", "status", "lo", "hi", "verdict", "answ
 pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
     let name = &args.method;
     let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
-    let meshes = args.input.meshes.read()?;
+    let meshes = args.input.meshes.read_meshes()?;
     let surfaces = meshes.each_ref().map(Surface::new);
     let referee = Referee::new(&surfaces[0], &surfaces[1]);
     let setting = GuardedMethodSettings::new(method, args.tolerance);

@@ -69,7 +69,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let (mut rows, length) = open_motions(&input.motions)?;
-    let [a, b] = input.meshes.read()?.each_ref().map(Surface::new);
+    let [a, b] = input.meshes.read_meshes()?.each_ref().map(Surface::new);
     let referee = Referee::new(&a, &b);
     let mut table = TableWriter::create(&args.out, &TRUTH_COLUMNS)?;
     let progress = Progress::for_rows(length, args.quiet);

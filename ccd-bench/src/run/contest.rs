@@ -88,7 +88,7 @@ impl<'s> PreparedScene<'s> {
 
     /// Returns the indices of the first `most` queries, in the order in which they are asked. The rows are spread
     /// evenly, and so is any number of the first ones.
-    pub fn row_order(&self, most: usize) -> Vec<usize> {
+    pub fn spread_row_indices(&self, most: usize) -> Vec<usize> {
         let count = self.scene.queries.len();
         let stride = (1..=count)
             .rev()
@@ -116,7 +116,7 @@ impl<'s> PreparedScene<'s> {
         } else {
             &self.constant_velocity_rows
         };
-        let order = self.row_order(allowance.max_rows);
+        let order = self.spread_row_indices(allowance.max_rows);
         let asked_for = order.iter().map(|&row| &rows[row].query);
         let prepared =
             session.run_warm_up_queries(asked_for, tolerance, allowance.preparation_limit);

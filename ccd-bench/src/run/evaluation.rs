@@ -5,7 +5,7 @@ use crate::method::{Method, PAPER_TOLERANCE};
 use crate::run::contest::{
     Journal, MeasurementLimits, PreparedScene, Session, program_fingerprint,
 };
-use crate::scene::{ModelCache, PieceKind, Scene, SceneBody, SceneDescription};
+use crate::scene::{ModelBodyCache, PieceKind, Scene, SceneBody, SceneDescription};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, TotalWork};
@@ -47,7 +47,7 @@ impl MeasurementPlan {
     /// # Errors
     /// If a scene cannot be made.
     pub fn load_measurements(&self) -> Result<Evaluation> {
-        let mut models = ModelCache::new(self.model_folder.clone());
+        let mut models = ModelBodyCache::new(self.model_folder.clone());
         let scenes = self
             .scene_descriptions
             .iter()
@@ -67,7 +67,7 @@ impl MeasurementPlan {
             self.programs.check_script_starts(method)?;
         }
         let mut journal = Journal::open(&self.folder, &self.fingerprint())?;
-        let mut models = ModelCache::new(self.model_folder.clone());
+        let mut models = ModelBodyCache::new(self.model_folder.clone());
         let scenes = self.scenes(&mut models)?;
         let cells: usize = self
             .methods
@@ -121,7 +121,7 @@ impl MeasurementPlan {
         Ok(())
     }
 
-    fn scenes(&self, models: &mut ModelCache) -> Result<Vec<Scene>> {
+    fn scenes(&self, models: &mut ModelBodyCache) -> Result<Vec<Scene>> {
         let progress = Progress::new(TotalWork::Steps(self.scene_descriptions.len()));
         let make = |listing: &SceneDescription| {
             progress.set_message(&format!("making {}", listing.name));

@@ -1,6 +1,6 @@
 //! Exports scenes as files that other programs can read.
 
-use crate::scene::{ModelCache, SceneDescription};
+use crate::scene::{ModelBodyCache, SceneDescription};
 use anyhow::{Context, Result};
 use ccd_decomp::write_obj;
 use rigid_ccd::table::motions;
@@ -12,7 +12,7 @@ use std::{fs, io};
 /// # Errors
 /// If a scene cannot be made or a file cannot be written.
 pub fn export(listings: &[SceneDescription], models: Option<PathBuf>, folder: &Path) -> Result<()> {
-    let mut models = ModelCache::new(models);
+    let mut models = ModelBodyCache::new(models);
     for listing in listings {
         let scene = listing.make_scene(&mut models)?;
         let directory = folder.join(&scene.name);

@@ -111,7 +111,7 @@ impl Trial {
 
 impl MeasurementCell {
     /// Returns true if some contact was reported too late, or not at all.
-    pub fn is_unsafe(&self) -> bool {
+    pub fn has_unsafe_answers(&self) -> bool {
         self.late + self.missed > 0
     }
 }

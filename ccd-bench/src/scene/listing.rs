@@ -1,6 +1,6 @@
 //! Lists the scenes: their models, and their rows in tables of motions.
 
-use super::{ModelCache, Scene};
+use super::{ModelBodyCache, Scene};
 use crate::scene::model::Model;
 use anyhow::{Context, Result, anyhow, bail};
 use clap::ValueEnum;
@@ -59,7 +59,7 @@ impl SceneDescription {
     ///
     /// # Errors
     /// If the data names something unknown, or a model's file is no mesh that a body can be made of.
-    pub fn make_scene(&self, models: &mut ModelCache) -> Result<Scene> {
+    pub fn make_scene(&self, models: &mut ModelBodyCache) -> Result<Scene> {
         let motions = || format!("scene {}: {}", self.name, self.motions);
         Ok(Scene {
             name: self.name.clone(),

@@ -74,7 +74,7 @@ impl ChartData<'_> {
     pub fn is_unsafe(&self, method: &str) -> bool {
         self.cells
             .iter()
-            .any(|cell| cell.method == method && cell.is_unsafe())
+            .any(|cell| cell.method == method && cell.has_unsafe_answers())
     }
 
     /// Returns the scenes for which there are measurements, in display order.
@@ -118,7 +118,7 @@ impl<'a> ChartedMethod<'a> {
     /// which only tables show. An unknown name counts as a peer library.
     pub fn from_name(name: &'a str) -> Option<Self> {
         let family = match Method::from_name(name) {
-            Some(method) if method.is_default_with_other_pieces() => return None,
+            Some(method) if method.has_non_default_pieces() => return None,
             Some(Method::ThisProject(..)) => MethodFamily::ThisProject,
             Some(Method::Rival(_)) => MethodFamily::Rival,
             Some(Method::Peer(_) | Method::Script(_)) | None => MethodFamily::Peer,

@@ -20,7 +20,7 @@ pub struct SceneAnimations {
 }
 
 /// The maximum number of views of a scene: first of motions with a contact, then of other motions.
-const MAX_VIEWS_PER_SCENE: [usize; 2] = [6, 2];
+const MAX_VIEWS_BY_KIND: [usize; 2] = [6, 2];
 
 impl SceneAnimations {
     /// Creates views of the first motions with a contact in each scene, and of the first other motions.
@@ -54,7 +54,7 @@ impl SceneAnimations {
         for query in &scene.queries {
             let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;
             let kind = usize::from(!matches!(answer.outcome, Outcome::Contact { .. }));
-            if found[kind].len() < MAX_VIEWS_PER_SCENE[kind] {
+            if found[kind].len() < MAX_VIEWS_BY_KIND[kind] {
                 let course = Movements::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
                 let row = ResultRow::new(&course, answer, 0.0, bodies.clearance_and_excess(None));
@@ -64,7 +64,7 @@ impl SceneAnimations {
                 }
                 found[kind].push(view);
             }
-            if found.each_ref().map(Vec::len) == MAX_VIEWS_PER_SCENE {
+            if found.each_ref().map(Vec::len) == MAX_VIEWS_BY_KIND {
                 break;
             }
         }

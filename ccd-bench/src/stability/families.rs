@@ -8,7 +8,7 @@ mod sizes;
 mod times;
 mod turning;
 
-use super::family::{BodyMotion, Family, FamilyStep, contact_at};
+use super::family::{BodyMotion, Family, FamilyScene, contact_at};
 use super::shapes::{cuboid, slab};
 use crate::truth::Truth;
 use anyhow::Result;
@@ -32,12 +32,12 @@ pub fn families() -> Vec<Family> {
 }
 
 /// Creates a family with the given name and scenes; its parameter has no description and no values yet.
-fn family(name: &'static str, make: fn(f64) -> Result<FamilyStep>) -> Family {
+fn family(name: &'static str, make: fn(f64) -> Result<FamilyScene>) -> Family {
     Family {
         name,
         parameter: "",
         parameter_values: Vec::new(),
-        make_step: make,
+        make_scene: make,
     }
 }
 
@@ -52,8 +52,8 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 }
 
 /// Returns the family step in which a body falls onto a slab, and meets it at `time`, which is known to within 1e-14.
-fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
-    let step = FamilyStep::new(mesh, slab()?);
+fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyScene> {
+    let step = FamilyScene::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
     step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB, expected)
 }
@@ -73,8 +73,8 @@ fn rod_angle_at_wall(wall: f64) -> f64 {
 }
 
 /// Returns the family step in which a rod rotates at the origin, next to a wall whose near side is at x = `wall`.
-fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyStep> {
-    let step = FamilyStep::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
+fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyScene> {
+    let step = FamilyScene::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
     let beside = BodyMotion::resting((wall + 1.0) * DVec3::X);
     step.with_query_and_rotations(turning, beside, expected)
 }

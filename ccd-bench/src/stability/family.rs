@@ -17,12 +17,12 @@ pub struct Family {
     /// The values of the parameter, the easiest first.
     pub parameter_values: Vec<f64>,
     /// The function that makes the scene for one value of the parameter.
-    pub make_step: fn(f64) -> Result<FamilyStep>,
+    pub make_scene: fn(f64) -> Result<FamilyScene>,
 }
 
 /// The scene of a family for one value of its parameter: two meshes, and queries with known answers.
 #[derive(Clone, Debug)]
-pub struct FamilyStep {
+pub struct FamilyScene {
     /// The meshes of body A and body B.
     pub meshes: [TriangleMesh; 2],
     /// The tolerance of the queries, in the scene's unit of length.
@@ -144,10 +144,10 @@ impl BodyMotion {
     }
 }
 
-impl FamilyStep {
+impl FamilyScene {
     /// Creates a step for two meshes, with the default tolerance, no margin, duration 1 and no queries.
     pub(super) fn new(a: TriangleMesh, b: TriangleMesh) -> Self {
-        FamilyStep {
+        FamilyScene {
             meshes: [a, b],
             tolerance: TOLERANCE,
             margin: 0.0,
@@ -158,7 +158,7 @@ impl FamilyStep {
 
     /// Returns the same step with another tolerance.
     pub(super) fn with_tolerance(self, tolerance: f64) -> Self {
-        FamilyStep { tolerance, ..self }
+        FamilyScene { tolerance, ..self }
     }
 
     /// Adds a query with exactly these motions; the expected times are fractions of the duration.

@@ -1,7 +1,7 @@
 //! Finds, for each family and method of a survey, the worst answers and the first wrong one.
 
 use super::family::Family;
-use super::survey::step_name;
+use super::survey::scene_name;
 use crate::method::Method;
 use crate::run::contest::{Journal, Verdict};
 use clap::ValueEnum;
@@ -28,9 +28,9 @@ pub(super) struct SolvedRange {
     /// The share of the family's steps, from the easiest, before the first wrong answer.
     pub(super) solved_fraction: f64,
     /// The easiest step with a wrong answer; `None` if all answers are right.
-    pub(super) first_failed_step: Option<StepVerdict>,
+    pub(super) first_failure: Option<StepVerdict>,
     /// The easiest step that has the method's worst verdict in the family; `None` if all answers are right.
-    pub(super) first_worst_step: Option<StepVerdict>,
+    pub(super) first_worst_verdict: Option<StepVerdict>,
 }
 
 impl<'j> Findings<'j> {
@@ -45,7 +45,7 @@ impl<'j> Findings<'j> {
         }
         let (steps, asked): (HashSet<&str>, HashSet<&str>) = worst.keys().copied().unzip();
         let asked_about = |mut family: Family| {
-            let name = |value: f64| step_name(&family, value);
+            let name = |value: f64| scene_name(&family, value);
             let values = family.parameter_values.iter().copied();
             family.parameter_values = values
                 .filter(|&v| steps.contains(name(v).as_str()))
@@ -69,7 +69,7 @@ impl<'j> Findings<'j> {
     /// Returns how many steps of a family a method solves; `None` if the journal has no answers of the method there.
     pub(super) fn solved_range(&self, family: &Family, method: &str) -> Option<SolvedRange> {
         let answer = |&value: &f64| {
-            let step = step_name(family, value);
+            let step = scene_name(family, value);
             Some((value, *self.worst_verdicts.get(&(step.as_str(), method))?))
         };
         let asked: Vec<StepVerdict> = family.parameter_values.iter().filter_map(answer).collect();
@@ -79,8 +79,8 @@ impl<'j> Findings<'j> {
         let worst = asked.iter().find(|step| step.1 == most && !is_right(step));
         Some(SolvedRange {
             solved_fraction: right as f64 / family.parameter_values.len() as f64,
-            first_failed_step: asked.get(right).copied(),
-            first_worst_step: worst.copied(),
+            first_failure: asked.get(right).copied(),
+            first_worst_verdict: worst.copied(),
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Judges a method's answer to a query against the exact answer of the family.
 
-use super::family::{ExactCase, FamilyStep};
+use super::family::{ExactCase, FamilyScene};
 use crate::method::guarded::QueryOutcome;
 use crate::run::contest::{self, Judgement};
 use crate::truth::{Referee, Truth};
@@ -8,7 +8,7 @@ use crate::truth::{Referee, Truth};
 /// Judges a method's answer within the tolerance of one step of a family, or within a larger one that the method
 /// states. The referee measures distances; it is not asked for the answer.
 pub fn judge(
-    step: &FamilyStep,
+    step: &FamilyScene,
     case: &ExactCase,
     referee: &Referee<'_>,
     outcome: &QueryOutcome,

@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use super::findings::Findings;
-use super::survey::step_name;
+use super::survey::scene_name;
 use crate::run::contest::Verdict;
 use crate::run::measured::{MeasurementCell, Trial};
 use crate::show::chart::{
@@ -47,7 +47,7 @@ pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
     for family in &findings.families {
         let limit = |method: &String| match findings.solved_range(family, method) {
             None => "not asked".to_owned(),
-            Some(reach) => (reach.first_failed_step).map_or(String::new(), |(value, verdict)| {
+            Some(reach) => (reach.first_failure).map_or(String::new(), |(value, verdict)| {
                 format!("{value:e} {verdict}")
             }),
         };
@@ -62,7 +62,7 @@ pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
 pub fn solved_range_heat_map(findings: &Findings<'_>) -> HeatMap {
     make_heat_map(findings, SOLVED_RANGE_TEXTS, |family, method| {
         let reach = findings.solved_range(family, method)?;
-        let worst = reach.first_worst_step;
+        let worst = reach.first_worst_verdict;
         Some(HeatCell::solved_range_cell(
             worst.map_or(Verdict::Right, |(_, verdict)| verdict),
             reach.solved_fraction,
@@ -84,7 +84,7 @@ pub fn cost_growth_heat_map(findings: &Findings<'_>) -> HeatMap {
         cells.filter(|cell| cell.cut_off == 0).map(cost).collect();
     make_heat_map(findings, COST_GROWTH_TEXTS, |family, method| {
         let costs = family.parameter_values.iter().filter_map(|&value| {
-            let key = (step_name(family, value), method.to_owned());
+            let key = (scene_name(family, value), method.to_owned());
             costs.get(&key).copied()
         });
         let costs: Vec<f64> = costs.collect();
@@ -106,7 +106,7 @@ fn make_heat_map(
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();
     let row = |family: &Family| HeatRow {
         name: family.name.to_owned(),
-        parameter: family.parameter.to_owned(),
+        parameter_description: family.parameter.to_owned(),
         cells: methods.iter().map(|method| cell(family, method)).collect(),
     };
     HeatMap {

@@ -1,7 +1,7 @@
 //! Runs methods on all steps of the families, each in a process that can be stopped, and records the answers in a
 //! journal.
 
-use super::family::{Family, FamilyStep};
+use super::family::{Family, FamilyScene};
 use super::judge::judge;
 use crate::method::Method;
 use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodPrograms, QueryOutcome};
@@ -42,7 +42,7 @@ const PREPARATION_TIME_LIMIT: Duration = Duration::from_secs(20);
 const TIMEOUTS_BEFORE_SKIPPING: usize = 2;
 
 /// Returns the name of a step in the tables: the family and the parameter value.
-pub(super) fn step_name(family: &Family, value: f64) -> String {
+pub(super) fn scene_name(family: &Family, value: f64) -> String {
     format!("{} {value:e}", family.name)
 }
 
@@ -84,10 +84,10 @@ impl Survey {
     ) -> Result<()> {
         let mut stopped = vec![0; self.methods.len()];
         for value in self.selected_values(family) {
-            let name = step_name(family, value);
-            let step = (family.make_step)(value).with_context(|| name.clone())?;
-            let ready = PreparedStep {
-                step: &step,
+            let name = scene_name(family, value);
+            let step = (family.make_scene)(value).with_context(|| name.clone())?;
+            let ready = PreparedFamilyScene {
+                scene: &step,
                 name: &name,
                 surfaces: step.meshes.each_ref().map(Surface::new),
             };
@@ -115,16 +115,16 @@ impl Survey {
 }
 
 /// A step with its name and the referee's surfaces of its meshes.
-struct PreparedStep<'s> {
-    step: &'s FamilyStep,
+struct PreparedFamilyScene<'s> {
+    scene: &'s FamilyScene,
     name: &'s str,
     surfaces: [Surface; 2],
 }
 
-impl PreparedStep<'_> {
+impl PreparedFamilyScene<'_> {
     /// Runs a method on all queries of the step; stops after the first query that exceeds the time limit.
     fn run_queries(&self, method: Method, programs: &MethodPrograms) -> io::Result<Vec<Trial>> {
-        let step = self.step;
+        let step = self.scene;
         let setting = GuardedMethodSettings {
             margin: step.margin,
             preparation_limit: PREPARATION_TIME_LIMIT,
@@ -173,7 +173,7 @@ impl PreparedStep<'_> {
         };
         let raised = reply
             .tolerance
-            .filter(|tolerance| *tolerance > self.step.tolerance);
+            .filter(|tolerance| *tolerance > self.scene.tolerance);
         let raised = raised.map(|tolerance| format!("tolerance raised to {tolerance:e}"));
         let parts: Vec<String> = reply.reason.clone().into_iter().chain(raised).collect();
         parts.join("; ")

@@ -76,7 +76,7 @@ impl IntervalMatrix {
     /// Returns the rotation matrix of a constant angular velocity after a time, for any number of turns.
     ///
     /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
-    pub(super) fn from_angular_velocity(spin: DVec3, time: f64) -> Self {
+    pub(super) fn rotation_after(spin: DVec3, time: f64) -> Self {
         let omega = IntervalVector::from(spin);
         let square = omega.0[0].sqr() + omega.0[1].sqr() + omega.0[2].sqr();
         let rate = square.sqrt();

@@ -148,7 +148,7 @@ impl<'a> Search<'a> {
             }
             self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
-            let Some(travel) = snapshot.travel_unless_apart(a, b) else {
+            let Some(travel) = snapshot.travel_bound_unless_apart(a, b) else {
                 continue;
             };
             let may_meet = match self.open(pair) {
@@ -250,7 +250,7 @@ impl<'a> Search<'a> {
             }
             self.remaining_budget -= 1;
             let [a, b] = self.nodes(pair);
-            if snapshot.travel_unless_apart(a, b).is_none() {
+            if snapshot.travel_bound_unless_apart(a, b).is_none() {
                 continue;
             }
             match self.open(pair) {

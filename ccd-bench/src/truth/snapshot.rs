@@ -97,7 +97,7 @@ impl LinearizedMotions {
             linearization_error_bound: motion_slack,
             gap_error_bound: motion_slack * ROUND_UP_FACTOR
                 + errors * ROUND_UP_FACTOR
-                + GAP_ROUNDING_COUNT * UNIT_ROUNDOFF * sizes,
+                + MAX_GAP_ROUNDING_COUNT * UNIT_ROUNDOFF * sizes,
             extent_matrices_along_b: ExtentMatrices {
                 a: larger_of_sum_and_difference(r, w_a),
                 b: larger_of_sum_and_difference(DMat3::IDENTITY, w_b),
@@ -132,7 +132,7 @@ impl LinearizedMotions {
 
     /// Returns a bound on the relative displacement of two boxes; `None` if one of their six face normals separates them
     /// over the whole interval.
-    pub(super) fn travel_unless_apart(&self, a: &Node, b: &Node) -> Option<f64> {
+    pub(super) fn travel_bound_unless_apart(&self, a: &Node, b: &Node) -> Option<f64> {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half_duration
             * (self.velocity_map_a.apply(a.centre) - self.velocity_map_b.apply(b.centre));
@@ -228,14 +228,14 @@ impl AffineMap {
             nan_propagating_max(longest, row.length())
         });
         let coordinate = row * farthest + offset.length();
-        let widths = width * SQRT_3 * farthest + offset_width;
+        let widths = width * SQRT_3_UPPER_BOUND * farthest + offset_width;
         AffineMap {
             matrix: DMat3::from_cols(rows[0], rows[1], rows[2]).transpose(),
             offset,
-            image_error_bound: SQRT_3
+            image_error_bound: SQRT_3_UPPER_BOUND
                 * (widths + 5.0 * UNIT_ROUNDOFF * coordinate)
                 * ROUND_UP_FACTOR,
-            image_length_bound: SQRT_3 * coordinate * ROUND_UP_FACTOR,
+            image_length_bound: SQRT_3_UPPER_BOUND * coordinate * ROUND_UP_FACTOR,
         }
     }
 
@@ -280,6 +280,6 @@ impl IntervalMaps {
 /// are the sum of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its difference
 /// (1); n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each side, and twice
 /// as many along A's axes, which are rounded themselves. The total is doubled.
-const GAP_ROUNDING_COUNT: f64 = 96.0;
+const MAX_GAP_ROUNDING_COUNT: f64 = 96.0;
 /// The square root of 3, rounded up.
-const SQRT_3: f64 = 1.732_050_807_568_878;
+const SQRT_3_UPPER_BOUND: f64 = 1.732_050_807_568_878;

@@ -70,8 +70,7 @@ impl EnclosedMotion {
 
     pub(super) fn placement_at(&self, time: f64) -> Placement {
         Placement {
-            rotation: &IntervalMatrix::from_angular_velocity(self.spin_floats, time)
-                * &self.orientation,
+            rotation: &IntervalMatrix::rotation_after(self.spin_floats, time) * &self.orientation,
             centre: self.start_centre + self.velocity.scaled(point_interval(time)),
         }
     }

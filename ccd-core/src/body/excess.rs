@@ -1,7 +1,7 @@
 //! The distance by which a body may exceed the shape that it represents.
 
 use super::Body;
-use crate::error::{InputError, check_length};
+use crate::error::{InputError, check_shape_length};
 
 impl Body {
     /// Declares the body an enclosure of a shape, which it exceeds by at most `excess`.
@@ -26,7 +26,7 @@ impl Body {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn with_excess(self, excess: f64) -> Result<Self, InputError> {
-        check_length("excess", excess)?;
+        check_shape_length("excess", excess)?;
         Ok(Body { excess, ..self })
     }
 
@@ -49,7 +49,7 @@ impl ExcessSum {
     }
 
     /// Returns an upper bound of the distance of two shapes whose enclosing bodies overlap.
-    pub(crate) fn shape_distance_bound_at_overlap(self) -> f64 {
+    pub(crate) fn upper_bound_at_overlap(self) -> f64 {
         self.0
     }
 

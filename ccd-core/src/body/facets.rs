@@ -6,21 +6,21 @@ use super::polytope::{Face, FacetOrigin};
 /// from outside. The mesh's faces on them are included.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
-    pub(crate) origins: &'a [FacetOrigin],
-    /// The end of each facet's corners in `corners`; the first facet starts at `corners_start`.
+    pub(crate) facet_origins: &'a [FacetOrigin],
+    /// The end of each facet's corners in `corners`; the first facet starts at `corners_start_index`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
-    pub(crate) corners_start: u32,
+    pub(crate) corners_start_index: u32,
     pub(crate) faces: &'a [Face],
 }
 
 impl<'a> Facets<'a> {
     /// An empty list of facets, for a piece whose facets are unknown.
     pub const NONE: Facets<'static> = Facets {
-        origins: &[],
+        facet_origins: &[],
         ends: &[],
         corners: &[],
-        corners_start: 0,
+        corners_start_index: 0,
         faces: &[],
     };
 
@@ -43,7 +43,7 @@ impl<'a> Facets<'a> {
     /// Returns the indices of the corners of facet `k` among the piece's points.
     pub(crate) fn get(&self, k: usize) -> &'a [u32] {
         let start = if k == 0 {
-            self.corners_start
+            self.corners_start_index
         } else {
             self.ends[k - 1]
         };
@@ -52,7 +52,7 @@ impl<'a> Facets<'a> {
 
     /// Returns, for each facet, its origin in the mesh: a face, several faces, or none.
     pub fn origins(&self) -> &'a [FacetOrigin] {
-        self.origins
+        self.facet_origins
     }
 }
 

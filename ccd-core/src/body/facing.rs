@@ -106,7 +106,7 @@ impl Body {
         };
         let (ahead, behind) = (found.sum_ahead, found.sum_ahead + found.sum_at_start);
         let ahead_is_out = match ahead.abs().cmp(&behind.abs()) {
-            _ if found.triangles_at_start == 0 => return Facing::Unclear,
+            _ if found.triangle_count_at_start == 0 => return Facing::Unclear,
             std::cmp::Ordering::Equal => return Facing::NoOutwardSide,
             std::cmp::Ordering::Less => true,
             std::cmp::Ordering::Greater => false,
@@ -121,7 +121,7 @@ impl Body {
     /// Returns whether the winding number of the body's surface about a point is certainly not 0.
     fn has_nonzero_winding(&self, point: DVec3) -> bool {
         sum_signed_crossings(self.tree(), self.pieces(), point, 0.0)
-            .is_some_and(|found| found.triangles_at_start == 0 && found.sum_ahead != 0)
+            .is_some_and(|found| found.triangle_count_at_start == 0 && found.sum_ahead != 0)
     }
 }
 

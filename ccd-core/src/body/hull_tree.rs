@@ -59,7 +59,7 @@ struct Hulls {
     /// The end of each hull's facets in `classes`.
     facet_class_ends: Vec<u32>,
     /// For each node, whether all pieces below it have the same rounding radius.
-    has_uniform_radius: Vec<bool>,
+    uniform_radius_by_node: Vec<bool>,
     /// Half the diagonal of each hull's bounding box, rounding included.
     half_diagonals: Vec<f64>,
     /// The facets that meet in each point of all hulls, as indices among the facets of the point's hull.
@@ -98,15 +98,15 @@ impl HullTree {
     pub fn facet_class_at(&self, node: u32, point: &ConvexCombination) -> FacetClass {
         let at = node as usize;
         let support = point.point_indices();
-        if support.is_empty() || !self.hulls.has_uniform_radius[at] {
+        if support.is_empty() || !self.hulls.uniform_radius_by_node[at] {
             return FacetClass::Free;
         }
         if support.len() == 1 {
-            return FacetClass::Original;
+            return FacetClass::OnMesh;
         }
         let inside = match self.hierarchy.nodes()[at] {
-            HierarchyNode::Leaf(_) if self.facet_classes(node).is_empty() => FacetClass::Original,
-            HierarchyNode::Leaf(_) => FacetClass::Contained,
+            HierarchyNode::Leaf(_) if self.facet_classes(node).is_empty() => FacetClass::OnMesh,
+            HierarchyNode::Leaf(_) => FacetClass::InsideSolid,
             HierarchyNode::Inner(..) => FacetClass::Free,
         };
         let (first, others) = (self.hulls.facets_by_point(at, support[0]), &support[1..]);

@@ -96,7 +96,7 @@ impl<'a> Piece<'a> {
     /// Returns the mesh's triangles on the piece, each with the number of its face in the mesh. Polygons become fans
     /// about their first corner.
     pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
-        let facets = self.facets.origins.iter().zip(self.facets.iter());
+        let facets = self.facets.facet_origins.iter().zip(self.facets.iter());
         let fans = facets.flat_map(|(origin, corners)| {
             let id = match origin {
                 FacetOrigin::Face(id) => Some(*id),

@@ -75,7 +75,7 @@ impl Pieces {
         if faces.len() != face_ids.len() {
             return Err(InputError::FaceIdCountMismatch {
                 faces: faces.len(),
-                ids: face_ids.len(),
+                id_count: face_ids.len(),
             });
         }
         if faces.len() >= MAX_BODY_POINTS / 3 {
@@ -303,11 +303,11 @@ impl Polytopes {
     fn facets_of(&self, piece: usize) -> Facets<'_> {
         let facets = range_from_ends(&self.facet_ends, piece);
         Facets {
-            corners_start: match facets.start {
+            corners_start_index: match facets.start {
                 0 => 0,
                 start => self.corner_ends[start - 1],
             },
-            origins: &self.origins[facets.clone()],
+            facet_origins: &self.origins[facets.clone()],
             ends: &self.corner_ends[facets],
             corners: &self.corners,
             faces: &self.faces[range_from_ends(&self.face_ends, piece)],

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// A convex polytope, as input of [`Pieces::polytopes`](crate::Pieces::polytopes).
+/// A convex polytope, as input of [`Pieces::from_polytopes`](crate::Pieces::from_polytopes).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Polytope {

@@ -3,7 +3,7 @@
 use super::pieces::Pieces;
 use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::{Body, Volume};
-use crate::error::{InputError, check_length};
+use crate::error::{InputError, check_shape_length};
 use glam::DVec3;
 
 impl Body {
@@ -13,7 +13,7 @@ impl Body {
     /// [`InputError::OutOfRange`] for a radius that is not from 0 to
     /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn sphere(radius: f64) -> Result<Self, InputError> {
-        check_length("radius", radius)?;
+        check_shape_length("radius", radius)?;
         Body::polytope(Polytope {
             points: vec![DVec3::ZERO],
             radius,
@@ -27,8 +27,8 @@ impl Body {
     /// [`InputError::OutOfRange`] for a length that is not from 0 to
     /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn capsule(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        check_length("radius", radius)?;
-        check_length("half height", half_height)?;
+        check_shape_length("radius", radius)?;
+        check_shape_length("half height", half_height)?;
         Body::polytope(Polytope {
             points: vec![-half_height * DVec3::Z, half_height * DVec3::Z],
             radius,
@@ -50,7 +50,7 @@ impl Body {
             .into_iter()
             .zip(half_extents)
         {
-            check_length(what, length)?;
+            check_shape_length(what, length)?;
         }
         let half_extents = DVec3::from_array(half_extents);
         let sign = |corner: u32, bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
@@ -80,8 +80,8 @@ impl Body {
     /// Creates a solid body of one convex piece, given as a polytope in the body's frame.
     ///
     /// # Errors
-    /// The errors of [`Pieces::polytopes`].
+    /// The errors of [`Pieces::from_polytopes`].
     pub fn polytope(polytope: Polytope) -> Result<Self, InputError> {
-        Body::new(&Pieces::polytopes(&[polytope])?, Volume::Solid)
+        Body::new(&Pieces::from_polytopes(&[polytope])?, Volume::Solid)
     }
 }

@@ -4,8 +4,8 @@ use super::facets::fan_triangles;
 use super::pieces::Pieces;
 use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::{Body, Volume};
-use crate::error::{InputError, check, check_length};
-use crate::limits::{DEFAULT_EXCESS_SHARE, MAX_CIRCLE_CORNERS, MAX_COORDINATE};
+use crate::error::{InputError, check, check_shape_length};
+use crate::limits::{DEFAULT_RADIUS_EXCESS_SHARE, MAX_CIRCLE_CORNERS, MAX_COORDINATE};
 use crate::math::order::{greater, lesser};
 use crate::rounding::{LEAST_POSITIVE_F64, POLYGON_ENLARGEMENT};
 use glam::DVec3;
@@ -71,7 +71,7 @@ impl SolidOfRevolution {
 
     fn new(kind: SolidKind, radius: f64, half_height: f64) -> Result<Self, InputError> {
         for (what, value) in [("radius", radius), ("half height", half_height)] {
-            check_length(what, value)?;
+            check_shape_length(what, value)?;
         }
         Ok(SolidOfRevolution {
             kind,
@@ -80,9 +80,9 @@ impl SolidOfRevolution {
         })
     }
 
-    /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] allow: [`DEFAULT_EXCESS_SHARE`] of the radius.
+    /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] allow: [`DEFAULT_RADIUS_EXCESS_SHARE`] of the radius.
     pub fn default_excess(&self) -> f64 {
-        DEFAULT_EXCESS_SHARE * self.radius
+        DEFAULT_RADIUS_EXCESS_SHARE * self.radius
     }
 
     /// Returns the smallest excess that [`SolidOfRevolution::enclose`] accepts: a little less than 1.9e-8 of the
@@ -225,7 +225,7 @@ fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
 
 impl Body {
     /// Creates a cylinder about the origin, from `−half_height` to `half_height` along z. The body is a polytope
-    /// about it, which exceeds it by at most [`DEFAULT_EXCESS_SHARE`] of the radius. [`SolidOfRevolution::enclose`] returns finer ones.
+    /// about it, which exceeds it by at most [`DEFAULT_RADIUS_EXCESS_SHARE`] of the radius. [`SolidOfRevolution::enclose`] returns finer ones.
     ///
     /// # Guarantee
     /// The guarantee of [`Enclosure`]: contacts may be early by the excess, and are never late.

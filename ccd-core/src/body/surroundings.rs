@@ -13,7 +13,12 @@ impl Body {
     ///
     /// # Complexity
     /// Linear in the number of faces of the pieces within that distance.
-    pub(crate) fn for_each_offset_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+    pub(crate) fn visit_nearby_point_offsets(
+        &self,
+        at: DVec3,
+        reach: f64,
+        mut add: impl FnMut(DVec3),
+    ) {
         for k in pieces_near(self.tree(), at, reach) {
             let piece = self.pieces().get(k as usize);
             let mut is_near = false;

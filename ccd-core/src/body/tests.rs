@@ -37,7 +37,7 @@ fn box_on_a_square() -> Body {
         ],
         ..Polytope::default()
     };
-    let pieces = Pieces::polytopes(&[boxed, square]).unwrap();
+    let pieces = Pieces::from_polytopes(&[boxed, square]).unwrap();
     Body::new(&pieces, Volume::Surface).unwrap()
 }
 
@@ -75,7 +75,7 @@ fn tetrahedron_as_piece_and_as_triangles() -> [Body; 2] {
         points,
         ..Polytope::default()
     };
-    let one = Pieces::polytopes(&[polytope]).unwrap();
+    let one = Pieces::from_polytopes(&[polytope]).unwrap();
     [one, triangles].map(|pieces| Body::new(&pieces, Volume::Solid).unwrap())
 }
 
@@ -83,17 +83,20 @@ fn tetrahedron_as_piece_and_as_triangles() -> [Body; 2] {
 fn a_surface_is_taken_against_many_triangles_only() {
     let [one, triangles] = tetrahedron_as_piece_and_as_triangles();
     let both = one.clone().with_surface(triangles.clone()).unwrap();
-    assert_eq!(both.query_body_against(&triangles).pieces().len(), 4);
-    assert_eq!(both.query_body_against(&one).pieces().len(), 1);
-    assert_eq!(both.query_body_against(&both).pieces().len(), 1);
+    assert_eq!(both.body_for_query_against(&triangles).pieces().len(), 4);
+    assert_eq!(both.body_for_query_against(&one).pieces().len(), 1);
+    assert_eq!(both.body_for_query_against(&both).pieces().len(), 1);
     assert_eq!(
-        both.query_body_against(&Body::sphere(1.0).unwrap())
+        both.body_for_query_against(&Body::sphere(1.0).unwrap())
             .pieces()
             .len(),
         1
     );
-    assert_eq!(one.query_body_against(&triangles).pieces().len(), 1);
-    assert_eq!(triangles.query_body_against(&triangles).pieces().len(), 4);
+    assert_eq!(one.body_for_query_against(&triangles).pieces().len(), 1);
+    assert_eq!(
+        triangles.body_for_query_against(&triangles).pieces().len(),
+        4
+    );
     assert!(both.memory_usage() > one.memory_usage());
 }
 

@@ -36,7 +36,7 @@ pub(crate) struct Tree {
     slabs: Vec<(NodeId, Slab)>,
     body_box: BodyBox,
     /// The largest distance of a piece's points from the body's origin, plus the rounding radius.
-    reach_from_origin: f64,
+    max_distance_from_origin: f64,
 }
 
 /// The id of a node or a triangle: ids below the number of nodes are nodes, higher ids are triangles.
@@ -102,7 +102,7 @@ impl Tree {
 
     /// Returns the largest distance of any point of the body from its origin, rounding radii included.
     pub(crate) fn max_distance_from_origin(&self) -> f64 {
-        self.reach_from_origin
+        self.max_distance_from_origin
     }
 
     /// Returns the centre and radius of a ball around all pieces, in the body's frame.

@@ -10,7 +10,7 @@ use std::ops::Range;
 #[derive(Default)]
 pub(super) struct FaceTrees {
     nodes: Vec<FaceBox>,
-    roots: HashMap<u32, u32>,
+    roots_by_piece: HashMap<u32, u32>,
 }
 
 /// An axis-aligned box in A's frame that contains faces, rounding radius included.
@@ -38,7 +38,7 @@ pub(super) struct NearFacePairSearch {
 impl NearFacePairSearch {
     /// Adds the pairs of a face of A and a face of B below two roots whose boxes are no farther apart than `reach`.
     /// Returns `None` if the budget is spent.
-    pub(super) fn add_pairs_below(
+    pub(super) fn add_pairs_below_roots(
         &mut self,
         trees: &[FaceTrees; 2],
         roots: [u32; 2],
@@ -58,7 +58,7 @@ impl NearFacePairSearch {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
                 (FaceBoxContent::Inner(right), FaceBoxContent::Inner(_))
-                    if a.longest_side() >= b.longest_side() =>
+                    if a.longest_side_length() >= b.longest_side_length() =>
                 {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
@@ -102,12 +102,12 @@ impl FaceTrees {
 
     /// Returns the root of the tree over a piece's faces; `None` if the piece has none.
     pub(super) fn root_or_build(&mut self, skin: &mut NearSurface<'_>, piece: u32) -> Option<u32> {
-        if let Some(&root) = self.roots.get(&piece) {
+        if let Some(&root) = self.roots_by_piece.get(&piece) {
             return Some(root);
         }
         let faces = skin.add_piece(piece);
         let root = self.add_tree_over(skin, faces)?;
-        self.roots.insert(piece, root);
+        self.roots_by_piece.insert(piece, root);
         Some(root)
     }
 
@@ -161,7 +161,7 @@ impl FaceBox {
         gap.max_element() > reach
     }
 
-    fn longest_side(&self) -> f64 {
+    fn longest_side_length(&self) -> f64 {
         (self.high - self.low).max_element()
     }
 }

@@ -10,7 +10,7 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
-use crate::rounding::{MIN_APPROACH, is_direction_uncertain};
+use crate::rounding::{MIN_APPROACH_PER_ROUNDING, is_direction_uncertain};
 
 /// Translates the contacts of an outcome from triangulated surfaces to the bodies that the caller gave. The normal, the
 /// nearest points and the bounds of a contact are those of the pieces that it names.
@@ -78,7 +78,7 @@ fn replace_uncertain_normal(
     // Overlapping pieces have no direction between them. Either direction may prove that they touch: an oracle that
     // computes their nearest points up to rounding need not return a direction. Written so that NaN counts as an
     // overlap.
-    if !(greater(seen.lower, gap) >= -MIN_APPROACH * problem.rounding) {
+    if !(greater(seen.lower, gap) >= -MIN_APPROACH_PER_ROUNDING * problem.rounding) {
         return contact;
     }
     seen.lower = lesser(seen.lower, gap);

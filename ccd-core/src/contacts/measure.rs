@@ -50,7 +50,7 @@ pub(super) fn measure_feature_pair(
     }
     if is_direction_uncertain(distance, problem.rounding)
         && let Some(common) =
-            common_normals(candidate.points).nearest_normal_if_along(normal, b - a)
+            common_normals(candidate.points).nearest_normal_if_parallel(normal, b - a)
     {
         normal = common;
     }

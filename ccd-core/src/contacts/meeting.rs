@@ -2,7 +2,7 @@
 
 use crate::engine::meter::Meter;
 use crate::engine::pieces::snapshot::Snapshot;
-use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT_TOLERANCE};
+use crate::rounding::{ADJACENCY_DISTANCE_PER_ROUNDING, LEVEL_HEIGHT_PER_ROUNDING};
 use glam::DVec3;
 
 /// Returns the common normal of both surfaces at a contact that is nearest to the direction `towards`. Returns `None`
@@ -17,24 +17,27 @@ pub(super) fn common_normal(
     let Snapshot {
         problem, pieces, ..
     } = snapshot;
-    let reach = ADJACENCY_DISTANCE * problem.rounding;
+    let reach = ADJACENCY_DISTANCE_PER_ROUNDING * problem.rounding;
     let (mut looks, turn) = (0, pieces.b_to_a.rotation);
     let normals = &mut meter.scratch_memory().normals;
-    normals.reset(LEVEL_HEIGHT_TOLERANCE * problem.rounding);
+    normals.reset(LEVEL_HEIGHT_PER_ROUNDING * problem.rounding);
     problem
         .a
         .body
-        .for_each_offset_around(points[0], reach, |way| {
+        .visit_nearby_point_offsets(points[0], reach, |way| {
             looks += 1;
-            normals.add_offset_of_a(way);
+            normals.add_constraint_of_a(way);
         });
     let in_b = pieces.b_to_a.inverse_transform_point(points[1]);
-    problem.b.body.for_each_offset_around(in_b, reach, |way| {
-        looks += 1;
-        normals.add_offset_of_b(turn * way);
-    });
-    normals.sort_offsets();
+    problem
+        .b
+        .body
+        .visit_nearby_point_offsets(in_b, reach, |way| {
+            looks += 1;
+            normals.add_constraint_of_b(turn * way);
+        });
+    normals.sort_constraints();
     meter.stats.point_evaluations += looks;
     let normals = &meter.scratch_memory().normals;
-    normals.nearest_normal_if_along(towards, points[1] - points[0])
+    normals.nearest_normal_if_parallel(towards, points[1] - points[0])
 }

@@ -27,7 +27,7 @@ pub(super) fn near_face_pairs(
     for pieces in near_piece_pairs(problem, b_to_a, reach)? {
         let [a, b] = [0, 1].map(|k| trees[k].root_or_build(&mut skins[k], pieces[k]));
         if let (Some(a), Some(b)) = (a, b) {
-            near.add_pairs_below(&trees, [a, b])?;
+            near.add_pairs_below_roots(&trees, [a, b])?;
         }
     }
     Some(near.pairs)

@@ -29,7 +29,7 @@ pub(super) struct NearSurface<'a> {
     /// The first triangle of each face of the mesh; a face may have several triangles.
     first_triangle_by_feature: HashMap<Feature, u32>,
     /// The sum of the normals of the faces around each corner.
-    corner_normals: Vec<DVec3>,
+    corner_normal_sums: Vec<DVec3>,
 }
 
 /// A vertex that triangles of the surface share.
@@ -72,7 +72,7 @@ impl<'a> NearSurface<'a> {
             is_corner_internal: Vec::new(),
             faces_around_internal_corner: HashMap::new(),
             first_triangle_by_feature: HashMap::new(),
-            corner_normals: Vec::new(),
+            corner_normal_sums: Vec::new(),
         }
     }
 
@@ -86,8 +86,8 @@ impl<'a> NearSurface<'a> {
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
     pub(super) fn find_internal_features(&mut self, rounding: f64) {
-        self.propagate_mesh_numbers();
-        self.compute_corner_normals();
+        self.propagate_mesh_vertex_numbers();
+        self.compute_corner_normal_sums();
         let mut faces_at_edge: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
             if let Feature::Face(_) = name {
@@ -153,7 +153,7 @@ impl<'a> NearSurface<'a> {
     /// Returns the approximate outward direction at a corner, edge or face: the sum of the normals around it, or zero
     /// if none is known.
     pub(super) fn outward_direction(&self, spot: SurfacePart, face: u32) -> DVec3 {
-        let at = |corner: u32| self.corner_normals[corner as usize];
+        let at = |corner: u32| self.corner_normal_sums[corner as usize];
         match spot {
             SurfacePart::Corner(corner) => at(corner),
             SurfacePart::Edge([v, w]) => at(v) + at(w),
@@ -182,7 +182,7 @@ impl<'a> NearSurface<'a> {
 
     /// Calls `look` with the corners of a face, and with a point of the solid below it. If the piece of the face has no
     /// facets, all its points take the place of the corners.
-    pub(super) fn for_each_point_around(&self, face: u32, look: impl FnMut(DVec3)) {
+    pub(super) fn for_each_face_point(&self, face: u32, look: impl FnMut(DVec3)) {
         let index = self.face(face).piece;
         let piece = self.body.pieces().get(index as usize);
         let corners = self.triangle(face);
@@ -250,7 +250,7 @@ impl<'a> NearSurface<'a> {
     /// Returns the vertex, edge or face of the mesh for a part of the surface. If the part has no number, the feature
     /// is that of the face `face`, or the piece.
     pub(super) fn feature_of(&self, spot: SurfacePart, face: u32) -> Feature {
-        let id = |corner: u32| self.mesh_number(corner);
+        let id = |corner: u32| self.mesh_vertex_number(corner);
         let own = match spot {
             SurfacePart::Corner(corner) => id(corner).map(Feature::Vertex),
             SurfacePart::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
@@ -281,7 +281,7 @@ impl<'a> NearSurface<'a> {
         self.coplanar_edges.get(&ends).map(|faces| faces[0])
     }
 
-    fn compute_corner_normals(&mut self) {
+    fn compute_corner_normal_sums(&mut self) {
         let mut outward = vec![DVec3::ZERO; self.corners.len()];
         for face in 0..self.faces.len() as u32 {
             let normal = self.normal(face);
@@ -289,11 +289,11 @@ impl<'a> NearSurface<'a> {
                 outward[corner as usize] += normal;
             }
         }
-        self.corner_normals = outward;
+        self.corner_normal_sums = outward;
     }
 
     /// Copies mesh numbers to corners without one, from corners of other pieces at the same position.
-    fn propagate_mesh_numbers(&mut self) {
+    fn propagate_mesh_vertex_numbers(&mut self) {
         let mut numbered: HashMap<PointBits, (u32, u32)> = HashMap::new();
         for (k, corner) in (0u32..).zip(&self.corners) {
             if let Some(id) = corner.id {

@@ -4,7 +4,7 @@ use super::boxes::FaceTrees;
 use super::closest::nearest_point_on_triangle;
 use super::skin::NearSurface;
 use crate::distance::common_normals::CommonNormals;
-use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT_TOLERANCE};
+use crate::rounding::{ADJACENCY_DISTANCE_PER_ROUNDING, LEVEL_HEIGHT_PER_ROUNDING};
 use glam::DVec3;
 
 /// The triangles of a body's surface, with a tree that finds the triangles around a point.
@@ -27,12 +27,14 @@ impl<'a> Surface<'a> {
         points: [DVec3; 2],
         rounding: f64,
     ) -> CommonNormals {
-        let reach = ADJACENCY_DISTANCE * rounding;
+        let reach = ADJACENCY_DISTANCE_PER_ROUNDING * rounding;
         let mut normals = CommonNormals::default();
-        normals.reset(LEVEL_HEIGHT_TOLERANCE * rounding);
-        surfaces[0].for_each_offset_around(points[0], reach, |way| normals.add_offset_of_a(way));
-        surfaces[1].for_each_offset_around(points[1], reach, |way| normals.add_offset_of_b(way));
-        normals.sort_offsets();
+        normals.reset(LEVEL_HEIGHT_PER_ROUNDING * rounding);
+        surfaces[0]
+            .for_each_offset_around(points[0], reach, |way| normals.add_constraint_of_a(way));
+        surfaces[1]
+            .for_each_offset_around(points[1], reach, |way| normals.add_constraint_of_b(way));
+        normals.sort_constraints();
         normals
     }
 
@@ -44,7 +46,7 @@ impl<'a> Surface<'a> {
             // Written so that NaN is near.
             if !(nearest.distance(at) > reach) {
                 self.near_surface
-                    .for_each_point_around(face, |end| add(end - at));
+                    .for_each_face_point(face, |end| add(end - at));
             }
         }
     }

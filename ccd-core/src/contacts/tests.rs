@@ -11,7 +11,7 @@ use crate::query::Query;
 use crate::settings::Settings;
 use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, random_direction, random_point_in_ball, random_power_of_ten,
-    random_rotation, rng, soup,
+    random_rotation, random_triangle_soup, rng,
 };
 use glam::{DQuat, DVec3};
 use twin::Mesh;
@@ -281,8 +281,8 @@ fn no_pair_of_random_soups_is_missed() {
         };
         let count = |rng: &mut Pcg64| rng.random_range(1..40);
         let (count_a, count_b) = (count(rng), count(rng));
-        let a = Mesh::from_triangles(soup(rng, tame(look_a), count_a, size));
-        let b = Mesh::from_triangles(soup(rng, tame(look_b), count_b, size));
+        let a = Mesh::from_triangles(random_triangle_soup(rng, tame(look_a), count_a, size));
+        let b = Mesh::from_triangles(random_triangle_soup(rng, tame(look_b), count_b, size));
         let place = random_point_in_ball(rng, size);
         let pose = Pose::new(place, random_rotation(rng)).unwrap();
         let tolerance = size * random_power_of_ten(rng, -2.5, -0.5);

@@ -12,7 +12,7 @@ use glam::DVec3;
 #[derive(Debug, Default)]
 pub(crate) struct CommonNormals {
     /// The offsets of B, and the negated offsets of A. None of them may fall along a common normal.
-    offsets: Vec<DVec3>,
+    constraint_vectors: Vec<DVec3>,
     /// The largest height by which an offset may fall along a common normal.
     slack: f64,
 }
@@ -20,26 +20,26 @@ pub(crate) struct CommonNormals {
 impl CommonNormals {
     /// Removes all offsets, and sets the slack.
     pub(crate) fn reset(&mut self, slack: f64) {
-        self.offsets.clear();
-        self.offsets.shrink_to(MAX_KEPT_OFFSETS);
+        self.constraint_vectors.clear();
+        self.constraint_vectors.shrink_to(MAX_KEPT_CONSTRAINTS);
         self.slack = slack;
     }
 
     /// Adds a vector from A's point to a point of A's surface around it.
-    pub(crate) fn add_offset_of_a(&mut self, offset: DVec3) {
-        self.offsets.push(-offset);
+    pub(crate) fn add_constraint_of_a(&mut self, offset: DVec3) {
+        self.constraint_vectors.push(-offset);
     }
 
     /// Adds a constraint: the vector from B's point to another point of B's surface.
-    pub(crate) fn add_offset_of_b(&mut self, offset: DVec3) {
-        self.offsets.push(offset);
+    pub(crate) fn add_constraint_of_b(&mut self, offset: DVec3) {
+        self.constraint_vectors.push(offset);
     }
 
     /// Sorts the offsets, the longest first. It is to be called after the last offset is added. The longest ones are
     /// the most exact.
-    pub(crate) fn sort_offsets(&mut self) {
+    pub(crate) fn sort_constraints(&mut self) {
         let length = |offset: &DVec3| offset.length_squared();
-        self.offsets
+        self.constraint_vectors
             .sort_unstable_by(|one, other| length(other).total_cmp(&length(one)));
     }
 
@@ -66,7 +66,11 @@ impl CommonNormals {
 
     /// Like [`CommonNormals::nearest_normal`], but returns `None` unless the vector `between` the two points is along
     /// the normal, up to the slack.
-    pub(crate) fn nearest_normal_if_along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
+    pub(crate) fn nearest_normal_if_parallel(
+        &self,
+        towards: DVec3,
+        between: DVec3,
+    ) -> Option<DVec3> {
         let n = self.nearest_normal(towards)?;
         let ahead = n.dot(between);
         let aside = length(between - n * ahead);
@@ -80,8 +84,8 @@ impl CommonNormals {
     fn project_onto_cone(&self, towards: DVec3) -> Option<DVec3> {
         let towards = unit(towards)?;
         let mut best = towards;
-        for (k, offset) in self.offsets.iter().copied().enumerate() {
-            if self.is_offset_falling(best, offset) {
+        for (k, offset) in self.constraint_vectors.iter().copied().enumerate() {
+            if self.is_constraint_violated(best, offset) {
                 best = self.project_onto_cone_in_plane(towards, offset, k)?;
             }
         }
@@ -97,15 +101,15 @@ impl CommonNormals {
         count: usize,
     ) -> Option<DVec3> {
         let level = unit(level)?;
-        let mut best = unit_along_component(towards - level * level.dot(towards))?;
-        let before = || self.offsets.iter().copied().take(count);
+        let mut best = unit_if_not_negligible(towards - level * level.dot(towards))?;
+        let before = || self.constraint_vectors.iter().copied().take(count);
         for (k, offset) in before().enumerate() {
-            if self.is_offset_falling(best, offset) {
+            if self.is_constraint_violated(best, offset) {
                 let line = unit(vector_perpendicular_to_both(level, offset))?;
-                best = unit_along_component(line * line.dot(towards))?;
+                best = unit_if_not_negligible(line * line.dot(towards))?;
                 if before()
                     .take(k)
-                    .any(|offset| self.is_offset_falling(best, offset))
+                    .any(|offset| self.is_constraint_violated(best, offset))
                 {
                     return None;
                 }
@@ -114,18 +118,18 @@ impl CommonNormals {
         Some(best)
     }
 
-    fn is_offset_falling(&self, n: DVec3, offset: DVec3) -> bool {
+    fn is_constraint_violated(&self, n: DVec3, offset: DVec3) -> bool {
         // Written so that NaN counts as a violation.
         !(n.dot(offset) >= -self.slack)
     }
 }
 
 /// The largest number of offsets for which memory is kept between uses.
-const MAX_KEPT_OFFSETS: usize = 1 << 20;
+const MAX_KEPT_CONSTRAINTS: usize = 1 << 20;
 
 /// Returns the unit vector along a component of a unit vector; `None` if the component is so short that it may be mere
 /// rounding.
-fn unit_along_component(part: DVec3) -> Option<DVec3> {
+fn unit_if_not_negligible(part: DVec3) -> Option<DVec3> {
     (length(part) > LEAST_PERPENDICULAR_LENGTH).then(|| unit(part))?
 }
 

@@ -10,7 +10,7 @@ use crate::body::tree::ray::sum_signed_crossings;
 use crate::math::vector::{unit_or_any, vector_perpendicular_to_both};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::CERTAIN_SIDE_DISTANCE;
+use crate::rounding::SIDE_DISTANCE_PER_ROUNDING;
 use beside::points_beside_edges;
 use glam::DVec3;
 
@@ -45,7 +45,7 @@ pub(crate) fn containment_at_start(
         body: side.body,
         frame: side.path.frame(0.0),
     });
-    let reach = CERTAIN_SIDE_DISTANCE * problem.rounding;
+    let reach = SIDE_DISTANCE_PER_ROUNDING * problem.rounding;
     let mut look = |outer: &PlacedBody<'_>, inner: &PlacedBody<'_>, side: usize| {
         let search = Search {
             outer_body: outer,
@@ -236,7 +236,7 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
         return None;
     }
     let result = sum_signed_crossings(body.tree(), body.pieces(), point, 0.0)?;
-    (result.triangles_at_start == 0).then_some(result.sum_ahead != 0)
+    (result.triangle_count_at_start == 0).then_some(result.sum_ahead != 0)
 }
 
 #[cfg(test)]

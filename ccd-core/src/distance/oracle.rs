@@ -103,7 +103,7 @@ pub struct Effort {
     /// The number of steps from one feature or simplex to the next.
     pub steps: u64,
     /// The number of times that a search returned to an earlier state.
-    pub cycles: u64,
+    pub cycle_count: u64,
     /// The number of times that the oracle gave up and another one was called.
     pub fallbacks: u64,
 }
@@ -114,7 +114,7 @@ impl std::ops::Add for Effort {
     fn add(self, other: Effort) -> Effort {
         Effort {
             steps: self.steps + other.steps,
-            cycles: self.cycles + other.cycles,
+            cycle_count: self.cycle_count + other.cycle_count,
             fallbacks: self.fallbacks + other.fallbacks,
         }
     }
@@ -127,7 +127,7 @@ impl std::ops::Sub for Effort {
     fn sub(self, earlier: Effort) -> Effort {
         Effort {
             steps: self.steps - earlier.steps,
-            cycles: self.cycles - earlier.cycles,
+            cycle_count: self.cycle_count - earlier.cycle_count,
             fallbacks: self.fallbacks - earlier.fallbacks,
         }
     }

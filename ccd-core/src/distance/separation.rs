@@ -32,8 +32,8 @@ pub(crate) struct CheckedClaim {
 /// # Guarantee
 /// `lower ≤ distance ≤ upper`, for any claim.
 pub(crate) fn check_claim(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> CheckedClaim {
-    let (a, on_a) = with_valid_indices(claim.a, pair.a.points);
-    let (b, on_b) = with_valid_indices(claim.b, pair.b.points);
+    let (a, on_a) = valid_combination_and_position(claim.a, pair.a.points);
+    let (b, on_b) = valid_combination_and_position(claim.b, pair.b.points);
     let on_b = pair.b_to_a.transform_point(on_b);
     let way = on_b - on_a;
     let distance = length(way);
@@ -106,7 +106,7 @@ fn support_gap_with_hints(
 }
 
 /// Returns a combination and its position; a combination with invalid indices is replaced by the first point.
-fn with_valid_indices(
+fn valid_combination_and_position(
     combination: ConvexCombination,
     points: &[DVec3],
 ) -> (ConvexCombination, DVec3) {

@@ -26,7 +26,7 @@ pub(crate) fn answer<O: DistanceOracle>(
     search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     let as_found = |_: &Problem<'_>, _: &mut O, _: &mut Meter| None;
-    answer_under_policy(problem, oracle, scratch, as_found, search)
+    answer_under_start_policy(problem, oracle, scratch, as_found, search)
 }
 
 /// Like [`answer`], for a search that need not examine pairs in order of time. Such a search may pass over a contact at
@@ -41,12 +41,12 @@ pub(crate) fn answer_by_unordered_search<O: DistanceOracle>(
         let beyond = problem.contact_distance().next_up();
         search_contact_at_start(problem, beyond, oracle, meter)
     };
-    answer_under_policy(problem, oracle, scratch, at_start, search)
+    answer_under_start_policy(problem, oracle, scratch, at_start, search)
 }
 
 /// Runs a search under the query's policy for contacts at the start; `look` examines the start before the search. It is
 /// called only if contacts at the start are to be ignored, and may return the outcome.
-fn answer_under_policy<O: DistanceOracle>(
+fn answer_under_start_policy<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     scratch: &mut Scratch,
@@ -150,7 +150,7 @@ pub(crate) fn run_metered<O: DistanceOracle, T>(
         result: found,
         tolerance,
         stats: Stats {
-            effort: oracle.effort() - before,
+            oracle_effort: oracle.effort() - before,
             ..meter.stats
         },
     }

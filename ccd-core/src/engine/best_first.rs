@@ -5,7 +5,7 @@ use super::meter::Meter;
 use super::proven::ProvenFacts;
 use super::queue::Queue;
 use super::scratch::Scratch;
-use super::search::{AdvanceResult, Question, Search, WaitingItem};
+use super::search::{AdvanceResult, Search, SearchHandler, WaitingItem};
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -27,7 +27,7 @@ use std::ops::ControlFlow;
 /// # impl DistanceOracle for Balls {
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
-/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
 /// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
 /// #     }
 /// # }
@@ -93,11 +93,11 @@ impl<O: DistanceOracle> BestFirst<O> {
 }
 
 /// The search for the first contact. All pairs are proven apart until the clock of the next one.
-impl<O: DistanceOracle> Question<O> for ProvenFacts {
+impl<O: DistanceOracle> SearchHandler<O> for ProvenFacts {
     type Conclusion = Outcome;
 
     #[inline]
-    fn on_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
+    fn on_next_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
         if s > 0.0 {
             self.check_containment_once_apart(problem)
                 .map_or(ControlFlow::Continue(()), ControlFlow::Break)

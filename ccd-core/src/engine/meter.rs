@@ -48,7 +48,7 @@ impl Meter {
         problem: &Problem<'_>,
     ) -> Result<(), Limit> {
         self.stats.iterations += 1;
-        let work = self.stats.work();
+        let work = self.stats.budgeted_work();
         if work > problem.budget {
             return Err(Limit::Budget);
         }

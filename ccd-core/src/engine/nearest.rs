@@ -121,7 +121,7 @@ impl<'p> NearestSearch<'p> {
     /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
     fn next_pair(&mut self) -> Option<NextStep> {
         let (upper, search_radius) = (self.upper_bound(), self.search_radius());
-        let (distance, siblings) = self.buffers.waiting_pairs.next()?;
+        let (distance, siblings) = self.buffers.waiting_pairs.peek_next()?;
         // Pairs without a distance may intersect.
         if distance > 0.0 && distance >= search_radius {
             self.lower = lesser(self.lower, distance);
@@ -130,7 +130,7 @@ impl<'p> NearestSearch<'p> {
         let next = siblings.take_next_step(self.problem, distance);
         match siblings.clock() {
             distance if distance < upper => self.buffers.waiting_pairs.postpone(distance),
-            _ => self.buffers.waiting_pairs.remove(),
+            _ => self.buffers.waiting_pairs.remove_next(),
         }
         Some(next)
     }

@@ -17,7 +17,7 @@ pub(crate) struct Queue<T> {
     levels: Vec<Vec<[Key; 4]>>,
     /// The number of levels in use.
     depth: usize,
-    serial: u32,
+    last_serial: u32,
 }
 
 /// The sort key of an item: its clock, rank, age and index, from the highest bits to the lowest. It has 64 bits of
@@ -39,7 +39,7 @@ impl<T> Default for Queue<T> {
             least_key: VACANT_KEY,
             levels: Vec::new(),
             depth: 0,
-            serial: 0,
+            last_serial: 0,
         }
     }
 }
@@ -52,7 +52,7 @@ impl<T> Queue<T> {
         self.least_key = VACANT_KEY;
         self.levels.iter_mut().for_each(clear_and_shrink);
         self.depth = 0;
-        self.serial = 0;
+        self.last_serial = 0;
     }
 
     /// Returns the largest number of items that waited at once.
@@ -66,8 +66,8 @@ impl<T> Queue<T> {
     }
 
     fn make_newest_key(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
-        self.serial = self.serial.wrapping_add(1);
-        key(clock, rank, self.serial, place)
+        self.last_serial = self.last_serial.wrapping_add(1);
+        key(clock, rank, self.last_serial, place)
     }
 
     /// Sets the key of a slot, and updates the least keys on all levels above it.
@@ -77,7 +77,7 @@ impl<T> Queue<T> {
         for level in &mut self.levels[..self.depth] {
             let four = &mut level[at / 4];
             four[at % 4] = least;
-            least = least_of(four);
+            least = least_of_four(four);
             at /= 4;
         }
         self.least_key = least;
@@ -132,7 +132,7 @@ impl<T> Worklist<T> for Queue<T> {
     }
 
     #[inline]
-    fn next(&mut self) -> Option<(f64, &mut T)> {
+    fn peek_next(&mut self) -> Option<(f64, &mut T)> {
         let item = self.items.get_mut(slot(self.least_key) as usize)?;
         Some((clock(self.least_key), item))
     }
@@ -152,14 +152,14 @@ impl<T> Worklist<T> for Queue<T> {
     }
 
     #[inline]
-    fn replace(&mut self, clock: f64, rank: Rank, item: T) {
+    fn replace_next(&mut self, clock: f64, rank: Rank, item: T) {
         let place = self.least_slot();
         self.items[place as usize] = item;
         self.postpone_as_newest(clock, rank);
     }
 
     #[inline]
-    fn remove(&mut self) {
+    fn remove_next(&mut self) {
         if self.least_key != VACANT_KEY {
             let place = slot(self.least_key);
             self.vacant_slots.push(place);
@@ -170,7 +170,7 @@ impl<T> Worklist<T> for Queue<T> {
 
 /// Returns the least of four keys, without a branch.
 #[inline]
-fn least_of(&[a, b, c, d]: &[Key; 4]) -> Key {
+fn least_of_four(&[a, b, c, d]: &[Key; 4]) -> Key {
     let lower = if b < a { b } else { a };
     let upper = if d < c { d } else { c };
     if upper < lower { upper } else { lower }
@@ -197,7 +197,7 @@ pub(crate) trait Worklist<T> {
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull>;
 
     /// Returns the next item and its clock.
-    fn next(&mut self) -> Option<(f64, &mut T)>;
+    fn peek_next(&mut self) -> Option<(f64, &mut T)>;
 
     /// Changes the clock of the next item to a later one.
     ///
@@ -215,10 +215,10 @@ pub(crate) trait Worklist<T> {
     ///
     /// # Panics
     /// When no item waits.
-    fn replace(&mut self, clock: f64, rank: Rank, item: T);
+    fn replace_next(&mut self, clock: f64, rank: Rank, item: T);
 
     /// Removes the next item, if there is one.
-    fn remove(&mut self);
+    fn remove_next(&mut self);
 }
 
 /// The order of items with equal clocks: pieces before nodes.

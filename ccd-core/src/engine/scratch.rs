@@ -19,14 +19,14 @@ pub(crate) struct ScratchMemory {
     /// The common normals of the surfaces around two nearest points.
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.
-    pub(crate) profile_cache: ProfileCache,
+    pub(crate) screw_profile_cache: ProfileCache,
     /// Lists for searches along trajectories, of which one may run within another.
-    pub(crate) spare_stretch_lists: Vec<StretchLists>,
+    pub(crate) spare_span_lists: Vec<SpanLists>,
 }
 
 /// The lists of a search along trajectories.
 #[derive(Debug, Default)]
-pub(crate) struct StretchLists {
+pub(crate) struct SpanLists {
     /// The stretches of time that wait to be searched.
     pub(crate) waiting_spans: Vec<Span>,
     /// The work spent on each part of the query.

@@ -29,13 +29,13 @@ impl<C> WaitingItem<C> {
 }
 
 /// The question that a search answers, which decides after each step whether the search goes on.
-pub(crate) trait Question<O: DistanceOracle> {
+pub(crate) trait SearchHandler<O: DistanceOracle> {
     /// The type of the result that ends a search, such as an outcome.
     type Conclusion;
 
     /// Decides from the clock of the next pair whether the search ends before the pair is examined.
     #[inline]
-    fn on_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Conclusion> {
+    fn on_next_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Conclusion> {
         ControlFlow::Continue(())
     }
 
@@ -83,7 +83,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
     }
 
     /// Runs the search from the pair of both roots until it has a result.
-    pub(crate) fn run<Q: Question<O>>(
+    pub(crate) fn run<Q: SearchHandler<O>>(
         &mut self,
         problem: &Problem<'_>,
         question: &mut Q,
@@ -101,7 +101,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
     }
 
     /// Continues until all pairs are proven apart up to a clock, and returns the clock of the next pair.
-    pub(crate) fn run_until<Q: Question<O>>(
+    pub(crate) fn run_until<Q: SearchHandler<O>>(
         &mut self,
         problem: &Problem<'_>,
         look: &mut BoundTightener,
@@ -110,8 +110,8 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
     ) -> ControlFlow<Q::Conclusion, f64> {
         let common = NodeContext::new(problem);
         loop {
-            if let Some((s, _)) = self.worklist.next().filter(|&(s, _)| s >= until) {
-                question.on_clock(problem, s)?;
+            if let Some((s, _)) = self.worklist.peek_next().filter(|&(s, _)| s >= until) {
+                question.on_next_clock(problem, s)?;
                 return ControlFlow::Continue(s);
             }
             self.visit_next_pair(&common, look, question)?;
@@ -129,7 +129,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
 
     /// Examines the next pair: proves it apart for longer, or splits it.
     #[inline(always)]
-    pub(crate) fn visit_next_pair<Q: Question<O>>(
+    pub(crate) fn visit_next_pair<Q: SearchHandler<O>>(
         &mut self,
         common: &NodeContext<'_>,
         look: &mut BoundTightener,
@@ -141,10 +141,10 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
             oracle,
             meter,
         } = self;
-        let Some((s, item)) = waiting.next() else {
+        let Some((s, item)) = waiting.peek_next() else {
             return ControlFlow::Break(question.on_end(problem));
         };
-        question.on_clock(problem, s)?;
+        question.on_next_clock(problem, s)?;
         if let Err(limit) = meter.count_visit_and_check_limits(problem) {
             return ControlFlow::Break(question.on_limit(problem, s, limit));
         }
@@ -152,7 +152,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
             WaitingItem::Pieces(pair) => {
                 let advance = advance(problem, *oracle, meter, pair, s);
                 match question.on_advance(problem, *oracle, meter, advance)? {
-                    clock if clock >= 1.0 => waiting.remove(),
+                    clock if clock >= 1.0 => waiting.remove_next(),
                     clock => waiting.postpone_as_newest(clock, Rank::PiecePair),
                 }
                 return ControlFlow::Continue(());
@@ -201,8 +201,8 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
                 self.worklist.push(clock, new.rank(), new)?;
             }
             (false, true) => self.worklist.postpone(rest),
-            (true, false) => self.worklist.replace(clock, new.rank(), new),
-            (true, true) => self.worklist.remove(),
+            (true, false) => self.worklist.replace_next(clock, new.rank(), new),
+            (true, true) => self.worklist.remove_next(),
         }
         Ok(())
     }
@@ -224,7 +224,7 @@ fn advance<O: DistanceOracle>(
 }
 
 #[inline(always)]
-fn continue_unless_full<O: DistanceOracle, Q: Question<O>>(
+fn continue_unless_full<O: DistanceOracle, Q: SearchHandler<O>>(
     waits: Result<(), QueueFull>,
     problem: &Problem<'_>,
     question: &mut Q,

@@ -23,7 +23,7 @@ pub(crate) fn classify_start_contact<O: DistanceOracle>(
     seen: Contact,
 ) -> Outcome {
     let contact = |nearest: &NearestSearch<'_>| Some(nearest.contact(seen));
-    let outcome = measure_at_start(problem, f64::INFINITY, oracle, meter, contact);
+    let outcome = outcome_at_start(problem, f64::INFINITY, oracle, meter, contact);
     outcome.unwrap_or(Outcome::Touching { contact: seen })
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn search_contact_at_start<O: DistanceOracle>(
     oracle: &mut O,
     meter: &mut Meter,
 ) -> Option<Outcome> {
-    measure_at_start(problem, beyond, oracle, meter, |nearest| {
+    outcome_at_start(problem, beyond, oracle, meter, |nearest| {
         nearest.nearest_contact()
     })
 }
@@ -44,7 +44,7 @@ pub(crate) fn search_contact_at_start<O: DistanceOracle>(
 /// Searches for the nearest pieces at the start, and returns the outcome if the bodies overlap, if a limit ends the
 /// search, or if the function `contact` finds a contact in its result.
 /// Pieces at least as far apart as `beyond` are not measured.
-fn measure_at_start<O: DistanceOracle>(
+fn outcome_at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,

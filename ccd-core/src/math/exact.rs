@@ -13,13 +13,13 @@ use std::cmp::Ordering;
 /// for a triangle without area.
 ///
 /// # Guarantee
-/// Exact, unless a coordinate is [too fine](first_point_below_exact_range).
+/// Exact, unless a coordinate is [too fine](first_inexact_point_index).
 ///
 /// ```
 /// use ccd_core::{exact, glam::DVec3};
 /// let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
-/// assert!(exact::side(triangle, 1e-80 * DVec3::Z).is_gt());
-/// assert!(exact::side(triangle, DVec3::ONE - DVec3::Z).is_eq());
+/// assert!(exact::side_of_plane(triangle, 1e-80 * DVec3::Z).is_gt());
+/// assert!(exact::side_of_plane(triangle, DVec3::ONE - DVec3::Z).is_eq());
 /// ```
 #[inline]
 pub fn side_of_plane(triangle: [DVec3; 3], point: DVec3) -> Ordering {
@@ -40,7 +40,7 @@ pub fn side_of_plane(triangle: [DVec3; 3], point: DVec3) -> Ordering {
 /// Like [`side_of_plane`].
 #[inline]
 pub fn side_of_line_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
-    let [a, b, point] = [a, b, point].map(|p| coord2(p, axis));
+    let [a, b, point] = [a, b, point].map(|p| projected_coord2(p, axis));
     sign(orient2d(a, b, point))
 }
 
@@ -54,7 +54,7 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
 
 /// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_NONZERO_COORDINATE) for exact
 /// predicates.
-pub fn first_point_below_exact_range(points: &[DVec3]) -> Option<usize> {
+pub fn first_inexact_point_index(points: &[DVec3]) -> Option<usize> {
     let fine = |x: f64| x != 0.0 && x.abs() < LEAST_NONZERO_COORDINATE;
     points
         .iter()
@@ -77,7 +77,7 @@ fn coord3(p: DVec3) -> Coord3D<f64> {
 }
 
 #[inline]
-fn coord2(p: DVec3, axis: usize) -> Coord<f64> {
+fn projected_coord2(p: DVec3, axis: usize) -> Coord<f64> {
     let (x, y) = match axis {
         0 => (p.y, p.z),
         1 => (p.z, p.x),

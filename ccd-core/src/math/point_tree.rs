@@ -56,7 +56,7 @@ impl PointTree {
             max_abs_coordinate: 0.0,
         };
         if !points.is_empty() {
-            tree.build(0..points.len());
+            tree.build_subtree(0..points.len());
         }
         // The bound is that of the boxes, not of the points: heights are computed for corners of boxes.
         let corner = |node: &Node| (node.middle.abs() + node.half_extents).max_element();
@@ -66,7 +66,7 @@ impl PointTree {
 
     /// Builds the subtree of a range of points, by halving the range. The depth is at most the number of bits of the
     /// length.
-    fn build(&mut self, range: Range<usize>) {
+    fn build_subtree(&mut self, range: Range<usize>) {
         let points = &mut self.points[range.clone()];
         let (mut lo, mut hi) = (points[0].0, points[0].0);
         for &(p, _) in points.iter() {
@@ -92,8 +92,8 @@ impl PointTree {
             let axis = half.max_position();
             let split = points.len() / 2;
             points.select_nth_unstable_by(split, |p, q| p.0[axis].total_cmp(&q.0[axis]));
-            self.build(range.start..range.start + split);
-            self.build(range.start + split..range.end);
+            self.build_subtree(range.start..range.start + split);
+            self.build_subtree(range.start + split..range.end);
         }
         self.nodes[at].next = self.nodes.len() as u32;
     }

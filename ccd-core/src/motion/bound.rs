@@ -1,6 +1,6 @@
 //! Bounds of the velocity of a moving body's points along a fixed axis.
 //!
-//! These bounds are coarser than the exact [`Track`](super::track::Track) of a point:
+//! These bounds are coarser than the exact [`HeightFunction`](super::track::HeightFunction) of a point:
 //! - [`published_bound`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
 //! - [`sound_bound`]: a bound that holds over any later interval `[C2A09]`.
 

@@ -20,7 +20,7 @@ pub(crate) struct RelativePath {
 
 #[derive(Clone, Debug)]
 enum RelativeMotionTerms {
-    OneBodyTurns {
+    AtMostOneTurns {
         rotation: RotatingQuantity<[Row; 3]>,
         /// The vector between the centres of rotation at `s = 0`, in the seeing body's frame over time.
         offset: RotatingQuantity<Row>,
@@ -80,7 +80,7 @@ impl RelativePath {
                 spin: row(other.spin),
             }
         } else {
-            RelativeMotionTerms::for_one_turning_body(
+            RelativeMotionTerms::for_at_most_one_turning(
                 own,
                 other,
                 inverse,
@@ -98,7 +98,7 @@ impl RelativePath {
     #[inline(always)]
     pub(crate) fn state_at<L: Simd>(&self, level: L, s: f64) -> RelativeState<L> {
         match &self.motion_terms {
-            RelativeMotionTerms::OneBodyTurns {
+            RelativeMotionTerms::AtMostOneTurns {
                 rotation,
                 offset,
                 offset_rate: change,
@@ -157,7 +157,7 @@ impl RelativePath {
 impl RelativeMotionTerms {
     /// Prepares the relative motion if at most one of the bodies turns. The rotation of the other one has only the
     /// constant part.
-    fn for_one_turning_body(
+    fn for_at_most_one_turning(
         own: &Path,
         other: &Path,
         inverse: [DMat3; 3],
@@ -182,7 +182,7 @@ impl RelativeMotionTerms {
             coefficients: inverse.map(|part| row(part * v)),
         };
         let [offset, change] = offset.map(seen);
-        RelativeMotionTerms::OneBodyTurns {
+        RelativeMotionTerms::AtMostOneTurns {
             rotation: RotatingQuantity::new(rate, rotation),
             offset,
             offset_rate: change,

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_2_PI, PI, TAU};
 /// The height of a moving point along a fixed axis as a function of time, `height + linear_rate τ + linear_acceleration
 /// τ²/2 + (cos ωτ − 1) p + sin ωτ q`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Track {
+pub(crate) struct HeightFunction {
     height: f64,
     linear_rate: f64,
     linear_acceleration: f64,
@@ -18,7 +18,7 @@ pub(crate) struct Track {
     angular_speed: f64,
 }
 
-impl Track {
+impl HeightFunction {
     #[inline]
     pub(crate) fn height_at(&self, tau: f64, angle: AngleSinCos) -> f64 {
         let linear_displacement = (self.linear_rate + 0.5 * self.linear_acceleration * tau) * tau;
@@ -71,7 +71,7 @@ pub(crate) struct MotionAlongAxis {
     linear_rate: f64,
     linear_acceleration: f64,
     /// The component of `n` perpendicular to the axis of rotation.
-    perpendicular_part: DVec3,
+    normal_perpendicular_part: DVec3,
     /// The cross product `n × u`, with the direction `u` of the axis of rotation.
     cross_product: DVec3,
     angular_speed: f64,
@@ -84,7 +84,7 @@ impl MotionAlongAxis {
         MotionAlongAxis {
             linear_rate: linear.dot(n),
             linear_acceleration: 0.0,
-            perpendicular_part: n - n.dot(unit) * unit,
+            normal_perpendicular_part: n - n.dot(unit) * unit,
             cross_product: n.cross(unit),
             angular_speed: omega,
         }
@@ -120,16 +120,16 @@ impl MotionAlongAxis {
     /// the axis of rotation.
     #[inline]
     pub(crate) fn second_derivative(&self, distance: f64) -> f64 {
-        self.angular_speed * self.angular_speed * length(self.perpendicular_part) * distance
+        self.angular_speed * self.angular_speed * length(self.normal_perpendicular_part) * distance
     }
 
     #[inline]
-    pub(crate) fn track(&self, height: f64, arm: DVec3) -> Track {
-        Track {
+    pub(crate) fn height_function_of_point(&self, height: f64, arm: DVec3) -> HeightFunction {
+        HeightFunction {
             height,
             linear_rate: self.linear_rate,
             linear_acceleration: self.linear_acceleration,
-            p: self.perpendicular_part.dot(arm),
+            p: self.normal_perpendicular_part.dot(arm),
             q: self.cross_product.dot(arm),
             angular_speed: self.angular_speed,
         }

@@ -22,7 +22,7 @@ use glam::DVec3;
 /// struct Swing;
 ///
 /// impl Trajectory for Swing {
-///     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+///     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
 ///         let at = |t: f64| Pose::at(t.cos() * DVec3::X);
 ///         let time = to - from;
 ///         let motion = match time > 0.0 {
@@ -30,12 +30,12 @@ use glam::DVec3;
 ///             false => Motion::still(at(from)?),
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
-///         let deviation_bound = DeviationBound { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
+///         let deviation_bound = DeviationBound { shift: time * time / 8.0 + 1e-15, angle: 0.0 };
 ///         Ok(Stretch { deviation_bound, ..Stretch::exact(motion) })
 ///     }
 /// }
 ///
-/// let stretch = Swing.stretch(1.0, 1.5)?;
+/// let stretch = Swing.stretch_between(1.0, 1.5)?;
 /// let middle = stretch.motion.pose(0.25).translation();
 /// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation_bound.shift);
 /// # Ok::<(), InputError>(())
@@ -211,9 +211,9 @@ impl std::ops::Add for DeviationBound {
 ///     }
 /// }
 ///
-/// let stretch = Swing.stretch(1.0, 1.5)?;
-/// let DeviationBound { shift, turn } = stretch.deviation_bound;
-/// assert!(shift > 0.03 && shift < 0.04 && turn < 1e-13);
+/// let stretch = Swing.stretch_between(1.0, 1.5)?;
+/// let DeviationBound { shift, angle } = stretch.deviation_bound;
+/// assert!(shift > 0.03 && shift < 0.04 && angle < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait SmoothTrajectory: Sync {

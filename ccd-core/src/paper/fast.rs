@@ -51,7 +51,7 @@ pub struct Fast<O: DistanceOracle> {
     bound: VelocityBound,
     traversal_tree: TraversalTree<O::Cache>,
     axis_distance_cache: AxisDistanceCache,
-    best_first: BestFirst<O>,
+    best_first_schedule: BestFirst<O>,
     scratch: Scratch,
 }
 
@@ -62,7 +62,7 @@ impl<O: DistanceOracle> Fast<O> {
             bound,
             traversal_tree: TraversalTree::default(),
             axis_distance_cache: AxisDistanceCache::default(),
-            best_first: BestFirst::default(),
+            best_first_schedule: BestFirst::default(),
             scratch: None,
         }
     }
@@ -85,7 +85,9 @@ impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
 
     fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let Some(hulls) = HullTreePair::from_problem(problem) else {
-            return self.best_first.answer_first_contact(problem, oracle);
+            return self
+                .best_first_schedule
+                .answer_first_contact(problem, oracle);
         };
         self.axis_distance_cache.invalidate();
         let mut scratch = self.scratch.take();

@@ -81,7 +81,7 @@ impl<O: DistanceOracle> Naive<O> {
         }
         let pairs = (0..a as u32).flat_map(|i| (0..b as u32).map(move |j| Pair::new(i, j)));
         self.pairs.extend(pairs);
-        let reaches = [&problem.a, &problem.b].map(piece_reaches);
+        let reaches = [&problem.a, &problem.b].map(axis_distances_by_piece);
         let mut proven = ProvenFacts::default();
         let mut s = 0.0;
         while s < 1.0 {
@@ -94,10 +94,14 @@ impl<O: DistanceOracle> Naive<O> {
                 }
                 let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
-                let step =
-                    pair.advance_with(&snapshot, oracle, meter, |snapshot, checked, kept| {
+                let step = pair.advance_with_free_time(
+                    &snapshot,
+                    oracle,
+                    meter,
+                    |snapshot, checked, kept| {
                         snapshot.free_time_along_axis(checked, kept, self.bound, reaches)
-                    });
+                    },
+                );
                 match proven.on_advance(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,
@@ -113,7 +117,7 @@ impl<O: DistanceOracle> Naive<O> {
 }
 
 /// Returns for each piece the largest distance of its points from its body's axis of rotation.
-fn piece_reaches(side: &BodyWithPath<'_>) -> Vec<f64> {
+fn axis_distances_by_piece(side: &BodyWithPath<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
     pieces
         .map(|piece| side.path.max_distance_from_axis(piece.points))

@@ -6,7 +6,7 @@ use crate::engine::answer::{answer_by_unordered_search, search_by_period};
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
-use crate::engine::search::{AdvanceResult, Question, Search};
+use crate::engine::search::{AdvanceResult, Search, SearchHandler};
 use crate::engine::start::overlap_outcome;
 use crate::error::InputError;
 use crate::math::order::lesser;
@@ -119,7 +119,7 @@ impl AnyContactSearch {
     }
 }
 
-impl<O: DistanceOracle> Question<O> for AnyContactSearch {
+impl<O: DistanceOracle> SearchHandler<O> for AnyContactSearch {
     type Conclusion = Outcome;
 
     fn on_advance(

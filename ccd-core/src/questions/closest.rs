@@ -70,7 +70,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Answer {
         let answer =
-            self.search_distances_below(problem, f64::INFINITY, oracle, check_start_overlap);
+            self.search_least_distance_then(problem, f64::INFINITY, oracle, check_start_overlap);
         let found = answer.result;
         Answer {
             outcome: found.unwrap_or_else(|FartherThanCutoff { lower }| {
@@ -106,11 +106,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
         beyond: f64,
         oracle: &mut O,
     ) -> SearchResult<Result<Outcome, FartherThanCutoff>> {
-        self.search_distances_below(problem, beyond, oracle, |_, _, _, found| found)
+        self.search_least_distance_then(problem, beyond, oracle, |_, _, _, found| found)
     }
 
     /// Searches for the least distance of the bodies if it is below `beyond`, and applies `last_look` to the outcome.
-    fn search_distances_below(
+    fn search_least_distance_then(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
@@ -190,7 +190,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             while nearing.upper() == upper {
                 if let Some(rung) = nearing
                     .lower_bound_attempts
-                    .next_attempt_if_due(search.meter.stats.work(), upper)
+                    .next_attempt_if_due(search.meter.stats.budgeted_work(), upper)
                 {
                     if let ControlFlow::Break(found) =
                         nearing.try_lower_bound(problem, rung, search.oracle, search.meter)
@@ -234,7 +234,7 @@ fn check_start_overlap<O: DistanceOracle>(
     meter: &mut Meter,
     found: Outcome,
 ) -> Outcome {
-    if !meet_after_start(&found, problem.tolerance) {
+    if !is_contact_after_start(&found, problem.tolerance) {
         return found;
     }
     match search_contact_at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
@@ -282,7 +282,7 @@ fn unresolved_outcome(lower: f64, limit: Limit) -> Outcome {
 }
 
 /// Returns whether the bodies come within the tolerance after the start, and not at the start.
-pub(crate) fn meet_after_start(found: &Outcome, tolerance: f64) -> bool {
+pub(crate) fn is_contact_after_start(found: &Outcome, tolerance: f64) -> bool {
     match *found {
         Outcome::LeastDistance { time, contact, .. } => {
             time > 0.0 && contact.separation.upper <= tolerance

@@ -77,7 +77,7 @@ impl<T> Worklist<T> for Stack<T> {
         Ok(())
     }
 
-    fn next(&mut self) -> Option<(f64, &mut T)> {
+    fn peek_next(&mut self) -> Option<(f64, &mut T)> {
         let (clock, item) = self.items.last_mut()?;
         Some((*clock, item))
     }
@@ -90,11 +90,11 @@ impl<T> Worklist<T> for Stack<T> {
         self.last().0 = clock;
     }
 
-    fn replace(&mut self, clock: f64, _: Rank, item: T) {
+    fn replace_next(&mut self, clock: f64, _: Rank, item: T) {
         *self.last() = (clock, item);
     }
 
-    fn remove(&mut self) {
+    fn remove_next(&mut self) {
         self.items.pop();
     }
 }

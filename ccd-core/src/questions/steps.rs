@@ -8,7 +8,7 @@ use crate::engine::answer::{achieved_tolerance, problem_ignoring_start_contact};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::ProvenFacts;
-use crate::engine::search::{Question, Search};
+use crate::engine::search::{Search, SearchHandler};
 use crate::error::InputError;
 use crate::problem::Problem;
 use crate::query::Query;
@@ -24,19 +24,19 @@ use std::ops::ControlFlow;
 /// needs: the pair that is proven least far continues next.
 ///
 /// ```
-/// use ccd_core::{schedule::{BestFirst, FirstContact, Progress}, *};
+/// use ccd_core::{schedule::{BestFirst, FirstContactSearch, Progress}, *};
 /// # struct Balls;
 /// # impl DistanceOracle for Balls {
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
-/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
 /// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
 /// #     }
 /// # }
 /// let ball = Body::sphere(0.5)?;
 /// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
 /// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
-/// let mut search = FirstContact::new(query, BestFirst::default());
+/// let mut search = FirstContactSearch::new(query, BestFirst::default());
 /// let Progress::ApartUntil(time) = search.advance(&mut Balls, 0.5)? else { panic!("they are far apart") };
 /// assert!(time >= 0.5 && time <= 2.0);
 /// let Progress::Answered(answer) = search.advance(&mut Balls, 4.0)? else { panic!("all time is up") };
@@ -179,7 +179,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                 (outcome, tolerance)
             });
         let stats = &mut self.meter.stats;
-        stats.effort = stats.effort + (oracle.effort() - before);
+        stats.oracle_effort = stats.oracle_effort + (oracle.effort() - before);
         match found {
             ControlFlow::Continue(time) => Progress::ApartUntil(time),
             ControlFlow::Break((outcome, tolerance)) => {
@@ -263,7 +263,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                 }
                 let mut proven = ProvenFacts::default();
                 if search.push_roots(problem).is_err() {
-                    return ControlFlow::Break(Question::<O>::on_limit(
+                    return ControlFlow::Break(SearchHandler::<O>::on_limit(
                         &mut proven,
                         problem,
                         0.0,

@@ -18,7 +18,7 @@ use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, body, random_direction, random_point_in_ball, random_power_of_ten,
-    random_rotation, rng, soup,
+    random_rotation, random_triangle_soup, rng,
 };
 use crate::tests::worst::error_share;
 use crate::{Body, Pose};
@@ -31,8 +31,8 @@ struct WorstErrorShares {
     gap: f64,
     distance: f64,
     /// The number of tested problems that are far from the body's or the world's origin, by a million units or more.
-    far_count: usize,
-    turning_count: usize,
+    far_problem_count: usize,
+    turning_problem_count: usize,
 }
 
 #[test]
@@ -50,9 +50,9 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         let world = random_direction(&mut rng) * far;
         let duration = random_power_of_ten(&mut rng, -3.0, 3.0);
         let motions = [(); 2].map(|()| random_motion(&mut rng, world, size, duration));
-        worst.far_count +=
+        worst.far_problem_count +=
             usize::from(far > 1e5 || bodies[0].tree().max_distance_from_origin() > 1e5);
-        worst.turning_count += usize::from(motions[0].spin().length() * duration > 100.0);
+        worst.turning_problem_count += usize::from(motions[0].spin().length() * duration > 100.0);
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         let problem =
             Problem::of_moving_bodies(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
@@ -62,7 +62,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         }
     }
     assert!(
-        worst.far_count > 500 && worst.turning_count > 500,
+        worst.far_problem_count > 500 && worst.turning_problem_count > 500,
         "{worst:?}"
     );
     assert!(worst.position < 1.0, "{worst:?}");
@@ -107,7 +107,7 @@ fn far_body(rng: &mut impl RngExt, count: usize, size: f64) -> Body {
         _ => random_power_of_ten(rng, 0.0, 6.0),
     };
     let middle = random_direction(rng) * offset;
-    let triangles = soup(rng, look, count, size);
+    let triangles = random_triangle_soup(rng, look, count, size);
     let moved: Vec<_> = triangles.iter().map(|t| t.map(|p| p + middle)).collect();
     body(&moved)
 }

@@ -36,7 +36,10 @@ fn balls_keep_apart(problem: &Problem<'_>) -> bool {
 
 /// Returns a lower bound of the distance of the bodies at all times, by bounding balls; negative if the balls meet.
 pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
-    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
+    let (a, b) = (
+        MovingBall::around_body(&problem.a),
+        MovingBall::around_body(&problem.b),
+    );
     let distance = least_length(b.centre - a.centre, b.velocity - a.velocity)
         - deviation_from_line_bound(problem);
     // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
@@ -54,19 +57,22 @@ fn deviation_from_line_bound(problem: &Problem<'_>) -> f64 {
 
 /// Returns the clock at which the bounding balls are nearest to each other.
 pub(crate) fn clock_of_nearest_balls(problem: &Problem<'_>) -> f64 {
-    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
+    let (a, b) = (
+        MovingBall::around_body(&problem.a),
+        MovingBall::around_body(&problem.b),
+    );
     least_length_parameter(b.centre - a.centre, b.velocity - a.velocity)
 }
 
 /// A ball that moves on a straight path and contains a body at all times, up to the effect of its acceleration.
-struct Ball {
+struct MovingBall {
     /// The position of the ball's centre at the start.
     centre: DVec3,
     velocity: DVec3,
     radius: f64,
 }
 
-impl Ball {
+impl MovingBall {
     fn around_body(side: &BodyWithPath<'_>) -> Self {
         let (centre, radius) = side.body.tree().bounding_ball();
         let path = &side.path;
@@ -75,7 +81,7 @@ impl Ball {
             rate if rate < 2.0 => rate,
             _ => 2.0,
         };
-        Ball {
+        MovingBall {
             centre: path.point_at_start(centre),
             velocity: path.velocity + 0.5 * path.acceleration,
             radius: radius + turned * centre.distance(path.centre),

@@ -76,13 +76,14 @@ impl BoundTightener {
         meter: &mut Meter,
     ) {
         if self.split_count == SPLITS_BEFORE_SCREW && problem.uses_shortcut(Shortcut::Screw) {
-            self.screw = Screw::for_problem(problem, &mut meter.scratch_memory().profile_cache);
+            self.screw =
+                Screw::for_problem(problem, &mut meter.scratch_memory().screw_profile_cache);
         }
         // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw
             && split.lane_mask == u8::MAX
         {
-            let profiles = &mut meter.scratch_memory().profile_cache;
+            let profiles = &mut meter.scratch_memory().screw_profile_cache;
             siblings.finish_if_kept_apart(|pair| screw.keeps_apart(problem, profiles, pair, s));
         }
     }

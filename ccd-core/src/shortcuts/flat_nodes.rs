@@ -9,7 +9,7 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{GAP_ERROR_PER_RADIUS_F32, RATE_ERROR_F64};
-use crate::tuning::{CLOSED_GAP_THRESHOLD, MIN_ROTATION_GAP_SHARE, MIN_ROUNDING_FOR_F64};
+use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, MIN_ROTATION_GAP_SHARE, MIN_ROUNDING_FOR_F64};
 use glam::DVec3;
 
 /// Returns a time, from clock `s` on, for which a flat node of A and a flat node of B certainly keep the required gap.
@@ -94,7 +94,7 @@ fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, 
     let kept = problem.rounding + problem.kept_node_gap();
     let gap = n.dot(way) - a.extent_along(n) - b.extent_along(-n) - kept;
     // Written so that NaN gives no time.
-    if !(gap > CLOSED_GAP_THRESHOLD * problem.tolerance) {
+    if !(gap > CLOSED_GAP_TOLERANCE_SHARE * problem.tolerance) {
         return 0.0;
     }
     let approach = ApproachRateBounds::along_axis(problem, [&a.node, &b.node], n, s);

@@ -20,7 +20,7 @@ use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{RATE_ERROR_F64, SCREW_VELOCITY_ERROR_F64};
-use crate::tuning::{CLOSED_GAP_THRESHOLD, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
+use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -86,7 +86,7 @@ impl Screw {
         // Rounding counts once for the positions, and once for the axis.
         let kept = problem.kept_node_gap()
             + 2.0 * problem.rounding
-            + CLOSED_GAP_THRESHOLD * problem.tolerance;
+            + CLOSED_GAP_TOLERANCE_SHARE * problem.tolerance;
         profiles.0[0].clear(&problem.a);
         profiles.0[1].clear(&problem.b);
         Some(Screw {
@@ -94,7 +94,7 @@ impl Screw {
             axis: ScrewAxis::new(side.path.centre_at(0.0), unit, along / side.path.rate),
             path: ScrewPath {
                 pitch: TAU * (along / side.path.rate),
-                angles: [0.0, side.path.rate],
+                angle_range: [0.0, side.path.rate],
                 needed_gap: kept + drift * (1.0 + RATE_ERROR_F64),
             },
         })
@@ -141,9 +141,9 @@ impl Screw {
             WhichBody::A => (a, b),
             WhichBody::B => (b, a),
         };
-        let [_, end] = self.path.angles;
+        let [_, end] = self.path.angle_range;
         let way = ScrewPath {
-            angles: [s * end, end],
+            angle_range: [s * end, end],
             ..self.path
         };
         Some(profiles_keep_apart(turning, still, &self.axis, &way))

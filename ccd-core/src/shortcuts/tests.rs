@@ -46,7 +46,7 @@ fn answers_without_a_shortcut_agree_with_those_of_all() {
         scene.settings.shortcuts = Shortcuts::ALL.without(Shortcut::ALL[number / 4 % 7]);
         let problem = scene.problem();
         let without = solve(&problem);
-        changed += u32::from(with.stats.work() != without.stats.work());
+        changed += u32::from(with.stats.budgeted_work() != without.stats.budgeted_work());
         match (with.outcome, without.outcome) {
             (Outcome::Contact { time: one, .. }, Outcome::Contact { time: other, .. }) => {
                 contacts += 1;
@@ -204,7 +204,7 @@ fn each_shortcut_saves_the_work_that_is_documented() {
             };
             let problem =
                 Problem::of_moving_bodies((&a, of_a), (&b, of_b), 1.0, &settings).unwrap();
-            solve(&problem).stats.work()
+            solve(&problem).stats.budgeted_work()
         })
     });
     assert_eq!(measured.to_vec(), documented_work());

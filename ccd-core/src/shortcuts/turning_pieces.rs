@@ -22,12 +22,12 @@ use std::cell::Cell;
 
 /// A piece with the pose and the motion of its body at a clock.
 pub(crate) struct MovingPiece<'p> {
-    pub(crate) side: &'p BodyWithPath<'p>,
+    pub(crate) body_with_path: &'p BodyWithPath<'p>,
     pub(crate) frame: &'p Frame,
     pub(crate) piece: Piece<'p>,
     pub(crate) clock: f64,
     /// An upper bound of the speed of any point of the piece relative to the piece's first point.
-    pub(crate) relative_speed_bound: f64,
+    pub(crate) rotational_speed_bound: f64,
 }
 
 impl<'p> MovingPiece<'p> {
@@ -43,19 +43,19 @@ impl<'p> MovingPiece<'p> {
             0.0
         };
         MovingPiece {
-            side,
+            body_with_path: side,
             frame,
             piece,
             clock,
-            relative_speed_bound: relative_speed,
+            rotational_speed_bound: relative_speed,
         }
     }
 
     /// Returns an upper bound of the rate at which any point of the piece moves along `normal`, relative to the piece's
     /// first point. It is at most `relative_speed`, which holds for every axis.
-    pub(crate) fn relative_speed_bound_along(&self, normal: DVec3) -> f64 {
-        let path = &self.side.path;
-        self.relative_speed_bound * path.spin.cross(normal).length() / path.rate
+    pub(crate) fn rotational_speed_bound_along(&self, normal: DVec3) -> f64 {
+        let path = &self.body_with_path.path;
+        self.rotational_speed_bound * path.spin.cross(normal).length() / path.rate
     }
 }
 
@@ -84,7 +84,7 @@ pub(crate) struct PiecePastTurningPlane<'p> {
     /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
     reach: f64,
     /// A bound of the error of the points' positions by rounding, for both bodies together.
-    rounding_displacement: f64,
+    position_error_bound: f64,
     /// The number of times that a point's height above the plane was computed; it is counted as work.
     pub(crate) evaluations: Cell<u64>,
 }
@@ -107,7 +107,7 @@ impl<'p> PiecePastTurningPlane<'p> {
         normal: DVec3,
         rounding: f64,
     ) -> Self {
-        let (path, own) = (&holder.side.path, &other.side.path);
+        let (path, own) = (&holder.body_with_path.path, &other.body_with_path.path);
         // All points of a body that does not turn move alike, and one of the piece's own points is nearest.
         let reference = if own.is_turning() {
             own.centre
@@ -136,7 +136,7 @@ impl<'p> PiecePastTurningPlane<'p> {
             reference_point: reference,
             radius,
             reach: offset.length() + speed + radius,
-            rounding_displacement: rounding,
+            position_error_bound: rounding,
             evaluations: Cell::new(0),
         }
     }
@@ -181,8 +181,8 @@ impl<'p> PiecePastTurningPlane<'p> {
         let fastest =
             self.angular_speed * self.reach + self.speed + self.own_angular_speed * self.radius;
         (
-            2.0 * self.rounding_displacement + rounding * self.reach,
-            turns * self.rounding_displacement + rounding * fastest,
+            2.0 * self.position_error_bound + rounding * self.reach,
+            turns * self.position_error_bound + rounding * fastest,
         )
     }
 
@@ -212,7 +212,7 @@ impl<'p> PiecePastTurningPlane<'p> {
         let angle = AngleSinCos::new(self.angular_speed * tau);
         let own = AngleSinCos::new(self.own_angular_speed * tau);
         let axis = self.normal.vector_at(angle);
-        let (offset, velocity) = self.offset_and_velocity_after(tau);
+        let (offset, velocity) = self.relative_position_and_velocity_after(tau);
         let turning = self.normal.derivative_at(angle) * self.angular_speed;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
@@ -229,7 +229,7 @@ impl<'p> PiecePastTurningPlane<'p> {
 
     /// Returns the offset `D` and the velocity `V` of the reference point from the turning body's centre, at the time
     /// `tau` after the present clock.
-    fn offset_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
+    fn relative_position_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);
         (
             self.offset + velocity * tau,
@@ -240,7 +240,7 @@ impl<'p> PiecePastTurningPlane<'p> {
     /// Returns a bound of the second derivative of the points' heights, which holds for a time
     /// [`MAX_TURNING_PLANE_TIME`] from `tau` on.
     fn second_derivative(&self, tau: f64) -> f64 {
-        let (offset, _) = self.offset_and_velocity_after(tau);
+        let (offset, _) = self.relative_position_and_velocity_after(tau);
         let arm = self.rotation_axis.cross(offset).length()
             + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
         let across = self.angular_speed * (self.normal.derivative_length() + RATE_ERROR_F64);

@@ -12,7 +12,7 @@ use crate::tests::scene::{
 use crate::tests::trajectories::SwingingTrajectory;
 use crate::{Motion, Outcome, Pose};
 
-fn boxes(scene: &Scene) -> [SweptBox; 2] {
+fn swept_boxes(scene: &Scene) -> [SweptBox; 2] {
     [0, 1].map(|k| {
         moving_body(scene, k)
             .swept_box(1.0, &scene.settings)
@@ -35,7 +35,7 @@ fn points_stay_in_their_box() {
             SceneKind::NearRim,
         ][rng.random_range(0..3)];
         let scene = scene(&mut rng, kind, 8);
-        for (k, swept) in boxes(&scene).iter().enumerate() {
+        for (k, swept) in swept_boxes(&scene).iter().enumerate() {
             let path = Path::new(&scene.motions[k], DVec3::ZERO, 1.0);
             turning += usize::from(path.is_turning());
             let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -125,7 +125,7 @@ fn bodies_whose_boxes_are_apart_are_free() {
             0 => scene.settings.tolerance * random_power_of_ten(&mut rng, -2.0, 5.0),
             _ => 0.0,
         };
-        let [a, b] = boxes(&scene);
+        let [a, b] = swept_boxes(&scene);
         // The displacement is along an axis that separates the boxes.
         let axis = rng.random_range(0..3);
         let overlap = a.max[axis] - b.min[axis];
@@ -137,7 +137,7 @@ fn bodies_whose_boxes_are_apart_are_free() {
         let start = Pose::new(start.translation() + way, start.rotation()).unwrap();
         scene.motions[1] =
             Motion::about(start, motion.velocity(), motion.spin(), motion.centre()).unwrap();
-        let [a, b] = boxes(&scene);
+        let [a, b] = swept_boxes(&scene);
         let outcome = BestFirst::default()
             .answer_first_contact(&scene.problem(), &mut ExhaustiveOracle)
             .outcome;
@@ -168,7 +168,7 @@ fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
             .map(|(side, motion)| {
                 let path = Path::new(motion, DVec3::ZERO, 1.0);
                 let way = length(path.centre_at(0.0)) + path.speed_bound() + scene.settings.margin;
-                body_distance_rounding(side.span_with_centre(), path.rate, way)
+                body_distance_rounding(side.extent_with_centre(), path.rate, way)
             })
             .sum();
         assert!(shares * (1.0 + 1e-12) >= problem.rounding);

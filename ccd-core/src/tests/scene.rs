@@ -103,7 +103,7 @@ pub(crate) fn random_box_corners(tape: &mut RandomCase) -> Vec<DVec3> {
 }
 
 /// Draws `count` triangles near the origin, none of which extends much farther than `size` from it.
-pub(crate) fn soup(
+pub(crate) fn random_triangle_soup(
     rng: &mut impl RngExt,
     look: SoupKind,
     count: usize,
@@ -138,7 +138,7 @@ pub(crate) fn two_random_triangles(rng: &mut Pcg64) -> [Triangle; 2] {
         return [(); 2].map(|()| [(); 3].map(|()| random_point_in_ball(rng, 1.0)));
     }
     let look = SoupKind::ALL[rng.random_range(0..5)];
-    let pair = soup(rng, look, 2, 0.5);
+    let pair = random_triangle_soup(rng, look, 2, 0.5);
     [pair[0], pair[1]]
 }
 
@@ -297,7 +297,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: SceneKind, most: usize) -> Scene {
         let look = SoupKind::ALL[rng.random_range(0..5)];
         let count = random_power_of_ten(rng, 0.0, (most as f64).log10()) as usize;
         let middle = random_direction(rng) * random_distance_from_origin(rng, sizes[k]);
-        let triangles = soup(rng, look, count.max(1), sizes[k]);
+        let triangles = random_triangle_soup(rng, look, count.max(1), sizes[k]);
         let moved: Vec<Triangle> = triangles.iter().map(|t| t.map(|p| p + middle)).collect();
         bodies.push(body(&moved));
         let mut passage = MotionThroughPose {

@@ -13,11 +13,11 @@ proptest! {
         let corner = |c: &[i32; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(c[k] % size[k])));
         let corners: Vec<DVec3> = corners.iter().map(corner).collect();
         let boxes: Vec<[DVec3; 2]> = corners[2..].as_chunks().0.to_vec();
-        let tree = BoundsTree::new(boxes.iter().map(|&ends| Bounds::enclosing(ends)).collect());
+        let tree = BoundingBoxTree::new(boxes.iter().map(|&ends| BoundingBox::enclosing(ends)).collect());
         // A point, and a box.
         for [p, q] in [[corners[0]; 2], [corners[0], corners[1]]] {
             let mut found = Vec::new();
-            let all = tree.all_meeting_boxes_satisfy(&Bounds::enclosing([p, q]), |k| {
+            let all = tree.all_meeting_boxes_satisfy(&BoundingBox::enclosing([p, q]), |k| {
                 found.push(k);
                 true
             });

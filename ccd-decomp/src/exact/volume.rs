@@ -1,6 +1,6 @@
 //! Signed volumes with a bound on rounding.
 
-use crate::tolerance::volume_rounding;
+use crate::tolerance::volume_rounding_bound;
 use ccd_core::glam::DVec3;
 
 /// A sum of signed volumes of tetrahedra, with a bound of its rounding error.
@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 pub(crate) struct SignedVolume {
     sum: f64,
     /// The sum of the exact rounding errors of all additions, which corrects `sum`.
-    addition_errors: f64,
+    addition_error_sum: f64,
     term_bound_sum: f64,
     term_count: f64,
 }
@@ -29,16 +29,16 @@ impl SignedVolume {
         let sum = self.sum + term;
         // The exact rounding error of the addition (Knuth's two-sum).
         let added = sum - self.sum;
-        self.addition_errors += (self.sum - (sum - added)) + (term - added);
+        self.addition_error_sum += (self.sum - (sum - added)) + (term - added);
         self.sum = sum;
         self.term_bound_sum += arm.length() * sides[0].length() * sides[1].length();
         self.term_count += 1.0;
     }
 
-    /// Returns whether the exact sum is positive; `None` if [rounding](volume_rounding) leaves its sign open.
+    /// Returns whether the exact sum is positive; `None` if [rounding](volume_rounding_bound) leaves its sign open.
     pub(crate) fn is_positive(&self) -> Option<bool> {
-        let sum = self.sum + self.addition_errors;
-        let rounding = volume_rounding(self.term_bound_sum, self.term_count);
+        let sum = self.sum + self.addition_error_sum;
+        let rounding = volume_rounding_bound(self.term_bound_sum, self.term_count);
         // Written so that NaN has no sign.
         (sum.abs() > rounding).then_some(sum > 0.0)
     }

@@ -1,4 +1,4 @@
-use super::{Edges, HalfEdge, twins};
+use super::{HalfEdge, SortedHalfEdges, twins};
 use proptest::prelude::*;
 
 /// Generates lists of triangles over few vertices; in half of the lists the vertex numbers are multiples of
@@ -27,7 +27,7 @@ proptest! {
     #[test]
     fn edges_are_those_of_a_sorted_list(triangles in triangles()) {
         let mut listed = Vec::new();
-        for (ends, uses) in Edges::new(&triangles).iter() {
+        for (ends, uses) in SortedHalfEdges::new(&triangles).iter() {
             prop_assert!(!uses.is_empty());
             listed.extend(uses.iter().map(|u| (ends, u.half_edge, u.is_backward)));
         }

@@ -3,7 +3,7 @@
 mod conflicts;
 mod local_points;
 
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::exact::predicates::{is_degenerate, side_of};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -74,7 +74,7 @@ impl ExactHull {
 
     /// Inserts a point, and returns the bounding box of all facets that this removes or adds; `None` if the point is inside
     /// or on the hull. O(f log f) in the number of facets.
-    pub(crate) fn insert(&mut self, points: &[DVec3], point: u32) -> Option<Bounds> {
+    pub(crate) fn insert(&mut self, points: &[DVec3], point: u32) -> Option<BoundingBox> {
         let is_visible = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
         let (removed, mut facets): (Vec<[u32; 3]>, Vec<[u32; 3]>) =
             self.facets.iter().partition(|facet| is_visible(facet));
@@ -91,7 +91,7 @@ impl ExactHull {
         let kept = facets.len();
         facets.extend(edges.iter().filter(is_rim).map(|&(a, b)| [a, b, point]));
         let changed = removed.iter().chain(&facets[kept..]).flatten();
-        let changed = Bounds::enclosing(changed.map(|&v| points[v as usize]));
+        let changed = BoundingBox::enclosing(changed.map(|&v| points[v as usize]));
         *self = ExactHull::from_facets(facets);
         Some(changed)
     }

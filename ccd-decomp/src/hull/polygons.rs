@@ -25,7 +25,7 @@ pub(crate) fn for_each_merged_polygon(
 ) {
     // A closed surface has all twins; without them each triangle is a polygon.
     let twins = twins(triangles).unwrap_or_default();
-    let group_of = coplanar_groups(points, triangles, &twins);
+    let group_of = coplanar_group_by_triangle(points, triangles, &twins);
     // Sorting is stable: each group is in ascending order.
     let mut members: Vec<u32> = (0..triangles.len() as u32).collect();
     members.sort_by_key(|&t| group_of[t as usize]);
@@ -106,7 +106,11 @@ fn boundary_edges(
 }
 
 /// Returns, for each triangle, the number of its group of connected coplanar triangles.
-fn coplanar_groups(points: &[DVec3], triangles: &[[u32; 3]], twins: &[HalfEdge]) -> Vec<u32> {
+fn coplanar_group_by_triangle(
+    points: &[DVec3],
+    triangles: &[[u32; 3]],
+    twins: &[HalfEdge],
+) -> Vec<u32> {
     let mut groups = DisjointSets::new(triangles.len());
     for (edge, &twin) in (0..).zip(twins).filter(|(edge, twin)| edge < *twin) {
         let [one, other] = [edge, twin].map(|edge| edge / 3);
@@ -118,7 +122,7 @@ fn coplanar_groups(points: &[DVec3], triangles: &[[u32; 3]], twins: &[HalfEdge])
             groups.join(one, other);
         }
     }
-    groups.set_numbers()
+    groups.set_index_by_element()
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ pub struct Adjustments {
     pub(crate) target_unit: Option<Unit>,
     /// The factors by which the coordinates along each axis are multiplied; negative along mirrored axes, never 0 or
     /// infinite.
-    factors: DVec3,
+    scale_by_axis: DVec3,
     /// Whether a closed mesh is treated as a hollow surface.
     pub(crate) is_hollow: bool,
 }
@@ -47,7 +47,7 @@ impl Adjustments {
     pub const NONE: Adjustments = Adjustments {
         stated_unit: None,
         target_unit: None,
-        factors: DVec3::ONE,
+        scale_by_axis: DVec3::ONE,
         is_hollow: false,
     };
 
@@ -75,10 +75,13 @@ impl Adjustments {
     /// # Errors
     /// [`InputError::OutOfRange`] unless the factor is positive and finite.
     pub fn scaled(self, factor: f64) -> Result<Self, InputError> {
-        let factors = self.factors * factor;
+        let factors = self.scale_by_axis * factor;
         // Written so that NaN is refused; several factors may leave the range together.
         if factor > 0.0 && factors.abs().min_element() > 0.0 && factors.is_finite() {
-            Ok(Adjustments { factors, ..self })
+            Ok(Adjustments {
+                scale_by_axis: factors,
+                ..self
+            })
         } else {
             Err(InputError::OutOfRange {
                 quantity: "scale",
@@ -92,9 +95,12 @@ impl Adjustments {
     /// that a solid stays one. Exact.
     #[must_use]
     pub fn mirrored(self, axis: Axis) -> Self {
-        let mut factors = self.factors;
+        let mut factors = self.scale_by_axis;
         factors[axis as usize] *= -1.0;
-        Adjustments { factors, ..self }
+        Adjustments {
+            scale_by_axis: factors,
+            ..self
+        }
     }
 
     /// Treats a closed mesh as a hollow [surface](crate::Detail::Surface), whatever the kind of pieces.
@@ -126,8 +132,8 @@ impl Adjustments {
 
     /// Returns the affine map that scales and mirrors the file's coordinates; `None` if it is the identity.
     pub(crate) fn affine_map(&self) -> Option<AffineMap> {
-        let map = || DAffine3::from_scale(self.factors).into();
-        (self.factors != DVec3::ONE).then(map)
+        let map = || DAffine3::from_scale(self.scale_by_axis).into();
+        (self.scale_by_axis != DVec3::ONE).then(map)
     }
 
     /// Returns whether any adjustment is of a kind that applies to meshes only, and not to prepared bodies.
@@ -140,12 +146,12 @@ impl Adjustments {
     }
 
     fn scale(&self) -> f64 {
-        self.factors.x.abs()
+        self.scale_by_axis.x.abs()
     }
 
     /// Iterates over the axes along which the mesh is mirrored.
     fn mirrored_axes(&self) -> impl Iterator<Item = Axis> {
-        let factors = self.factors;
+        let factors = self.scale_by_axis;
         let axes = [Axis::X, Axis::Y, Axis::Z].into_iter();
         axes.filter(move |&axis| factors[axis as usize] < 0.0)
     }

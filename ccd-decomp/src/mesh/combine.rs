@@ -5,7 +5,7 @@ use super::affine::AffineMap;
 use super::error::{MeshError, MeshFault};
 use super::polygons::{check_coordinate_range, check_count_fits_indices};
 use super::repair::Repairs;
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use ccd_core::glam::DVec3;
 
 impl TriangleMesh {
@@ -110,7 +110,8 @@ impl TriangleMesh {
     /// ```
     pub fn bounding_box(&self) -> [DVec3; 2] {
         let corners = self.faces.iter().flatten();
-        let Bounds { lo, hi } = Bounds::enclosing(corners.map(|&v| self.vertices[v as usize]));
+        let BoundingBox { lo, hi } =
+            BoundingBox::enclosing(corners.map(|&v| self.vertices[v as usize]));
         [lo, hi]
     }
 }

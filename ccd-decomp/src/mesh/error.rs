@@ -26,7 +26,7 @@ pub enum MeshFault {
     },
     /// The format is known, but this variant of it is not supported.
     #[error("holds {unsupported_content}, which is not supported; export it as {alternative}")]
-    Unsupported {
+    UnsupportedContent {
         /// The content that is not supported, as a noun phrase for the message.
         unsupported_content: String,
         /// The content to export instead, which is supported.
@@ -172,8 +172,11 @@ impl MeshFault {
     }
 
     /// Creates the error of content that is not supported, and of what to export instead.
-    pub(crate) fn unsupported(content: impl Into<String>, alternative: &'static str) -> Self {
-        MeshFault::Unsupported {
+    pub(crate) fn unsupported_content(
+        content: impl Into<String>,
+        alternative: &'static str,
+    ) -> Self {
+        MeshFault::UnsupportedContent {
             unsupported_content: content.into(),
             alternative,
         }

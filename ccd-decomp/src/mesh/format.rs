@@ -73,7 +73,7 @@ impl Format {
     }
 
     /// Returns whether a file of this format may refer to other files.
-    pub(crate) fn refers_to_files(self) -> bool {
+    pub(crate) fn may_refer_to_files(self) -> bool {
         self == Format::Gltf
     }
 
@@ -101,10 +101,10 @@ impl Format {
             return Err(MeshFault::StepFile);
         }
         match self {
-            Format::Obj => obj::parse(&text::utf8_cr_to_lf(bytes)),
+            Format::Obj => obj::parse(&text::to_utf8_with_lf(bytes)),
             Format::Stl => stl::parse(bytes).map(Content::from),
             Format::Ply => ply::parse(&unmarked).map(Content::from),
-            Format::Off => off::parse(&text::utf8_cr_to_lf(bytes)).map(Content::from),
+            Format::Off => off::parse(&text::to_utf8_with_lf(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
             Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]

@@ -218,7 +218,7 @@ impl MeshFile {
 /// Returns the paths of all files that a mesh is read from, including the files that it refers to.
 pub(crate) fn source_paths(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
     let found = || {
-        if !Format::from_path(path).is_ok_and(Format::refers_to_files) {
+        if !Format::from_path(path).is_ok_and(Format::may_refer_to_files) {
             return Ok(vec![path.to_owned()]);
         }
         let (format, bytes) = read_format_and_bytes(path)?;

@@ -107,7 +107,7 @@ impl fmt::Display for Repairs {
 }
 
 /// Marks every face with the same points as an earlier face, in the same orientation.
-pub(crate) fn mark_duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
+pub(crate) fn duplicate_face_flags(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let key = |face: &[u32; 3]| with_smallest_corner_first(face.map(|v| positions[v as usize]));
     let mut keyed: Vec<([u32; 3], u32)> = faces.iter().map(key).zip(0..).collect();
     keyed.sort_unstable();
@@ -120,7 +120,7 @@ pub(crate) fn mark_duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec
 
 /// Marks every collapsed face whose segment or point lies on an edge of an unmarked face. A collapsed face has two
 /// equal corner points.
-pub(crate) fn mark_covered_collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
+pub(crate) fn covered_collapsed_face_flags(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let welded = |face: &[u32; 3]| face.map(|v| positions[v as usize]);
     let has_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
     let mut marked = vec![false; faces.len()];

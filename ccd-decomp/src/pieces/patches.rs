@@ -81,12 +81,12 @@ pub(crate) fn patches_from_polygons(
         polygons: flats,
         order,
         work,
-        is_in_patch: vec![false; flats.len()],
-        last_tested_patch: vec![u32::MAX; flats.len()],
+        is_polygon_in_patch: vec![false; flats.len()],
+        tested_patch_by_polygon: vec![u32::MAX; flats.len()],
     };
     let mut patches = Vec::new();
     for seed in seed_order(manifold, flats, order) {
-        if !grower.is_in_patch[seed as usize] {
+        if !grower.is_polygon_in_patch[seed as usize] {
             let region = grower.grow_patch(seed, patches.len() as u32);
             work.check()?;
             patches.push(Patch::new(manifold, flats, &region));
@@ -101,16 +101,16 @@ struct PatchGrower<'a, 'm> {
     order: PatchOrder,
     work: &'a WorkBudget,
     /// For each polygon, whether it belongs to a patch.
-    is_in_patch: Vec<bool>,
+    is_polygon_in_patch: Vec<bool>,
     /// For each polygon, the number of the last patch that tried to add it. A refusal is final, because the hull only
     /// grows.
-    last_tested_patch: Vec<u32>,
+    tested_patch_by_polygon: Vec<u32>,
 }
 
 impl PatchGrower<'_, '_> {
     fn grow_patch(&mut self, seed: u32, patch: u32) -> GrowingPatch {
         let mut region = GrowingPatch::new(self.polygons, seed);
-        self.is_in_patch[seed as usize] = true;
+        self.is_polygon_in_patch[seed as usize] = true;
         let mut frontier = VecDeque::new();
         self.push_neighbours(&mut frontier, seed);
         // A flat patch takes no coplanar polygon, because the union need not be convex. These are tried again once the
@@ -118,8 +118,8 @@ impl PatchGrower<'_, '_> {
         let mut in_plane = Vec::new();
         // Polygons are pushed when another one joins, and each joins once.
         while let Some(next) = self.order.pop(&mut frontier) {
-            let tried = &mut self.last_tested_patch[next as usize];
-            if self.is_in_patch[next as usize]
+            let tried = &mut self.tested_patch_by_polygon[next as usize];
+            if self.is_polygon_in_patch[next as usize]
                 || *tried == patch
                 || region.polygons.len() >= MAX_PATCH_POLYGONS
             {
@@ -131,10 +131,10 @@ impl PatchGrower<'_, '_> {
                 JoinResult::Refused => {}
                 JoinResult::Coplanar => in_plane.push(next),
                 JoinResult::Joined => {
-                    self.is_in_patch[next as usize] = true;
+                    self.is_polygon_in_patch[next as usize] = true;
                     self.push_neighbours(&mut frontier, next);
                     for waiting in in_plane.drain(..) {
-                        self.last_tested_patch[waiting as usize] = u32::MAX;
+                        self.tested_patch_by_polygon[waiting as usize] = u32::MAX;
                         frontier.push_back(waiting);
                     }
                 }

@@ -2,7 +2,7 @@
 
 use crate::hull::HullError;
 use crate::solid::error::DecomposeError;
-use crate::tree::hull_tree::BuildError;
+use crate::tree::hull_tree::HullTreeBuildError;
 use ccd_core::{HullTreeError, InputError};
 
 /// The reason why no body can be made of a mesh.
@@ -17,7 +17,7 @@ pub enum PrepareError {
     Hull(#[from] HullError),
     /// The hull tree over the pieces cannot be built.
     #[error(transparent)]
-    BuildHullTree(#[from] BuildError),
+    BuildHullTree(#[from] HullTreeBuildError),
     /// The hull tree does not fit the pieces of the body.
     #[error(transparent)]
     HullTree(#[from] HullTreeError),

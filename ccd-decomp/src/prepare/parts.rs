@@ -87,7 +87,7 @@ pub(super) fn triangle_tree(mesh: &TriangleMesh) -> Result<PieceTree, PrepareErr
 }
 
 fn polytope_tree(polytopes: &[Polytope]) -> Result<PieceTree, PrepareError> {
-    piece_tree(Pieces::polytopes(polytopes)?)
+    piece_tree(Pieces::from_polytopes(polytopes)?)
 }
 
 fn piece_tree(pieces: Pieces) -> Result<PieceTree, PrepareError> {

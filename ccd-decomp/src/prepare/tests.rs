@@ -2,7 +2,7 @@ use crate::{Detail, Format, TriangleMesh, body_from_mesh, prepare};
 use ccd_core::ConvexCombination;
 use ccd_core::glam::dvec3;
 
-const TETRAHEDRON: &str =
+const TETRAHEDRON_OBJ: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 fn report(file: &str) -> String {
@@ -15,7 +15,7 @@ fn report(file: &str) -> String {
 
 #[test]
 fn a_closed_mesh_is_solid() {
-    assert_eq!(report(TETRAHEDRON), "1 convex hull, solid");
+    assert_eq!(report(TETRAHEDRON_OBJ), "1 convex hull, solid");
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn a_closed_mesh_inside_out_is_solid_and_says_so() {
 
 #[test]
 fn an_open_mesh_is_a_surface_and_says_why() {
-    let file = TETRAHEDRON.replace("f 3 1 4", "f 2 2 3");
+    let file = TETRAHEDRON_OBJ.replace("f 3 1 4", "f 2 2 3");
     assert_eq!(
         report(&file),
         "3 triangles, surface only (open; edges with one face: 3 (e0-2, e0-3, e2-3); \

@@ -2,9 +2,9 @@
 
 use super::element::Element;
 use super::oriented_box::OrientedBox;
-use super::planes::facet_planes;
+use super::planes::largest_facet_planes;
 use super::region::{Region, Shape};
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::tolerance::BOXES_BEFORE_ORIENTED_TESTS;
 use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
@@ -20,7 +20,7 @@ pub(crate) struct BoxTree {
 }
 
 struct Node {
-    bounds: Bounds,
+    bounds: BoundingBox,
     oriented_box: OrientedBox,
     /// The range of elements of a leaf; empty for an inner node.
     elements: Range<u32>,
@@ -55,7 +55,7 @@ impl BoxTree {
     }
 
     /// Returns the axis-aligned bounding box of all elements; `None` without elements.
-    pub(super) fn bounds(&self) -> Option<Bounds> {
+    pub(super) fn bounds(&self) -> Option<BoundingBox> {
         self.nodes.first().map(|node| node.bounds)
     }
 
@@ -69,7 +69,7 @@ impl BoxTree {
     ) -> bool {
         // Used only if axis-aligned boxes leave too many elements.
         let (met, planes) = (Cell::new(0), OnceCell::new());
-        let is_far = |bounds: &Bounds, oriented: &OrientedBox| {
+        let is_far = |bounds: &BoundingBox, oriented: &OrientedBox| {
             if !bounds.meets(&region.bounds) {
                 return true;
             }
@@ -79,7 +79,7 @@ impl BoxTree {
                     Shape::Segment(ends) => oriented.is_separated_from(ends),
                     Shape::Triangle(corners) => oriented.is_separated_from(corners),
                     Shape::HullInBox(hull) => {
-                        let mut planes = planes.get_or_init(|| facet_planes(hull)).iter();
+                        let mut planes = planes.get_or_init(|| largest_facet_planes(hull)).iter();
                         planes.any(|plane| plane.has_box_in_front(oriented))
                     }
                 }
@@ -91,7 +91,7 @@ impl BoxTree {
     /// returns false or the work is spent.
     pub(super) fn all_near_elements_satisfy(
         &self,
-        is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
+        is_far: impl Fn(&BoundingBox, &OrientedBox) -> bool,
         work: &WorkBudget,
         mut holds: impl FnMut(&Element) -> bool,
     ) -> bool {
@@ -150,7 +150,7 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
     let split = elements.len() / 2;
     let is_leaf = elements.len() <= MAX_LEAF_ELEMENTS;
     nodes.push(Node {
-        bounds: Bounds::enclosing(elements.iter().flat_map(|element| element.corners)),
+        bounds: BoundingBox::enclosing(elements.iter().flat_map(|element| element.corners)),
         elements: if is_leaf {
             first as u32..(first + elements.len()) as u32
         } else {

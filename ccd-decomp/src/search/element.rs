@@ -1,6 +1,6 @@
 //! The elements that box trees are built over.
 
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use ccd_core::glam::DVec3;
 
 /// An element of a box tree: a whole face, or one edge of it, as a triangle with a repeated corner.
@@ -12,7 +12,7 @@ pub(super) struct Element {
 
 impl Element {
     pub(super) fn centre(&self) -> DVec3 {
-        let bounds = Bounds::enclosing(self.corners);
+        let bounds = BoundingBox::enclosing(self.corners);
         0.5 * bounds.lo + 0.5 * bounds.hi
     }
 }

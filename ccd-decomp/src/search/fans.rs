@@ -5,7 +5,7 @@ use super::element::Element;
 use super::oriented_box::OrientedBox;
 use super::planes::separating_planes;
 use super::region::{Hull, Shape};
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::exact::predicates::{is_degenerate, side_of_plane};
 use crate::tolerance::MIN_FAN_TRIANGLES;
 use crate::work::WorkBudget;
@@ -91,8 +91,8 @@ impl Fan {
         })
     }
 
-    pub(super) fn bounds(&self) -> Bounds {
-        let hub = Bounds::enclosing([self.hub]);
+    pub(super) fn bounds(&self) -> BoundingBox {
+        let hub = BoundingBox::enclosing([self.hub]);
         self.rim_tree.bounds().map_or(hub, |rim| rim.union(hub))
     }
 
@@ -110,7 +110,7 @@ impl Fan {
             return true;
         }
         let planes = separating_planes(shape, self.hub);
-        let is_far = |_: &Bounds, oriented: &OrientedBox| {
+        let is_far = |_: &BoundingBox, oriented: &OrientedBox| {
             planes.iter().any(|plane| plane.has_box_in_front(oriented))
         };
         self.rim_tree

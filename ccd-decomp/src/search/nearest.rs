@@ -1,7 +1,7 @@
 //! Searches for the triangle nearest to a point, and for the triangles that meet an axis-aligned box.
 
 use super::box_tree::BoxTree;
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 
@@ -55,13 +55,13 @@ impl BoxTree {
     /// work is spent.
     pub(crate) fn all_triangles_meeting_box_satisfy(
         &self,
-        bounds: &Bounds,
+        bounds: &BoundingBox,
         work: &WorkBudget,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
+        let is_far = |other: &BoundingBox, _: &_| !other.meets(bounds);
         self.all_near_elements_satisfy(is_far, work, |element| {
-            !Bounds::enclosing(element.corners).meets(bounds) || holds(element.face)
+            !BoundingBox::enclosing(element.corners).meets(bounds) || holds(element.face)
         })
     }
 }

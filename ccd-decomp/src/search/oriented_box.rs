@@ -1,7 +1,7 @@
 //! Oriented boxes, and the tests that separate them from points and shapes.
 
 use super::element::Element;
-use crate::tolerance::box_rounding;
+use crate::tolerance::box_rounding_bound;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::rounding::UNIT_ROUNDOFF_F64;
@@ -39,7 +39,7 @@ impl OrientedBox {
         let (mut halves, mut slack, mut reach) = (DVec3::ZERO, 0.0, 0.0);
         for p in corners() {
             let offset = p - centre;
-            let along = dot_with_each(&axes, offset);
+            let along = dot_with_axes(&axes, offset);
             let rest = offset - along.x * first - along.y * second - along.z * axes[2];
             halves = halves.max(along.abs());
             slack = greater(slack, rest.abs().max_element());
@@ -62,7 +62,7 @@ impl OrientedBox {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
             let offset = element.centre() - self.centre;
-            let along = dot_with_each(&self.axes, offset);
+            let along = dot_with_axes(&self.axes, offset);
             (lo, hi) = (lo.min(along), hi.max(along));
         }
         self.axes[(hi - lo).max_position()]
@@ -71,14 +71,14 @@ impl OrientedBox {
     /// Returns an upper bound of the dot product of a vector with the offset of any point of the box from the centre.
     #[inline]
     pub(super) fn support_bound(&self, vector: DVec3) -> f64 {
-        let along = dot_with_each(&self.axes, vector).abs();
+        let along = dot_with_axes(&self.axes, vector).abs();
         along.dot(self.half_lengths) + vector.abs().element_sum() * self.slack
     }
 
     /// Returns a lower bound, up to rounding, of the distance of a point from the box; negative inside. Each axis is
     /// tested separately, because they need not be orthogonal.
     pub(super) fn least_distance(&self, point: DVec3) -> f64 {
-        let along = dot_with_each(&self.axes, point - self.centre).abs();
+        let along = dot_with_axes(&self.axes, point - self.centre).abs();
         (along - self.half_lengths).max_element() - 2.0 * self.slack
     }
 
@@ -88,7 +88,7 @@ impl OrientedBox {
         let reach = reach.fold(self.max_abs_coordinate, greater);
         (0..3).any(|k| {
             let axis = self.axes[k];
-            let least = self.half_lengths[k] + self.slack + box_rounding(axis, reach);
+            let least = self.half_lengths[k] + self.slack + box_rounding_bound(axis, reach);
             let along = |&p: &DVec3| axis.dot(p - self.centre);
             // Written so that NaN does not separate.
             points.iter().all(|p| along(p) > least) || points.iter().all(|p| along(p) < -least)
@@ -98,7 +98,7 @@ impl OrientedBox {
 
 /// Returns the dot products of a vector with three axes.
 #[inline]
-fn dot_with_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
+fn dot_with_axes(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
     DVec3::new(
         axes[0].dot(offset),
         axes[1].dot(offset),

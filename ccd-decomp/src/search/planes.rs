@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 pub(super) struct Plane {
     point: DVec3,
     normal: DVec3,
-    largest_coordinate: f64,
+    max_abs_coordinate: f64,
     /// A bound on the rounding error of heights above the plane, per unit of the largest coordinate.
     relative_rounding: f64,
 }
@@ -22,7 +22,7 @@ impl Plane {
         Plane {
             point: foot,
             normal: u.cross(v),
-            largest_coordinate: foot.abs().max_element(),
+            max_abs_coordinate: foot.abs().max_element(),
             // Twice, to cover three axes.
             relative_rounding: 2.0 * height_rounding([u, v], 1.0),
         }
@@ -36,7 +36,7 @@ impl Plane {
     #[inline]
     pub(super) fn has_box_in_front(&self, oriented: &OrientedBox) -> bool {
         let offset = oriented.centre - self.point;
-        let reach = oriented.max_abs_coordinate + 2.0 * self.largest_coordinate;
+        let reach = oriented.max_abs_coordinate + 2.0 * self.max_abs_coordinate;
         let height = self.normal.dot(offset) - oriented.support_bound(self.normal);
         // Written so that NaN is not in front.
         height > self.relative_rounding * reach + f64::MIN_POSITIVE
@@ -82,7 +82,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
 }
 
 /// Returns the planes of the largest facets of a hull, which have the hull behind them.
-pub(super) fn facet_planes(hull: &Hull) -> Vec<Plane> {
+pub(super) fn largest_facet_planes(hull: &Hull) -> Vec<Plane> {
     let tested = hull.facets.iter().take(MAX_TESTED_FACETS);
     tested.map(|&facet| Plane::from_triangle(facet)).collect()
 }

@@ -1,12 +1,12 @@
 //! Regions for which triangles are searched.
 
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use ccd_core::glam::DVec3;
 
 /// A region to search: a shape, and its bounding box.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
-    pub(crate) bounds: Bounds,
+    pub(crate) bounds: BoundingBox,
     pub(super) shape: Shape,
 }
 
@@ -31,14 +31,14 @@ pub(super) struct Hull {
 impl Region {
     pub(crate) fn segment(ends: [DVec3; 2]) -> Self {
         Region {
-            bounds: Bounds::enclosing(ends),
+            bounds: BoundingBox::enclosing(ends),
             shape: Shape::Segment(ends),
         }
     }
 
     pub(crate) fn from_triangle(corners: [DVec3; 3]) -> Self {
         Region {
-            bounds: Bounds::enclosing(corners),
+            bounds: BoundingBox::enclosing(corners),
             shape: Shape::Triangle(corners),
         }
     }
@@ -47,7 +47,7 @@ impl Region {
     pub(crate) fn inside_box_and_hull(
         corners: Vec<DVec3>,
         mut facets: Vec<[DVec3; 3]>,
-        bounds: Bounds,
+        bounds: BoundingBox,
     ) -> Self {
         // A triangle near a hull but outside is most likely in front of a large facet.
         let area = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).length_squared();

@@ -1,5 +1,5 @@
 use super::*;
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::exact::predicates::{is_degenerate, side_of_plane};
 use crate::exact::rays::segment_crossing_sign;
 use crate::exact::triangles::triangles_meet;
@@ -132,7 +132,7 @@ fn skipped_triangles_meet_nothing() {
             let inside = Region::inside_box_and_hull(
                 probe.to_vec(),
                 facets.clone(),
-                Bounds::enclosing(probe),
+                BoundingBox::enclosing(probe),
             );
             let regions = [
                 Region::from_triangle([a, b, c]),
@@ -195,7 +195,7 @@ fn the_nearest_triangle_is_found() {
                 .unwrap();
             assert_eq!(distance(at(&faces[face as usize])), found);
             assert!(found <= least + 1e-12, "{found} {least}");
-            let bounds = Bounds::enclosing([p, q]);
+            let bounds = BoundingBox::enclosing([p, q]);
             let mut within = Vec::new();
             let all = search.all_triangles_meeting_box_satisfy(
                 &bounds,
@@ -207,7 +207,7 @@ fn the_nearest_triangle_is_found() {
             );
             assert!(all);
             within.sort_unstable();
-            let meets = |face: &[u32; 3]| Bounds::enclosing(at(face)).meets(&bounds);
+            let meets = |face: &[u32; 3]| BoundingBox::enclosing(at(face)).meets(&bounds);
             let twin: Vec<u32> = (0..)
                 .zip(&faces)
                 .filter(|(_, f)| meets(f))

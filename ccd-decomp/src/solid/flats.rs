@@ -1,7 +1,7 @@
 //! Merges the coplanar triangles of a mesh into convex polygons.
 
 use super::manifold::{Dihedral, Manifold};
-use crate::disjoint_sets::{DisjointSets, members};
+use crate::disjoint_sets::{DisjointSets, members_by_set};
 use crate::exact::predicates::Projection;
 use crate::half_edges::HalfEdge;
 use crate::hull::polygons::strictly_convex_corners;
@@ -62,9 +62,9 @@ pub(crate) struct PlanarRegionSize {
 /// single run of edges. Their union is convex if it is convex at both ends of the run.
 pub(crate) struct RegionMerger<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    /// For each half-edge, the next half-edge on the boundary of its region; `previous_half_edge` holds the previous one.
-    next_half_edge: Vec<HalfEdge>,
-    previous_half_edge: Vec<HalfEdge>,
+    /// For each half-edge, the next half-edge on the boundary of its region; `previous_by_half_edge` holds the previous one.
+    next_by_half_edge: Vec<HalfEdge>,
+    previous_by_half_edge: Vec<HalfEdge>,
     regions: DisjointSets,
     /// The connected coplanar sets of faces, each of one or more polygons.
     planes: DisjointSets,
@@ -111,8 +111,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         let turn = |step: u32| (0..3 * faces).map(move |h| h - h % 3 + (h + step) % 3);
         RegionMerger {
             manifold,
-            next_half_edge: turn(1).collect(),
-            previous_half_edge: turn(2).collect(),
+            next_by_half_edge: turn(1).collect(),
+            previous_by_half_edge: turn(2).collect(),
             regions: DisjointSets::new(faces as usize),
             planes: DisjointSets::new(faces as usize),
         }
@@ -150,14 +150,14 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         }
         // The common run of edges, seen from the first region. It is never a whole rim: it lies on one line.
         let ends = [
-            self.last_half_edge_beside_region(edge, |merger| &merger.previous_half_edge, other),
-            self.last_half_edge_beside_region(edge, |merger| &merger.next_half_edge, other),
+            self.last_half_edge_beside_region(edge, |merger| &merger.previous_by_half_edge, other),
+            self.last_half_edge_beside_region(edge, |merger| &merger.next_by_half_edge, other),
         ];
         let [Some(first), Some(last)] = ends else {
             return false;
         };
-        let before = |h: HalfEdge| self.previous_half_edge[h as usize];
-        let after = |h: HalfEdge| self.next_half_edge[h as usize];
+        let before = |h: HalfEdge| self.previous_by_half_edge[h as usize];
+        let after = |h: HalfEdge| self.next_by_half_edge[h as usize];
         let twin = |h: HalfEdge| self.manifold.twin(h);
         let joints = [
             (before(first), after(twin(first))),
@@ -168,8 +168,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             return false;
         }
         for (before, after) in joints {
-            self.next_half_edge[before as usize] = after;
-            self.previous_half_edge[after as usize] = before;
+            self.next_by_half_edge[before as usize] = after;
+            self.previous_by_half_edge[after as usize] = before;
         }
         self.regions.join(one, other);
         true
@@ -208,14 +208,15 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
 
     /// Converts the merged regions to convex polygons.
     pub(crate) fn into_polygons(mut self) -> ConvexPolygons {
-        let flat_of = self.regions.set_numbers();
+        let flat_of = self.regions.set_index_by_element();
         let flat = |(number, faces): (usize, Vec<u32>)| {
             let outer =
                 |&h: &HalfEdge| flat_of[self.manifold.twin(h) as usize / 3] as usize != number;
             let mut own = faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
             let start = own.find(outer);
-            let onward =
-                |&h: &HalfEdge| Some(self.next_half_edge[h as usize]).filter(|&h| Some(h) != start);
+            let onward = |&h: &HalfEdge| {
+                Some(self.next_by_half_edge[h as usize]).filter(|&h| Some(h) != start)
+            };
             // A convex polygon has one rim, on which each half-edge is once.
             let rim = std::iter::successors(start, onward).take(3 * faces.len());
             let rim: Vec<HalfEdge> = rim.collect();
@@ -232,7 +233,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
                 corners,
             }
         };
-        let flats = members(&flat_of).into_iter().enumerate().map(flat);
+        let flats = members_by_set(&flat_of).into_iter().enumerate().map(flat);
         ConvexPolygons {
             polygons: flats.collect(),
             polygon_of_face: flat_of,

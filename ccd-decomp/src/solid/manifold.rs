@@ -3,7 +3,7 @@
 use super::error::DecomposeError;
 use super::topology::Topology;
 use crate::exact::predicates::{
-    Projection, first_point_below_exact_range, is_degenerate, side_of_plane,
+    Projection, first_inexact_point_index, is_degenerate, side_of_plane,
 };
 use crate::half_edges::{HalfEdge, twins};
 use crate::mesh::TriangleMesh;
@@ -49,7 +49,7 @@ impl<'m> Manifold<'m> {
         mesh: &'m TriangleMesh,
         topology: &Topology,
     ) -> Result<Self, DecomposeError> {
-        if let Some(vertex) = first_point_below_exact_range(mesh.vertices()) {
+        if let Some(vertex) = first_inexact_point_index(mesh.vertices()) {
             return Err(DecomposeError::CoordinateNearZero { vertex });
         }
         if !topology.is_manifold() {

@@ -2,13 +2,13 @@
 
 mod closed_parts;
 
-use crate::bounds::{Bounds, BoundsTree};
-use crate::disjoint_sets::members;
-use crate::exact::predicates::{first_point_below_exact_range, is_degenerate};
+use crate::bounds::{BoundingBox, BoundingBoxTree};
+use crate::disjoint_sets::members_by_set;
+use crate::exact::predicates::{first_inexact_point_index, is_degenerate};
 use crate::exact::rays::{probe_segment, segment_crossing_sign};
 use crate::exact::triangles::meet_outside_shared_corners;
 use crate::exact::volume::SignedVolume;
-use crate::half_edges::Edges;
+use crate::half_edges::SortedHalfEdges;
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
@@ -40,9 +40,9 @@ impl MisorientedShells {
     /// has equally many faces in both directions. A mesh of one part needs no reversal.
     ///
     /// Exact. O(n log n) where few boxes of triangles and of shells meet those of other shells.
-    pub(crate) fn new(mesh: &TriangleMesh, edges: &Edges) -> Self {
+    pub(crate) fn new(mesh: &TriangleMesh, edges: &SortedHalfEdges) -> Self {
         let shell_of = closed_part_numbers(mesh, edges);
-        let faces_of = members(&shell_of);
+        let faces_of = members_by_set(&shell_of);
         match faces_of[..] {
             [] | [_] => MisorientedShells::default(),
             _ => Shells::new(mesh, shell_of, faces_of).misoriented_shells(),
@@ -57,7 +57,7 @@ struct Shells<'m> {
     shell_of_face: Vec<u32>,
     faces_of_shell: Vec<Vec<u32>>,
     /// The bounding boxes of the shells. The winding number of a shell is 0 outside its box.
-    bounds: BoundsTree,
+    bounds: BoundingBoxTree,
 }
 
 /// The shells that surround one shell.
@@ -71,10 +71,10 @@ struct SurroundingShells {
 impl<'m> Shells<'m> {
     fn new(mesh: &'m TriangleMesh, shell_of: Vec<u32>, faces_of: Vec<Vec<u32>>) -> Self {
         let bounds = |faces: &Vec<u32>| {
-            Bounds::enclosing(faces.iter().flat_map(|&face| mesh.triangle(face)))
+            BoundingBox::enclosing(faces.iter().flat_map(|&face| mesh.triangle(face)))
         };
         Shells {
-            bounds: BoundsTree::new(faces_of.iter().map(bounds).collect()),
+            bounds: BoundingBoxTree::new(faces_of.iter().map(bounds).collect()),
             boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
             mesh,
             shell_of_face: shell_of,
@@ -83,10 +83,10 @@ impl<'m> Shells<'m> {
     }
 
     fn misoriented_shells(&self) -> MisorientedShells {
-        let exact = first_point_below_exact_range(self.mesh.vertices()).is_none();
+        let exact = first_inexact_point_index(self.mesh.vertices()).is_none();
         let shells = 0..self.faces_of_shell.len() as u32;
         let found: Vec<Option<SurroundingShells>> = shells
-            .map(|shell| exact.then(|| self.surroundings(shell)).flatten())
+            .map(|shell| exact.then(|| self.surrounding_shells(shell)).flatten())
             .collect();
         let is_unknown: Vec<bool> = found.iter().map(Option::is_none).collect();
         let around: Vec<SurroundingShells> =
@@ -142,7 +142,7 @@ impl<'m> Shells<'m> {
     }
 
     /// Returns the shells that surround a shell; `None` if they cannot be determined.
-    fn surroundings(&self, shell: u32) -> Option<SurroundingShells> {
+    fn surrounding_shells(&self, shell: u32) -> Option<SurroundingShells> {
         let mut shells = self.shells_winding_about(shell)?;
         if shells.is_empty() {
             return Some(SurroundingShells::default());
@@ -161,7 +161,7 @@ impl<'m> Shells<'m> {
         let faces = &self.faces_of_shell[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
         let is_own = |other: u32| other == shell;
-        let at = Bounds::enclosing([corner]);
+        let at = BoundingBox::enclosing([corner]);
         if self.bounds.all_meeting_boxes_satisfy(&at, is_own) {
             return Some(Vec::new());
         }
@@ -174,7 +174,7 @@ impl<'m> Shells<'m> {
         let corners = (0..MAX_NESTING_RAYS).map(|k| (k, face(k)[k % 3]));
         // Shells that share faces touch at all corners.
         let middles = (0..MAX_NESTING_RAYS)
-            .filter_map(|k| Some((k, self.isolated_centre(shell, face(k), size)?)));
+            .filter_map(|k| Some((k, self.isolated_face_centre(shell, face(k), size)?)));
         corners.chain(middles).find_map(|(k, from)| {
             self.shells_winding_about_start(shell, probe_segment(from, size, k))
         })
@@ -182,7 +182,7 @@ impl<'m> Shells<'m> {
 
     /// Returns the rounded centre of a face; `None` if another shell is so near that rounding may move the centre
     /// across it.
-    fn isolated_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
+    fn isolated_face_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
         let (middle, across) = centre_and_points_beside(face, size)?;
         let is_of_shell = |face: u32| self.shell_of_face[face as usize] == shell;
         let misses = |face: u32| {
@@ -205,7 +205,7 @@ impl<'m> Shells<'m> {
             .boxes
             .all_near_faces_satisfy(&region, &WorkBudget::unbounded(), |face| {
                 let other = self.shell_of_face[face as usize];
-                let start = Bounds::enclosing([ray[0]]);
+                let start = BoundingBox::enclosing([ray[0]]);
                 let may_wind = other != shell && self.bounds.get(other).meets(&start);
                 let found = if may_wind {
                     segment_crossing_sign(ray, self.mesh.triangle(face))

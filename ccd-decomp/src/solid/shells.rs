@@ -2,7 +2,7 @@
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
-use crate::disjoint_sets::{DisjointSets, members};
+use crate::disjoint_sets::{DisjointSets, members_by_set};
 use crate::exact::rays::{probe_segment, segment_crossing_sign};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
@@ -22,7 +22,7 @@ pub(crate) fn check_orientation(
 ) -> Result<(), DecomposeError> {
     let shell_of = shell_numbers(manifold);
     let near = manifold.triangle(0)[0];
-    let faces_of = members(&shell_of);
+    let faces_of = members_by_set(&shell_of);
     for faces in &faces_of {
         let triangles = faces.iter().map(|&face| manifold.triangle(face));
         let volume = SignedVolume::from_triangles(triangles, near);
@@ -54,7 +54,7 @@ pub(crate) fn shell_numbers(manifold: &Manifold<'_>) -> Vec<u32> {
     for half_edge in 0..3 * faces as u32 {
         shells.join(half_edge / 3, manifold.twin(half_edge) / 3);
     }
-    shells.set_numbers()
+    shells.set_index_by_element()
 }
 
 /// Returns the winding number of all other shells about one shell; `None` if every ray meets an edge or vertex.

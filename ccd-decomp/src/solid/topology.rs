@@ -1,7 +1,7 @@
 //! Computes the topology of a mesh: irregular edges, closedness, orientation.
 
 use super::nesting::MisorientedShells;
-use crate::half_edges::Edges;
+use crate::half_edges::SortedHalfEdges;
 use crate::mesh::TriangleMesh;
 use crate::tally::Tally;
 use ccd_core::glam::DVec3;
@@ -51,7 +51,7 @@ impl Topology {
     /// Computes the topology like [`Topology::of`], and the mesh with wrong shells reversed. The mesh is `None` if no
     /// shell is wrong.
     pub(crate) fn with_reoriented_mesh(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
-        let edges = Edges::new(&mesh.welded_faces());
+        let edges = SortedHalfEdges::new(&mesh.welded_faces());
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
             ..Topology::default()

@@ -17,7 +17,7 @@ pub(crate) const FACE_CENTRE_ROUNDING: f64 = 1e-12;
 /// is off by `2u m` in every coordinate and its length along the direction by `8u d m`. The half length is at most
 /// `2√3 m`, and its sum with the slack and this bound is off by `8u d m`, as `d` is at least 1. That is 16u; 128u are
 /// used, plus a term for underflow.
-pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
+pub(crate) fn box_rounding_bound(direction: DVec3, reach: f64) -> f64 {
     128.0 * UNIT_ROUNDOFF_F64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
 
@@ -29,7 +29,7 @@ pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
 /// and is rounded twice and added up four times: a relative error of 9u. Their sizes add up to at most
 /// `√3 |a| |b| |c|`: 16u of the size. A compensated sum of `n` terms has a relative error of `u`, and an error of
 /// `2 n² u²` of their sizes. The size has a relative error of `(n + 16) u`. 32u are used, plus a term in `n²`.
-pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
+pub(crate) fn volume_rounding_bound(size: f64, terms: f64) -> f64 {
     (32.0 + 4.0 * terms * (terms * UNIT_ROUNDOFF_F64)) * UNIT_ROUNDOFF_F64 * size
 }
 
@@ -45,7 +45,7 @@ pub(crate) const DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL: f64 = 1e-9;
 /// relative error of `3u`, which moves the point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
 /// each, the sum by `√3 u m`: less than 20u, 120u for six of them. The two dot products of a height above a plane are
 /// off by `6√3 u m` each, the centre of a box by `√3 u m`. 256u are used.
-pub(crate) fn excess_rounding(half_diagonal: f64, farthest: f64) -> f64 {
+pub(crate) fn excess_rounding_bound(half_diagonal: f64, farthest: f64) -> f64 {
     DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL * half_diagonal + 256.0 * UNIT_ROUNDOFF_F64 * farthest
 }
 

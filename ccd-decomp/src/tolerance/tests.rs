@@ -8,14 +8,14 @@ const U: f64 = 1.0 / 9_007_199_254_740_992.0;
 
 #[test]
 fn allowances_are_those_of_their_derivations() {
-    assert_eq!(excess_rounding(0.0, 3.0), 768.0 * U);
+    assert_eq!(excess_rounding_bound(0.0, 3.0), 768.0 * U);
     let direction = DVec3::new(1.0, -2.0, 3.0);
-    assert_eq!(box_rounding(direction, 5.0), 3_840.0 * U);
-    assert_eq!(box_rounding(direction, 0.0), f64::MIN_POSITIVE);
-    assert_eq!(volume_rounding(7.0, 0.0), 224.0 * U);
+    assert_eq!(box_rounding_bound(direction, 5.0), 3_840.0 * U);
+    assert_eq!(box_rounding_bound(direction, 0.0), f64::MIN_POSITIVE);
+    assert_eq!(volume_rounding_bound(7.0, 0.0), 224.0 * U);
     // So many terms that their squares count.
     let terms = 67_108_864.0;
-    assert_eq!(volume_rounding(7.0, terms), 7.0 * (32.0 + 2.0) * U);
+    assert_eq!(volume_rounding_bound(7.0, terms), 7.0 * (32.0 + 2.0) * U);
 }
 
 /// Tests that `MIN_CHILD_SHARE` limits a hull tree of a million pieces to 104 levels.

@@ -4,7 +4,7 @@ mod agglomerate;
 mod nodes;
 mod reinsert;
 
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::tolerance::MAX_CLUSTER_PIECES;
 use crate::tree::slot::SubtreeSlot;
 use agglomerate::agglomerate;
@@ -50,22 +50,23 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
 fn leaves_in_unit_cube(pieces: &Pieces) -> Vec<Node> {
     let bounds = |piece: usize| {
         let piece = pieces.get(piece);
-        let Bounds { lo, hi } = Bounds::enclosing(piece.points.iter().copied());
-        Bounds {
+        let BoundingBox { lo, hi } = BoundingBox::enclosing(piece.points.iter().copied());
+        BoundingBox {
             lo: lo - piece.radius,
             hi: hi + piece.radius,
         }
     };
     let all = (0..pieces.len()).into_par_iter();
-    let boxes: Vec<Bounds> = all.with_min_len(PIECES_PER_TASK).map(bounds).collect();
+    let boxes: Vec<BoundingBox> = all.with_min_len(PIECES_PER_TASK).map(bounds).collect();
     // Shares of fixed size do not depend on the number of threads.
-    let corners = |share: &[Bounds]| Bounds::enclosing(share.iter().flat_map(|b| [b.lo, b.hi]));
-    let shares: Vec<Bounds> = boxes.par_chunks(PIECES_PER_TASK).map(corners).collect();
-    let Bounds { lo, hi } = corners(&shares);
+    let corners =
+        |share: &[BoundingBox]| BoundingBox::enclosing(share.iter().flat_map(|b| [b.lo, b.hi]));
+    let shares: Vec<BoundingBox> = boxes.par_chunks(PIECES_PER_TASK).map(corners).collect();
+    let BoundingBox { lo, hi } = corners(&shares);
     // A tiny length has no finite reciprocal.
     let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
     let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale.unwrap_or(1.0)).as_vec3a() };
-    let leaf = |(piece, bounds): (usize, &Bounds)| {
+    let leaf = |(piece, bounds): (usize, &BoundingBox)| {
         let cuboid = AabbF32 {
             lo: unit(bounds.lo),
             hi: unit(bounds.hi),
@@ -119,7 +120,7 @@ fn build_subtree(leaves: &[Node], centres: &mut [PieceCentre], mut slot: Subtree
     }
     *slot.node = Node {
         cuboid: slot.descendants[0].cuboid.union(slot.descendants[1].cuboid),
-        content: NodeContent::Children(slot.first_descendant),
+        content: NodeContent::Children(slot.first_descendant_index),
     };
 }
 
@@ -132,7 +133,7 @@ fn build_cluster(leaves: &[Node], centres: &[PieceCentre], slot: SubtreeSlot<'_,
         *to = from;
         // Node k > 0 of the small tree becomes node k + offset of the large one.
         if let NodeContent::Children(child) = &mut to.content {
-            *child = *child - 1 + slot.first_descendant;
+            *child = *child - 1 + slot.first_descendant_index;
         }
     }
 }

@@ -19,12 +19,12 @@ use split::Splitter;
 /// the same tree, on any number of threads; no input panics.
 ///
 /// # Errors
-/// [`BuildError`]: a coordinate is out of range for exact predicates, or there are too many pieces.
+/// [`HullTreeBuildError`]: a coordinate is out of range for exact predicates, or there are too many pieces.
 ///
 /// # Complexity
 /// O(n log² n) for n corners where few of them stay corners from level to level; at worst O(h n log n)
 /// for hulls of up to h facets.
-pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
+pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, HullTreeBuildError> {
     if pieces.len() >= u32::MAX as usize / 2 {
         let pieces = pieces.len();
         return Err(HullTreeError::from(InputError::TooManyPieces { pieces }).into());
@@ -53,7 +53,7 @@ impl TreeBuilder<'_> {
         &self,
         pieces: &mut [u32],
         mut slot: SubtreeSlot<'_, HullNode>,
-    ) -> Result<(), BuildError> {
+    ) -> Result<(), HullTreeBuildError> {
         if let [piece] = *pieces {
             *slot.node = HullNode::Leaf(piece);
             return Ok(());
@@ -78,9 +78,13 @@ impl TreeBuilder<'_> {
             .flat_map(|child| corners(child, self.pieces))
             .copied()
             .collect();
-        let out_of_range = |error: HullError| BuildError::OutOfRange(points[error.point as usize]);
+        let out_of_range =
+            |error: HullError| HullTreeBuildError::OutOfRange(points[error.point as usize]);
         let hull = hull(&points).map_err(out_of_range)?;
-        *slot.node = HullNode::Inner([slot.first_descendant, slot.first_descendant + 1], hull);
+        *slot.node = HullNode::Inner(
+            [slot.first_descendant_index, slot.first_descendant_index + 1],
+            hull,
+        );
         Ok(())
     }
 }
@@ -88,7 +92,7 @@ impl TreeBuilder<'_> {
 /// The reason why no hull tree can be built over pieces.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum BuildError {
+pub enum HullTreeBuildError {
     /// A coordinate of a point is out of range for exact predicates.
     #[error("the point {0} has a coordinate that is out of range for exact predicates")]
     OutOfRange(DVec3),

@@ -7,7 +7,7 @@ pub(super) struct SubtreeSlot<'n, N> {
     /// child.
     pub(super) descendants: &'n mut [N],
     /// The index of the first descendant.
-    pub(super) first_descendant: u32,
+    pub(super) first_descendant_index: u32,
 }
 
 impl<'n, N> SubtreeSlot<'n, N> {
@@ -17,7 +17,7 @@ impl<'n, N> SubtreeSlot<'n, N> {
         Some(SubtreeSlot {
             node,
             descendants: below,
-            first_descendant: 1,
+            first_descendant_index: 1,
         })
     }
 
@@ -27,15 +27,15 @@ impl<'n, N> SubtreeSlot<'n, N> {
             return None;
         };
         let (below_right, below_left) = below.split_at_mut(2 * (leaves - 1));
-        let first = self.first_descendant + 2;
+        let first = self.first_descendant_index + 2;
         let of_left = SubtreeSlot {
             node: left,
-            first_descendant: first + below_right.len() as u32,
+            first_descendant_index: first + below_right.len() as u32,
             descendants: below_left,
         };
         let of_right = SubtreeSlot {
             node: right,
-            first_descendant: first,
+            first_descendant_index: first,
             descendants: below_right,
         };
         Some([of_left, of_right])

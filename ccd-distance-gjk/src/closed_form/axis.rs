@@ -1,7 +1,7 @@
 //! Separating axes of pieces that are so near that the vector between their nearest points is mostly rounding.
 
 use super::nearest::Corners;
-use crate::lanes::{FourVectors, reciprocal, splat};
+use crate::lanes::{FourVectors, reciprocal_or_zero, splat};
 use ccd_core::fearless_simd::{Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -64,7 +64,7 @@ fn orient_to_larger_gap<L: Simd>(
     let behind = a.min(b).min(c) - d.max(e).max(f);
     let flip = behind.simd_gt(ahead);
     let length2 = n.dot(n);
-    let gap = ahead.max(behind) * reciprocal(length2.sqrt());
+    let gap = ahead.max(behind) * reciprocal_or_zero(length2.sqrt());
     let sign = flip.select(splat(level, -1.0), splat(level, 1.0));
     let turned = FourVectors {
         x: n.x * sign,

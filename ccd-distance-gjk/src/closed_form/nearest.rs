@@ -1,6 +1,6 @@
 //! Computes the nearest points of two triangles that do not intersect: edge against edge, corner against face.
 
-use crate::lanes::{FourVectors, clamp_to_unit_interval, reciprocal, splat};
+use crate::lanes::{FourVectors, clamp_to_unit_interval, reciprocal_or_zero, splat};
 use ccd_core::fearless_simd::{Level, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -27,7 +27,7 @@ pub(crate) struct NearestPoints {
 impl NearestPoints {
     /// Returns the vector from the first triangle's nearest point to the second triangle's.
     #[inline(always)]
-    pub(crate) fn difference(&self, p: &Corners, q: &Corners) -> DVec3 {
+    pub(crate) fn separation_vector(&self, p: &Corners, q: &Corners) -> DVec3 {
         point_at_weights(q, self.b) - point_at_weights(p, self.a)
     }
 }
@@ -64,7 +64,7 @@ fn nearest_points_in_lanes<L: Simd>(level: L, p: &Corners, q: &Corners) -> Neare
 }
 
 /// For every edge of the second triangle, one per lane, the nearest edge of the first triangle.
-struct NearestEdges<L: Simd> {
+struct NearestEdgePerLane<L: Simd> {
     squared_distance: f64x4<L>,
     /// The index of the first triangle's edge.
     edge: f64x4<L>,
@@ -74,7 +74,7 @@ struct NearestEdges<L: Simd> {
     t: f64x4<L>,
 }
 
-impl<L: Simd> NearestEdges<L> {
+impl<L: Simd> NearestEdgePerLane<L> {
     #[inline(always)]
     fn weights(&self, lane: usize) -> NearestPoints {
         let (i, j) = (self.edge[lane] as usize, EDGE_START_OF_LANE[lane]);
@@ -89,11 +89,11 @@ impl<L: Simd> NearestEdges<L> {
 const EDGE_START_OF_LANE: [usize; 4] = [0, 1, 2, 2];
 
 #[inline(always)]
-fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestEdges<L> {
+fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestEdgePerLane<L> {
     let starts = FourVectors::new(level, EDGE_START_OF_LANE.map(|k| q[k]));
     let f = FourVectors::new(level, [q[1] - q[0], q[2] - q[1], q[0] - q[2], DVec3::ZERO]);
-    let per_f = reciprocal(f.dot(f));
-    let mut best = NearestEdges {
+    let per_f = reciprocal_or_zero(f.dot(f));
+    let mut best = NearestEdgePerLane {
         squared_distance: splat(level, f64::INFINITY),
         edge: splat(level, 0.0),
         s: splat(level, 0.0),
@@ -101,12 +101,12 @@ fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestEd
     };
     for i in 0..3 {
         let e = FourVectors::splat(level, p[(i + 1) % 3] - p[i]);
-        let per_e = reciprocal(e.dot(e));
+        let per_e = reciprocal_or_zero(e.dot(e));
         let w = starts.subtract(FourVectors::splat(level, p[i]));
         // The lines cross at s = ((w×f)·n) / n² with n = e×f. Unlike the determinant of scalar
         // products, this keeps an error of rounding / angle when the edges are nearly parallel.
         let n = e.cross(f);
-        let s = clamp_to_unit_interval(w.cross(f).dot(n) * reciprocal(n.dot(n)));
+        let s = clamp_to_unit_interval(w.cross(f).dot(n) * reciprocal_or_zero(n.dot(n)));
         // Projects to the other edge, and back: exact where the first or second was clamped, and
         // where the lines are parallel.
         let t = clamp_to_unit_interval(-w.add_scaled(-s, e).dot(f) * per_f);

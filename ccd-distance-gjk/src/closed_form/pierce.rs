@@ -17,7 +17,7 @@ pub(crate) fn nearest_with_edge_plane_intersections(
 ) -> NearestPoints {
     let through_p = edge_plane_intersections(q, p).map(|(b, a)| NearestPoints { a, b });
     let through_q = edge_plane_intersections(p, q).map(|(a, b)| NearestPoints { a, b });
-    let square = |n: &NearestPoints| n.difference(p, q).length_squared();
+    let square = |n: &NearestPoints| n.separation_vector(p, q).length_squared();
     through_p
         .into_iter()
         .chain(through_q)

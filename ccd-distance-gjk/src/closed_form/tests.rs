@@ -24,7 +24,7 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUpReason> {
     ClosedForm::default().separation(&pair, &mut ())
 }
 
-fn nearest(p: &Corners, q: &Corners) -> NearestPoints {
+fn nearest_points(p: &Corners, q: &Corners) -> NearestPoints {
     super::nearest_points(VectorInstructions::Best.simd_level(), p, q)
 }
 
@@ -87,14 +87,14 @@ fn finds_the_point_where_an_edge_passes_through() {
         vector(1.0, 1.0, -5.0),
         vector(1.1, 1.1, 5.0),
     ];
-    let near = nearest(&BASE_TRIANGLE, &spear);
-    assert!(near.difference(&BASE_TRIANGLE, &spear).length() > 0.9);
+    let near = nearest_points(&BASE_TRIANGLE, &spear);
+    assert!(near.separation_vector(&BASE_TRIANGLE, &spear).length() > 0.9);
     let common = nearest_with_edge_plane_intersections(&BASE_TRIANGLE, &spear, near);
-    assert!(common.difference(&BASE_TRIANGLE, &spear).length() < 1e-15);
+    assert!(common.separation_vector(&BASE_TRIANGLE, &spear).length() < 1e-15);
     // From either side.
-    let near = nearest(&spear, &BASE_TRIANGLE);
+    let near = nearest_points(&spear, &BASE_TRIANGLE);
     let common = nearest_with_edge_plane_intersections(&spear, &BASE_TRIANGLE, near);
-    assert!(common.difference(&spear, &BASE_TRIANGLE).length() < 1e-15);
+    assert!(common.separation_vector(&spear, &BASE_TRIANGLE).length() < 1e-15);
 }
 
 /// Tests that no common point is found for a triangle that crosses the other triangle's plane outside of the face.
@@ -105,10 +105,10 @@ fn does_not_pierce_outside_of_the_face() {
         vector(9.0, 9.0, -5.0),
         vector(9.1, 9.1, 5.0),
     ];
-    let near = nearest(&BASE_TRIANGLE, &spear);
-    let before = near.difference(&BASE_TRIANGLE, &spear).length();
+    let near = nearest_points(&BASE_TRIANGLE, &spear);
+    let before = near.separation_vector(&BASE_TRIANGLE, &spear).length();
     let after = nearest_with_edge_plane_intersections(&BASE_TRIANGLE, &spear, near)
-        .difference(&BASE_TRIANGLE, &spear)
+        .separation_vector(&BASE_TRIANGLE, &spear)
         .length();
     assert!((after - before).abs() < 1e-14);
 }

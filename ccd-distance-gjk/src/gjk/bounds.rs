@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 
 /// The bounds at which a search ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RequiredBounds {
+pub struct TerminationBounds {
     /// The search ends when the lower bound exceeds this distance.
     pub lower: f64,
     /// The search ends when the upper bound is at most this distance.
@@ -35,14 +35,14 @@ pub struct DistanceBounds {
 ///
 /// ```
 /// use ccd_core::glam::DVec3;
-/// use ccd_distance_gjk::{RequiredBounds, Vertex, bound_distance};
+/// use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 /// // A point at the origin, and a segment from (1, -1, 0) to (1, 1, 0).
 /// let ends = [DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0)];
 /// let support = |direction: DVec3| {
 ///     let b = if ends[1].dot(direction) < ends[0].dot(direction) { 1 } else { 0 };
 ///     Vertex { point: ends[b as usize], a: 0, b }
 /// };
-/// let required = RequiredBounds { lower: 0.5, upper: 0.0 };
+/// let required = TerminationBounds { lower: 0.5, upper: 0.0 };
 /// let bounds = bound_distance(support, DVec3::X, required);
 /// assert_eq!((bounds.lower, bounds.axis), (1.0, DVec3::X));
 /// ```
@@ -50,7 +50,7 @@ pub struct DistanceBounds {
 pub fn bound_distance(
     support: impl Fn(DVec3) -> Vertex,
     first_axis: DVec3,
-    required: RequiredBounds,
+    required: TerminationBounds,
 ) -> DistanceBounds {
     let mut bounds = DistanceBounds {
         lower: f64::NEG_INFINITY,

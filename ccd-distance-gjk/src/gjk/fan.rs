@@ -9,18 +9,18 @@ use ccd_core::vector::unit;
 
 /// Vertices of the Minkowski difference that span candidates for a separating axis. The first vertex has the largest
 /// weight in the nearest point.
-pub(crate) struct AxisVertices {
+pub(crate) struct CandidateAxisVertices {
     /// The point of the difference that is nearest to the origin.
     point: DVec3,
     vertices: [Vertex; MAX_AXIS_VERTICES],
     len: usize,
 }
 
-impl AxisVertices {
+impl CandidateAxisVertices {
     /// Creates the candidates from the simplex that a search found; `None` if the simplex is empty.
     pub(crate) fn new(found: &SearchResult) -> Option<Self> {
         let held = found.simplex.vertices();
-        let mut out = AxisVertices {
+        let mut out = CandidateAxisVertices {
             point: DVec3::ZERO,
             vertices: [*held.first()?; MAX_AXIS_VERTICES],
             len: 0,

@@ -29,7 +29,9 @@ pub(crate) fn refine_witnesses(
         &p.corners,
         &q.corners,
     );
-    let square = near.difference(&p.corners, &q.corners).length_squared();
+    let square = near
+        .separation_vector(&p.corners, &q.corners)
+        .length_squared();
     if square < found.squared_distance {
         found.squared_distance = square;
         (found.simplex, found.weights) = (Simplex::EMPTY, [0.0; 4]);

@@ -4,7 +4,7 @@ use super::foot::NearestPoint;
 use ccd_core::glam::DVec3;
 
 /// Returns the point nearest to the origin on the segment from `a` to `b`; the two ends may be equal.
-pub(crate) fn foot(a: DVec3, b: DVec3) -> NearestPoint {
+pub(crate) fn nearest_point(a: DVec3, b: DVec3) -> NearestPoint {
     let d = b - a;
     let (along, square) = (-a.dot(d), d.length_squared());
     // Written so that NaN, and a segment without a length, end at a corner.

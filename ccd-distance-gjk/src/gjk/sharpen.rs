@@ -1,7 +1,7 @@
 //! Computes separating axes from the features that contain the nearest points. Such axes are more accurate than the
 //! difference of the points.
 
-use super::fan::AxisVertices;
+use super::fan::CandidateAxisVertices;
 use super::minkowski::MinkowskiDifference;
 use super::search::SearchResult;
 use super::simplex::{Simplex, Vertex};
@@ -21,7 +21,7 @@ pub(crate) fn try_feature_axes(
     difference: &MinkowskiDifference<'_>,
     found: &mut SearchResult,
 ) -> Simplex {
-    let Some(mut fan) = AxisVertices::new(found) else {
+    let Some(mut fan) = CandidateAxisVertices::new(found) else {
         return Simplex::EMPTY;
     };
     if found.axis == DVec3::ZERO {

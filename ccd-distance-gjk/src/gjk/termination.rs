@@ -23,7 +23,7 @@ pub(crate) enum StopReason {
 /// Returns whether the nearest point is the origin, up to rounding.
 pub(crate) fn is_at_origin(foot: &NearestPoint, simplex: &Simplex) -> bool {
     let rounding = TOUCHING_ULPS * f64::EPSILON;
-    foot.point.length_squared() <= rounding * rounding * squared_reach(simplex)
+    foot.point.length_squared() <= rounding * rounding * max_squared_length(simplex)
 }
 
 /// Returns whether a support gap equals a distance, given by its square, up to a tolerance for rounding.
@@ -31,12 +31,12 @@ pub(crate) fn is_at_origin(foot: &NearestPoint, simplex: &Simplex) -> bool {
 /// The two may differ by `share` units in the last place of the distance, plus rounding.
 pub(crate) fn gap_equals_distance(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
     let distance = square.sqrt();
-    let rounding = TOUCHING_ULPS * f64::EPSILON * squared_reach(simplex).sqrt();
+    let rounding = TOUCHING_ULPS * f64::EPSILON * max_squared_length(simplex).sqrt();
     distance - gap <= share * f64::EPSILON * distance + rounding
 }
 
 /// Returns the largest squared length of the simplex's vertices, to which rounding is relative.
-fn squared_reach(simplex: &Simplex) -> f64 {
+fn max_squared_length(simplex: &Simplex) -> f64 {
     let squares = simplex.vertices().iter().map(|v| v.point.length_squared());
     squares.fold(f64::MIN_POSITIVE, greater)
 }

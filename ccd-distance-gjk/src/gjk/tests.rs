@@ -1,6 +1,6 @@
 //! Tests the nearest points of each kind of simplex, and the recovery from a stalled search.
 
-use super::fan::AxisVertices;
+use super::fan::CandidateAxisVertices;
 use super::foot::NearestPoint;
 use super::minkowski::MinkowskiDifference;
 use super::oracle::{is_certified, solve, solve_with_cache};
@@ -62,7 +62,7 @@ fn assert_nearest_point(corners: &[DVec3], foot: &NearestPoint) {
     let distance = foot.point.length_squared().sqrt();
     for corner in corners {
         // The nearest point of the segment to this corner is not nearer by more than rounding.
-        let other = segment::foot(foot.point, *corner)
+        let other = segment::nearest_point(foot.point, *corner)
             .point
             .length_squared()
             .sqrt();
@@ -79,7 +79,7 @@ fn feet_are_nearest() {
     for seed in 0..20_000 {
         let corners = corners(&mut Pcg64::seed_from_u64(seed));
         let [a, b, c, d] = corners;
-        assert_nearest_point(&corners[..2], &segment::foot(a, b));
+        assert_nearest_point(&corners[..2], &segment::nearest_point(a, b));
         assert_nearest_point(&corners[..3], &triangle::foot(a, b, c));
         let foot = tetrahedron::foot([a, b, c, d]);
         enclosed += u32::from(foot.direction.is_none());
@@ -156,7 +156,7 @@ fn a_fan_finds_the_axis_between_its_edges() {
     };
     found.simplex.push(vertex(0.0, 0.0, 0.0, 0));
     found.weights[0] = 1.0;
-    let mut fan = AxisVertices::new(&found).expect("it has a vertex");
+    let mut fan = CandidateAxisVertices::new(&found).expect("it has a vertex");
     for (k, (x, y)) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)]
         .into_iter()
         .enumerate()

@@ -16,7 +16,7 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
         FaceHeights::with_certain_side(corners[a], corners[b], corners[c], corners[apex])
     });
     if let [Some(a), Some(b), Some(c), Some(d)] = heights
-        && let Some(inside) = weights_of_origin(corners, [a, b, c, d])
+        && let Some(inside) = origin_as_nearest_point(corners, [a, b, c, d])
     {
         return inside;
     }
@@ -35,7 +35,7 @@ const CORNER_WITH_OPPOSITE_FACE: [[usize; 4]; 4] =
 
 /// Returns the weights of the origin inside the tetrahedron; `None` if their combination misses the origin by more than
 /// rounding.
-fn weights_of_origin(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<NearestPoint> {
+fn origin_as_nearest_point(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<NearestPoint> {
     let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);
         terms.fold(DVec3::ZERO, |sum, (&corner, weight)| sum + corner * weight)

@@ -25,7 +25,8 @@ pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> NearestPoint {
     for (opposite, &area) in areas.iter().enumerate() {
         if flat || !inside && !(area > 0.0) {
             let edge = [(opposite + 1) % 3, (opposite + 2) % 3];
-            let on_edge = segment::foot(corners[edge[0]], corners[edge[1]]).on_whole_simplex(&edge);
+            let on_edge =
+                segment::nearest_point(corners[edge[0]], corners[edge[1]]).on_whole_simplex(&edge);
             best = Some(on_edge.nearer_of(best));
         }
     }

@@ -3,7 +3,7 @@
 use super::{Axis, best_axis, gap};
 use crate::feature::{Feature, Pair};
 use crate::tests::setting::{
-    cube, nearest_edge, nearest_vertex, needle, pair_with_b_moved, pair_with_placed_b,
+    cube, edge_with_nearest_middle, nearest_vertex, needle, pair_with_b_moved, pair_with_placed_b,
     prepared_polytope,
 };
 use crate::tests::shape;
@@ -59,7 +59,7 @@ fn crossing_edges_and_flat_pieces_have_an_axis() {
     let (cube, across) = (cube(), needle(DVec3::new(0.5, 1.0, -1.0)));
     let placed = pair_with_b_moved(&cube, &across, DVec3::new(0.0, 1.0, 1.0));
     let pair = Pair {
-        a: Feature::Edge(nearest_edge(&cube, DVec3::Y + DVec3::Z)),
+        a: Feature::Edge(edge_with_nearest_middle(&cube, DVec3::Y + DVec3::Z)),
         b: Feature::Edge(0),
     };
     let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
@@ -69,8 +69,11 @@ fn crossing_edges_and_flat_pieces_have_an_axis() {
     let side = std::f64::consts::FRAC_1_SQRT_2;
     let placed = pair_with_b_moved(&square, &square, DVec3::new(side, side, 0.0) * 2f64.sqrt());
     let pair = Pair {
-        a: Feature::Edge(nearest_edge(&square, DVec3::new(0.5, 0.5, 0.0))),
-        b: Feature::Edge(nearest_edge(&square, DVec3::new(-0.5, -0.5, 0.0))),
+        a: Feature::Edge(edge_with_nearest_middle(&square, DVec3::new(0.5, 0.5, 0.0))),
+        b: Feature::Edge(edge_with_nearest_middle(
+            &square,
+            DVec3::new(-0.5, -0.5, 0.0),
+        )),
     };
     let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");

@@ -2,7 +2,9 @@
 
 use super::{clip_to_prism, parameter_of_overlap_middle};
 use crate::placed::{Line, PlacedPolytope};
-use crate::tests::setting::{cube, face_along, nearest_edge, needle, pair_with_b_moved};
+use crate::tests::setting::{
+    cube, edge_with_nearest_middle, face_along, needle, pair_with_b_moved,
+};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
@@ -32,7 +34,7 @@ fn longer_edges_are_cut(
     #[case] parameters: [f64; 2],
     #[case] by: [DVec3; 2],
 ) {
-    let by = by.map(|side| Some(nearest_edge(&cube(), side + DVec3::Z)));
+    let by = by.map(|side| Some(edge_with_nearest_middle(&cube(), side + DVec3::Z)));
     let [from, to] = clip_needle(half, at).expect("some is left");
     assert_eq!([from.0, to.0], parameters);
     assert_eq!([from.1, to.1], by);

@@ -29,6 +29,9 @@ fn slivers_have_normals() {
 #[test]
 fn volumes_have_signs() {
     let base = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    assert_eq!(six_times_volume(base, 2.0 * DVec3::Z), 2.0);
-    assert_eq!(six_times_volume(base, -DVec3::Z + 9.0 * DVec3::X), -1.0);
+    assert_eq!(six_times_signed_volume(base, 2.0 * DVec3::Z), 2.0);
+    assert_eq!(
+        six_times_signed_volume(base, -DVec3::Z + 9.0 * DVec3::X),
+        -1.0
+    );
 }

@@ -6,7 +6,7 @@ use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::placed::Line;
 use crate::tests::setting::{
-    cube, face_along, nearest_edge, nearest_vertex, needle, pair_with_b_moved,
+    cube, edge_with_nearest_middle, face_along, nearest_vertex, needle, pair_with_b_moved,
 };
 use crate::tests::shape::{Pcg64, RngExt, SeedableRng, random_direction, random_magnitude};
 use ccd_core::glam::DVec3;
@@ -18,7 +18,7 @@ use rstest::rstest;
 fn step_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
     let placed = pair_with_b_moved(&cube, &needle, at);
-    let edge = nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let edge = edge_with_nearest_middle(&cube, DVec3::new(0.0, 1.0, 1.0));
     let there = next(&placed.a, edge, &placed.b, 0, placed.scale);
     let back = pair_with_b_moved(&needle, &cube, -at);
     let swapped = next(&back.a, 0, &back.b, edge, back.scale).swapped();
@@ -32,18 +32,18 @@ fn step_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     there
 }
 
-const CROSSING_NEEDLE_HALF: DVec3 = DVec3::new(0.3, 2.0, -2.0);
+const CROSSING_NEEDLE_HALF_VECTOR: DVec3 = DVec3::new(0.3, 2.0, -2.0);
 
 #[rstest]
-#[case(CROSSING_NEEDLE_HALF, DVec3::new(0.0, 1.5, 1.5), Sure)]
-#[case(CROSSING_NEEDLE_HALF, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
+#[case(CROSSING_NEEDLE_HALF_VECTOR, DVec3::new(0.0, 1.5, 1.5), Sure)]
+#[case(CROSSING_NEEDLE_HALF_VECTOR, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
 // Across and along one face.
 #[case(2.0 * DVec3::Y, DVec3::new(0.0, 1.0, 1.5), Tied)]
 // Parallel needles, on the bisector and above the border of a face.
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.5, 1.5), Sure)]
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.0, 1.5), Tied)]
 // Touching.
-#[case(CROSSING_NEEDLE_HALF, DVec3::new(0.0, 1.0, 1.0), Tied)]
+#[case(CROSSING_NEEDLE_HALF_VECTOR, DVec3::new(0.0, 1.0, 1.0), Tied)]
 fn edges_in_both_voronoi_regions_stop_the_march(
     #[case] half: DVec3,
     #[case] at: DVec3,
@@ -56,10 +56,10 @@ fn edges_in_both_voronoi_regions_stop_the_march(
 fn goes_on_to_ends() {
     let cube = cube();
     let (e, corner) = (
-        nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0)),
+        edge_with_nearest_middle(&cube, DVec3::new(0.0, 1.0, 1.0)),
         nearest_vertex(&cube, DVec3::ONE),
     );
-    let beyond = step_for_needle(CROSSING_NEEDLE_HALF, DVec3::new(2.0, 1.5, 1.5));
+    let beyond = step_for_needle(CROSSING_NEEDLE_HALF_VECTOR, DVec3::new(2.0, 1.5, 1.5));
     assert_eq!(
         beyond,
         MarchStep::Continue(Feature::Vertex(corner), Feature::Edge(0))
@@ -89,7 +89,8 @@ fn goes_on_to_the_face_on_whose_side_it_is() {
 #[test]
 fn finds_edges_below_both_faces() {
     let at = DVec3::new(0.0, 0.9, 0.9);
-    let MarchStep::LocalMinimum(which, minimum) = step_for_needle(CROSSING_NEEDLE_HALF, at) else {
+    let MarchStep::LocalMinimum(which, minimum) = step_for_needle(CROSSING_NEEDLE_HALF_VECTOR, at)
+    else {
         panic!("it is within the cube");
     };
     assert_eq!(

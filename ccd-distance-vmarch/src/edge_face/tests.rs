@@ -2,7 +2,9 @@
 
 use super::next;
 use crate::feature::{Feature, MarchStep, WhichPolytope};
-use crate::tests::setting::{cube, face_along, nearest_edge, needle, pair_with_b_moved};
+use crate::tests::setting::{
+    cube, edge_with_nearest_middle, face_along, needle, pair_with_b_moved,
+};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
@@ -41,7 +43,7 @@ fn needles_continue_to_their_lower_end(#[case] half: DVec3, #[case] end: u32) {
 #[case(DVec3::new(5.0, 0.0, -0.1), DVec3::X)]
 #[case(DVec3::new(0.1, -5.0, 0.1), DVec3::Y)]
 fn needles_continue_to_the_side_that_cuts_them(#[case] half: DVec3, #[case] side: DVec3) {
-    let edge = nearest_edge(&cube(), side + DVec3::Z);
+    let edge = edge_with_nearest_middle(&cube(), side + DVec3::Z);
     let said = step_for_needle(half, 2.0 * DVec3::Z);
     assert_eq!(
         said,
@@ -51,7 +53,7 @@ fn needles_continue_to_the_side_that_cuts_them(#[case] half: DVec3, #[case] side
 
 #[test]
 fn goes_on_to_the_nearest_side_from_outside() {
-    let edge = nearest_edge(&cube(), DVec3::X + DVec3::Z);
+    let edge = edge_with_nearest_middle(&cube(), DVec3::X + DVec3::Z);
     let said = step_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
     assert_eq!(
         said,

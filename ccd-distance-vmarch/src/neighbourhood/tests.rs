@@ -3,8 +3,8 @@
 use super::nearer_pair;
 use crate::feature::{Feature, Pair};
 use crate::tests::setting::{
-    cube, face_along, nearest_edge, nearest_vertex, pair_with_b_moved, pair_with_placed_b,
-    prepared_polytope,
+    cube, edge_with_nearest_middle, face_along, nearest_vertex, pair_with_b_moved,
+    pair_with_placed_b, prepared_polytope,
 };
 use crate::tests::shape;
 use crate::witness::Witness;
@@ -54,7 +54,7 @@ fn slow_approaches_are_found() {
 fn all_kinds_of_features_are_found() {
     let cube = cube();
     let top = Pair {
-        a: Feature::Edge(nearest_edge(&cube, DVec3::X + DVec3::Z)),
+        a: Feature::Edge(edge_with_nearest_middle(&cube, DVec3::X + DVec3::Z)),
         b: Feature::Vertex(nearest_vertex(&cube, DVec3::new(-1.0, -1.0, -1.0))),
     };
     let placed = pair_with_b_moved(&cube, &cube, DVec3::new(0.5, 0.5, 3.0));
@@ -63,7 +63,7 @@ fn all_kinds_of_features_are_found() {
     let single = prepared_polytope(&shape::shape_of_points(&[DVec3::ZERO]));
     let placed = pair_with_b_moved(&cube, &single, DVec3::new(0.2, 0.1, 3.0));
     let pair = Pair {
-        a: Feature::Edge(nearest_edge(&cube, DVec3::X + DVec3::Z)),
+        a: Feature::Edge(edge_with_nearest_middle(&cube, DVec3::X + DVec3::Z)),
         b: Feature::Vertex(0),
     };
     let found = nearer_pair(&placed, pair, 2.5).expect("the top is nearer");

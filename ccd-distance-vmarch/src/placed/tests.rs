@@ -1,7 +1,7 @@
 use super::{PlacedPair, PlacedPolytope};
 use crate::polytope::Polytope;
 use crate::rational::{Exact3, exact_fraction};
-use crate::tolerance::PLACEMENT_ERROR;
+use crate::tolerance::PLACEMENT_ERROR_BOUND;
 use crate::worst::{RandomCase, WorstCaseSearch, error_share};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
@@ -13,7 +13,7 @@ fn corners(tape: &mut RandomCase) -> [DVec3; 3] {
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// Tests by exact fractions that the difference of two placed vertices has no rounding error above [`PLACEMENT_ERROR`].
+/// Tests by exact fractions that the difference of two placed vertices has no rounding error above [`PLACEMENT_ERROR_BOUND`].
 /// Errors of the rotation and translation are excluded: they move all vertices alike.
 #[test]
 fn worst_placing() {
@@ -62,7 +62,7 @@ fn worst_placing() {
                 .fold(f64::INFINITY, |a, b| -greater(-a, -b))
         });
         (least[0] > 1e-12 * size && least[1] > 1e-12 * size)
-            .then(|| error_share(off, PLACEMENT_ERROR * size))
+            .then(|| error_share(off, PLACEMENT_ERROR_BOUND * size))
     });
     found.assert_tight_bound(40.0);
 }

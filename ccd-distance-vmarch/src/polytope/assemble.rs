@@ -20,7 +20,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
     let faces = loops.iter().map(|outline| Face {
         normal: Plane::new(points, outline).normal,
         first_side: 0,
-        end_side: 0,
+        sides_end: 0,
     });
     let outline = |outline: &Vec<u32>| outline.iter().map(|&v| corner(v)).collect();
     let outlines: Vec<Vec<u32>> = loops.iter().map(outline).collect();
@@ -108,7 +108,7 @@ fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
             });
         }
         let sides = &mut out.faces[face as usize];
-        (sides.first_side, sides.end_side) = (first_side, out.sides.len() as u32);
+        (sides.first_side, sides.sides_end) = (first_side, out.sides.len() as u32);
     }
 }
 

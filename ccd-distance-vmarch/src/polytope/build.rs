@@ -26,7 +26,7 @@ impl Polytope {
         }
         let largest = points.iter().map(|p| p.abs().max_element());
         let rounding = COPLANARITY_TOLERANCE * largest.fold(0.0, greater);
-        let ends = distant_points(points);
+        let ends = distant_point_indices(points);
         let line = ends.map(|v| points[v as usize]);
         if !(line[0].distance(line[1]) > rounding) {
             return Ok(Self::from_outlines(points, &[0], &[]));
@@ -64,7 +64,7 @@ impl Polytope {
 
 /// Returns the indices of two points that are far apart: a point farthest from the first one, and a point farthest from
 /// that.
-fn distant_points(points: &[DVec3]) -> [u32; 2] {
+fn distant_point_indices(points: &[DVec3]) -> [u32; 2] {
     let farthest = |from: DVec3| {
         let distances = points.iter().map(|p| p.distance(from)).zip(0..);
         let none = (0.0, 0);

@@ -31,7 +31,7 @@ impl Facets {
         points: &[DVec3],
         loops: impl Iterator<Item = &'a [u32]>,
     ) -> Option<Self> {
-        let welded = first_equal_points(points);
+        let welded = first_equal_point_indices(points);
         let mut kept: Vec<Vec<u32>> = Vec::new();
         for corners in loops {
             let corners = corners.iter().map(|&v| welded.get(v as usize).copied());
@@ -125,7 +125,7 @@ pub(crate) fn distance_from_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
 }
 
 /// Returns for every point the index of the first point at the same position.
-fn first_equal_points(points: &[DVec3]) -> Vec<u32> {
+fn first_equal_point_indices(points: &[DVec3]) -> Vec<u32> {
     // Zero is added so that -0 is 0.
     let key = |v: u32| {
         (points[v as usize] + DVec3::ZERO)

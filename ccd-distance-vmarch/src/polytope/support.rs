@@ -22,7 +22,7 @@ impl StartVertexTable {
         let mut corners = [0; CUBE_MAP_SQUARE_COUNT];
         let mut at = 0;
         for (square, corner) in corners.iter_mut().enumerate() {
-            at = polytope.hill_climb(at, centre_of_square(square));
+            at = polytope.hill_climb(at, square_centre_direction(square));
             *corner = at;
         }
         StartVertexTable(corners)
@@ -30,12 +30,12 @@ impl StartVertexTable {
 
     /// Returns the table's vertex for a direction of any length; an arbitrary vertex if the direction is not finite.
     fn start_vertex(&self, direction: DVec3) -> u32 {
-        self.0[square_towards(direction)]
+        self.0[square_index_towards(direction)]
     }
 }
 
 /// Returns the index of the square through which a direction passes.
-fn square_towards(direction: DVec3) -> usize {
+fn square_index_towards(direction: DVec3) -> usize {
     let size = direction.abs();
     let axis = match (size.x >= size.y, size.x >= size.z, size.y >= size.z) {
         (true, true, _) => 0,
@@ -53,7 +53,7 @@ fn square_towards(direction: DVec3) -> usize {
 }
 
 /// Returns the direction at the centre of a square.
-fn centre_of_square(square: usize) -> DVec3 {
+fn square_centre_direction(square: usize) -> DVec3 {
     let (side, u, v) = (
         square / (CUBE_MAP_SQUARES_PER_EDGE * CUBE_MAP_SQUARES_PER_EDGE),
         square / CUBE_MAP_SQUARES_PER_EDGE % CUBE_MAP_SQUARES_PER_EDGE,

@@ -251,7 +251,7 @@ fn random_separated_position(
     let n = match rng.random_range(0..4) {
         0 => random_direction(rng),
         1 if has_aligned_axes(kind) => [DVec3::X, DVec3::Y, DVec3::Z][rng.random_range(0..3)],
-        2 => edge_cross_product(a, b, rotation, rng).unwrap_or(DVec3::Z),
+        2 => random_edge_cross_product(a, b, rotation, rng).unwrap_or(DVec3::Z),
         _ => normal(a, rng).unwrap_or_else(|| random_direction(rng)),
     };
     let gap = if whole {
@@ -299,7 +299,12 @@ fn normal(body: &Body, rng: &mut Pcg64) -> Option<DVec3> {
     (at(1) - at(0)).cross(at(2) - at(0)).try_normalize()
 }
 
-fn edge_cross_product(a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> Option<DVec3> {
+fn random_edge_cross_product(
+    a: &Body,
+    b: &Body,
+    rotation: DMat3,
+    rng: &mut Pcg64,
+) -> Option<DVec3> {
     let edge = |body: &Body, rng: &mut Pcg64| {
         let edges = body.shape.edges();
         if edges.is_empty() {

@@ -49,7 +49,7 @@ pub(crate) fn nearest_vertex(polytope: &Polytope, at: DVec3) -> u32 {
 }
 
 /// Returns the edge whose middle is nearest to a point.
-pub(crate) fn nearest_edge(polytope: &Polytope, at: DVec3) -> u32 {
+pub(crate) fn edge_with_nearest_middle(polytope: &Polytope, at: DVec3) -> u32 {
     let middle = |e: &crate::polytope::Edge| e.start + 0.5 * e.length * e.direction;
     nearest_index(polytope.edges.iter().map(middle), at)
 }

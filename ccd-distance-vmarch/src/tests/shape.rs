@@ -27,7 +27,7 @@ impl Shape {
             facets: self.loops.iter().map(facet).collect(),
             ..Polytope::default()
         };
-        Pieces::polytopes(&[polytope]).expect("finite points")
+        Pieces::from_polytopes(&[polytope]).expect("finite points")
     }
 
     pub(crate) fn with_mapped_points(mut self, map: impl Fn(DVec3) -> DVec3) -> Self {

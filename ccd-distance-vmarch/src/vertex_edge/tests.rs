@@ -4,8 +4,8 @@ use super::next;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
 use crate::tests::setting::{
-    cube, face_along, nearest_edge, nearest_vertex, needle, pair_with_b_moved, pair_with_placed_b,
-    point,
+    cube, edge_with_nearest_middle, face_along, nearest_vertex, needle, pair_with_b_moved,
+    pair_with_placed_b, point,
 };
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
@@ -14,7 +14,7 @@ use rstest::rstest;
 fn step_of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = pair_with_b_moved(&cube, &point, at);
-    let edge = nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let edge = edge_with_nearest_middle(&cube, DVec3::new(0.0, 1.0, 1.0));
     let there = next(&placed.b, 0, &placed.a, edge, placed.scale);
     let back = pair_with_b_moved(&point, &cube, -at);
     assert_eq!(there, next(&back.a, 0, &back.b, edge, back.scale));
@@ -77,7 +77,7 @@ fn corners_continue_to_descending_edges(#[case] slope: f64, #[case] falls: Optio
     // The needle's first corner is a millionth above the edge's bisector.
     let up = DVec3::new(0.0, 1.0, 1.0) + 1e-6 * DVec3::new(0.0, 1.0, 1.0);
     let placed = pair_with_placed_b(&cube, &needle, turn, up - turn * (-0.4 * DVec3::X));
-    let edge = nearest_edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let edge = edge_with_nearest_middle(&cube, DVec3::new(0.0, 1.0, 1.0));
     let said = next(&placed.b, 0, &placed.a, edge, placed.scale);
     match falls {
         Some(_) => assert_eq!(

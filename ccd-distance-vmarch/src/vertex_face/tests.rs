@@ -4,7 +4,8 @@ use super::next;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::tests::setting::{
-    cube, face_along, nearest_edge, needle, pair_with_b_moved, pair_with_placed_b, point,
+    cube, edge_with_nearest_middle, face_along, needle, pair_with_b_moved, pair_with_placed_b,
+    point,
 };
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
@@ -44,7 +45,7 @@ fn points_above_the_face_stop_the_march(
 #[case(DVec3::new(-2.0, -3.0, 2.0), DVec3::new(0.0, -1.0, 1.0))]
 #[case(DVec3::new(0.0, 5.0, -9.0), DVec3::new(0.0, 1.0, 1.0))]
 fn points_continue_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) {
-    let edge = nearest_edge(&cube(), middle);
+    let edge = edge_with_nearest_middle(&cube(), middle);
     assert_eq!(
         step_of_point(at),
         MarchStep::Continue(Feature::Vertex(0), Feature::Edge(edge))

@@ -3,7 +3,9 @@
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, MarchStep};
-use crate::tests::setting::{cube, nearest_edge, nearest_vertex, pair_with_b_moved, point};
+use crate::tests::setting::{
+    cube, edge_with_nearest_middle, nearest_vertex, pair_with_b_moved, point,
+};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
@@ -44,7 +46,7 @@ fn points_in_the_corners_region_stop_the_march(
 #[case(DVec3::new(0.5, 0.9, 2.0), DVec3::new(0.0, 1.0, 1.0))]
 #[case(DVec3::new(0.9, 0.5, 2.0), DVec3::new(1.0, 0.0, 1.0))]
 fn points_behind_a_plane_continue_to_its_edge(#[case] at: DVec3, #[case] middle: DVec3) {
-    let edge = nearest_edge(&cube(), middle);
+    let edge = edge_with_nearest_middle(&cube(), middle);
     assert_eq!(
         step_of_point(at),
         MarchStep::Continue(Feature::Edge(edge), Feature::Vertex(0))

@@ -1,9 +1,9 @@
 //! Tests the nearest points of two features, and the combinations that represent these points.
 
-use super::{Witness, clamped_foot_weights};
+use super::{Witness, clamped_projection_weights};
 use crate::feature::{Feature, Pair};
 use crate::tests::setting::{
-    cube, face_along, nearest_edge, nearest_vertex, needle, pair_with_b_moved, point,
+    cube, edge_with_nearest_middle, face_along, nearest_vertex, needle, pair_with_b_moved, point,
     prepared_polytope,
 };
 use crate::tests::shape::{self, Pcg64, RngExt, SeedableRng, random_magnitude, random_vector};
@@ -39,7 +39,7 @@ fn features_have_nearest_points() {
     });
     assert_eq!(corner.claim.axis, at - DVec3::ONE);
     let side = witness(&cuboid, &single, at, |a, _| Pair {
-        a: Feature::Edge(nearest_edge(a, DVec3::Y + DVec3::Z)),
+        a: Feature::Edge(edge_with_nearest_middle(a, DVec3::Y + DVec3::Z)),
         b: Feature::Vertex(0),
     });
     assert_eq!(side.offset(), DVec3::new(0.0, 2.0, 3.0));
@@ -128,7 +128,7 @@ fn feet_are_right_on_needles() {
         };
         let (s, t): (f64, f64) = (rng.random_range(0.0..0.5), rng.random_range(0.0..0.5));
         let below = triangle[0] + s * (triangle[1] - triangle[0]) + t * (triangle[2] - triangle[0]);
-        let weights = clamped_foot_weights(
+        let weights = clamped_projection_weights(
             below + rng.random_range(0.0..2.0) * DVec3::Z,
             triangle,
             DVec3::Z,
@@ -152,7 +152,7 @@ fn feet_outside_of_the_triangle_are_clamped_into_it() {
         (0.5, 7.0),
         (f64::NAN, 0.0),
     ] {
-        let weights = clamped_foot_weights(DVec3::new(x, y, 1.0), triangle, DVec3::Z);
+        let weights = clamped_projection_weights(DVec3::new(x, y, 1.0), triangle, DVec3::Z);
         assert!(
             weights.iter().all(|w| (0.0..=1.0).contains(w)),
             "{weights:?}"

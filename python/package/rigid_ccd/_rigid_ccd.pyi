@@ -245,7 +245,7 @@ class Cell:
         path: ArrayLike,
         *,
         resolution: float = ...,
-        pose_error: float = 0.0,
+        max_pose_error: float = 0.0,
         **settings: Unpack[_OfContacts],
     ) -> list[PathRange]: ...
     def edges(

@@ -2,11 +2,11 @@
 
 use super::batch::{IdReading, id_field, unreadable_error};
 use super::input::Reader;
-use super::pieces::{ChunkSize, RowChunk, RowChunks, check_columns};
+use super::pieces::{ChunkSize, RowChunk, RowChunks, find_columns};
 use super::results;
 use arrow_array::RecordBatch;
 use rigid_ccd::answer::Limit;
-use rigid_ccd::batch::{Bodies, Question, TimedAnswer, parallel_solver};
+use rigid_ccd::batch::{BodyPair, Question, TimedAnswer, parallel_solver};
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{CourseRow, Movements};
 use rigid_ccd::table::motions::{RowProblem, TableError};
@@ -19,7 +19,7 @@ use std::time::Instant;
 /// A question about each row of a table, with its settings.
 #[derive(Clone, Copy)]
 pub(crate) struct TableQuestion<'a> {
-    pub(crate) bodies: Bodies<'a>,
+    pub(crate) bodies: BodyPair<'a>,
     pub(crate) question: Question,
     pub(crate) settings: &'a Settings,
     /// The number of threads; `None` is one for each core.
@@ -46,7 +46,7 @@ pub(crate) fn answer(
     stop: &Arc<AtomicBool>,
     done: &AtomicUsize,
 ) -> Result<TableAnswers, TableError> {
-    let columns = check_columns(&reader)?;
+    let columns = find_columns(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable_error)?);
     let settings = settings_with_stop(asked, stop);

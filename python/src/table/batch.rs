@@ -60,7 +60,7 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
 }
 
 /// Refuses columns that are not numbers, and column types in which different ids may have the same text.
-pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
+pub(crate) fn check_column_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME_COLUMN).is_ok();
     for field in schema.fields() {
         let kind = decoded_type(field.data_type());
@@ -275,18 +275,18 @@ fn decoded_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch,
 }
 
 /// An iterator over the rows of a table of paths, which are in one batch.
-pub(crate) struct RowReader {
+pub(crate) struct PathRowReader {
     header: Vec<String>,
     current_row: Row,
     /// The number of rows read so far.
     read_row_count: usize,
 }
 
-impl RowReader {
+impl PathRowReader {
     /// Creates the iterator over all rows of a table; ids are read as text.
     pub(crate) fn new(table: &RecordBatch) -> Result<Self, TableError> {
         let batch = Arc::new(Batch::new(table, 0, IdReading::AsText)?);
-        Ok(RowReader {
+        Ok(PathRowReader {
             header: header(&table.schema()),
             current_row: Row {
                 batch,
@@ -302,7 +302,7 @@ impl RowReader {
     }
 }
 
-impl Records for RowReader {
+impl Records for PathRowReader {
     type Record = Row;
 
     fn header(&self) -> Result<Vec<String>, TableError> {

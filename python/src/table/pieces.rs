@@ -1,7 +1,8 @@
 //! Splits a table into pieces, each answered by one thread.
 
 use super::batch::{
-    Batch, IdReading, Row, RowReader, check_types, header, read_whole_table, unreadable_error,
+    Batch, IdReading, PathRowReader, Row, check_column_types, header, read_whole_table,
+    unreadable_error,
 };
 use super::input::Reader;
 use arrow_array::ArrayRef;
@@ -41,7 +42,7 @@ enum RowSource {
         /// The remaining rows of the last batch.
         rest: Option<(Arc<Batch>, Range<usize>)>,
     },
-    Paths(Box<MovementRows<RowReader>>, Arc<Batch>),
+    Paths(Box<MovementRows<PathRowReader>>, Arc<Batch>),
 }
 
 /// The number of rows in a piece, adapted to the time that pieces take.
@@ -88,10 +89,10 @@ impl ChunkSize {
 }
 
 /// Checks the columns of a table, and returns the position of each known column.
-pub(crate) fn check_columns(reader: &Reader) -> Result<Columns, TableError> {
+pub(crate) fn find_columns(reader: &Reader) -> Result<Columns, TableError> {
     let schema = reader.schema();
     let columns = Columns::of(&header(&schema))?;
-    check_types(&schema).map_err(TableError::Unreadable)?;
+    check_column_types(&schema).map_err(TableError::Unreadable)?;
     Ok(columns)
 }
 
@@ -106,7 +107,8 @@ impl<'p> RowChunks<'p> {
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
         let source = if columns.is_path_table() {
-            let rows = RowReader::new(&read_whole_table(reader, stop).map_err(unreadable_error)?)?;
+            let rows =
+                PathRowReader::new(&read_whole_table(reader, stop).map_err(unreadable_error)?)?;
             let batch = rows.batch();
             RowSource::Paths(
                 Box::new(MovementRows::of(rows, question.path_grouping())?),

@@ -68,7 +68,7 @@ impl Scene {
     /// Returns parry's distance of the shapes at a time; it is 0 if they intersect.
     fn distance(&self, time: Real) -> Real {
         let [a, b] = &self.parts;
-        self.least_pair_distance(time, [a, b]).0
+        self.least_distances_by_order(time, [a, b]).0
     }
 
     /// Returns the least distance over all pairs of convex parts at a time, computed by parry in both orders, the
@@ -79,12 +79,12 @@ impl Scene {
             let of_part = |(at, shape): &Part| simple_parts(*at, shape);
             parts.iter().flat_map(of_part).collect::<Vec<Part>>()
         });
-        let (there, least) = self.least_pair_distance(time, [&a, &b]);
+        let (there, least) = self.least_distances_by_order(time, [&a, &b]);
         (lesser(there, least), greater(there, least))
     }
 
     /// Returns parry's least distance over all pairs of parts at a time, once for each order of the shapes.
-    fn least_pair_distance(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
+    fn least_distances_by_order(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
         let [p, q] = self.motions.map(|motion| motion.position_at_time(time));
         let mut least = (Real::INFINITY, Real::INFINITY);
         for (at, a) in a {

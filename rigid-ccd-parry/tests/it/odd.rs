@@ -44,7 +44,7 @@ fn maybe_special_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion 
 }
 
 /// Returns a random shape whose sizes may be invalid, because parry does not check them.
-fn unchecked_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
+fn maybe_invalid_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
     let radius = maybe_special_number(rng, share).abs();
     match rng.random_range(0..9) {
         0 => SharedShape::ball(maybe_special_number(rng, share)),
@@ -103,7 +103,7 @@ fn odd_numbers_are_answered_or_refused() {
     for seed in 0..8_000 {
         let mut rng = seeded_rng(seed);
         let share = [0.01, 0.05, 0.3][seed as usize % 3];
-        let [a, b] = [0, 1].map(|_| unchecked_shape(&mut rng, share));
+        let [a, b] = [0, 1].map(|_| maybe_invalid_shape(&mut rng, share));
         let found = match seed % 2 {
             0 => {
                 let [m, n] = [0, 1].map(|_| maybe_special_motion(&mut rng, share));

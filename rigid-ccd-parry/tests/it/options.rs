@@ -318,7 +318,7 @@ fn cylinders_are_early_by_at_most_the_excess() {
             "{time} of {excess}"
         );
     }
-    let fine = cast(Excess::RadiusFraction).expect("served");
+    let fine = cast(Excess::DefaultRadiusFraction).expect("served");
     assert!(fine <= exact && fine > exact - 1.0 / 4096.0 - 2e-6);
     let refused = cast(Excess::NotAllowed).expect_err("refused");
     let error = ShapeError::SolidOfRevolutionRefused;

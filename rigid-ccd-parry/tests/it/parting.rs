@@ -23,7 +23,7 @@ fn pose_at(x: f64, y: f64, z: f64) -> Pose {
 }
 
 /// Casts a shape from a pose at a shape that rests at the origin.
-fn cast(
+fn cast_at_resting_shape(
     a: &dyn Shape,
     from: Pose,
     velocity: Vector,
@@ -101,14 +101,17 @@ fn a_body_slides_on_a_floor_that_it_is_in() {
     for (floor, top) in floors.iter().zip([1.0, 0.0]) {
         let within = pose_at(-2.0, top + 0.49, 0.1);
         let slide = Vector::new(1.0, 0.0, 0.3);
-        assert_eq!(cast(&ball, within, slide, &**floor), None);
+        assert_eq!(cast_at_resting_shape(&ball, within, slide, &**floor), None);
         assert_eq!(
-            cast(&ball, within, slide + 0.01 * Vector::Y, &**floor),
+            cast_at_resting_shape(&ball, within, slide + 0.01 * Vector::Y, &**floor),
             None
         );
-        assert_eq!(cast(&ball, within, Vector::Y, &**floor), None);
         assert_eq!(
-            cast(&ball, within, slide - 0.01 * Vector::Y, &**floor),
+            cast_at_resting_shape(&ball, within, Vector::Y, &**floor),
+            None
+        );
+        assert_eq!(
+            cast_at_resting_shape(&ball, within, slide - 0.01 * Vector::Y, &**floor),
             Some((0.0, PENETRATING_STATUS))
         );
     }
@@ -135,7 +138,7 @@ fn a_body_that_parts_from_flat_triangles_is_ignored_as_in_parry() {
             options(),
         );
         let theirs = theirs.expect("supported").map(|hit| hit.time_of_impact);
-        let ours = cast(&ball, from, velocity, &floor).map(|(time, _)| time);
+        let ours = cast_at_resting_shape(&ball, from, velocity, &floor).map(|(time, _)| time);
         match (ours, theirs) {
             (None, None) => gone += 1,
             (Some(ours), Some(theirs)) => {
@@ -154,16 +157,16 @@ fn a_body_that_leaves_one_part_hits_the_next() {
     let boxes = [0.0, 4.0, 8.0].map(|x| (pose_at(x, 0.0, 0.0), SharedShape::cuboid(0.5, 3.0, 3.0)));
     let walls = SharedShape::compound(boxes.to_vec());
     let ball = Ball::new(0.5);
-    let (time, status) =
-        cast(&ball, pose_at(0.8, 0.0, 0.0), Vector::X, &*walls).expect("the next one");
+    let (time, status) = cast_at_resting_shape(&ball, pose_at(0.8, 0.0, 0.0), Vector::X, &*walls)
+        .expect("the next one");
     assert_eq!(status, ShapeCastStatus::Converged);
     assert!(time <= 2.2 && time > 2.2 - 1e-6, "{time}");
     assert_eq!(
-        cast(&ball, pose_at(-0.8, 0.0, 0.0), -Vector::X, &*walls),
+        cast_at_resting_shape(&ball, pose_at(-0.8, 0.0, 0.0), -Vector::X, &*walls),
         None
     );
     assert_eq!(
-        cast(&ball, pose_at(-0.8, 0.0, 0.0), Vector::X, &*walls),
+        cast_at_resting_shape(&ball, pose_at(-0.8, 0.0, 0.0), Vector::X, &*walls),
         Some((0.0, PENETRATING_STATUS))
     );
     let hit = cast_shapes(

@@ -6,7 +6,10 @@ use ccd_core::order::greater;
 use rigid_ccd::{Motion, glam::DVec3};
 
 /// Returns the largest error that `error` measures over random motions, times and points.
-fn largest_error(rounds: u64, error: impl Fn(&MotionSpec, f32, [f32; 3]) -> f64) -> f64 {
+fn largest_error_over_motions(
+    rounds: u64,
+    error: impl Fn(&MotionSpec, f32, [f32; 3]) -> f64,
+) -> f64 {
     let mut rng = seeded_rng(1);
     let mut worst = 0.0;
     for _ in 0..rounds {
@@ -25,7 +28,7 @@ fn distance(motion: &Motion, time: f64, point: [f32; 3], theirs: [f64; 3]) -> f6
 
 #[test]
 fn poses_are_those_of_position_at_time() {
-    let worst = largest_error(2000, |moves, time, point| {
+    let worst = largest_error_over_motions(2000, |moves, time, point| {
         let theirs = double::make::motion(moves);
         let motion = rigid_ccd_parry::f64::motion(&theirs).expect("finite");
         let at = theirs.position_at_time(f64::from(time)) * double::make::vector(point);
@@ -36,7 +39,7 @@ fn poses_are_those_of_position_at_time() {
 
 #[test]
 fn poses_are_those_of_single_precision_up_to_its_rounding() {
-    let worst = largest_error(2000, |moves, time, point| {
+    let worst = largest_error_over_motions(2000, |moves, time, point| {
         let theirs = single::make::motion(moves);
         let motion = rigid_ccd_parry::f32::motion(&theirs).expect("finite");
         let at = theirs.position_at_time(time) * single::make::vector(point);

@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Margins {
     /// For each body, the distance that obstacles have to keep in addition; an obstacle has none.
-    paddings: Vec<f64>,
+    padding_per_body: Vec<f64>,
     /// The distance of a pair of bodies, the lower number first.
-    clearances: BTreeMap<[usize; 2], f64>,
+    clearance_per_pair: BTreeMap<[usize; 2], f64>,
 }
 
 impl Cell {
@@ -25,7 +25,7 @@ impl Cell {
         self.robot.link_number(link)?;
         check_distance("padding", distance)?;
         for body in self.bodies_of(Item::Link(link)) {
-            self.margins.paddings[body] = distance;
+            self.margins.padding_per_body[body] = distance;
         }
         Ok(())
     }
@@ -39,7 +39,7 @@ impl Cell {
         for item in pair {
             match item {
                 Item::Link(name) => self.robot.link_number(name)?,
-                Item::Attached(name) => self.attached_number(name)?,
+                Item::Attached(name) => self.attached_body_number(name)?,
                 Item::Obstacle(name) => self.obstacle_number(name)?,
             };
         }
@@ -52,7 +52,9 @@ impl Cell {
         let [one, other] = pair.map(|item| self.bodies_of(item));
         for &a in &one {
             for &b in &other {
-                self.margins.clearances.insert(ordered_pair(a, b), distance);
+                self.margins
+                    .clearance_per_pair
+                    .insert(ordered_pair(a, b), distance);
             }
         }
         Ok(())
@@ -62,8 +64,8 @@ impl Cell {
     #[inline]
     pub(crate) fn margin(&self, [a, b]: [usize; 2], margin: f64) -> f64 {
         let Margins {
-            paddings,
-            clearances,
+            padding_per_body: paddings,
+            clearance_per_pair: clearances,
         } = &self.margins;
         if !clearances.is_empty()
             && let Some(&clearance) = clearances.get(&ordered_pair(a, b))
@@ -80,8 +82,13 @@ impl Cell {
 
     /// Returns a bound of the distance at which an obstacle counts as touching.
     pub(crate) fn largest_obstacle_margin(&self, margin: f64) -> f64 {
-        let largest = self.margins.paddings.iter().copied().fold(0.0, greater);
-        let clearances = self.margins.clearances.values().copied();
+        let largest = self
+            .margins
+            .padding_per_body
+            .iter()
+            .copied()
+            .fold(0.0, greater);
+        let clearances = self.margins.clearance_per_pair.values().copied();
         clearances.fold(margin + largest, greater)
     }
 
@@ -95,12 +102,12 @@ impl Cell {
 impl Margins {
     /// Makes place for a body.
     pub(super) fn insert_body(&mut self, number: usize) {
-        self.paddings.insert(number, 0.0);
+        self.padding_per_body.insert(number, 0.0);
         self.renumber(|body| Some(if body < number { body } else { body + 1 }));
     }
 
     pub(super) fn remove_body(&mut self, number: usize) {
-        self.paddings.remove(number);
+        self.padding_per_body.remove(number);
         self.renumber(|body| match body.cmp(&number) {
             std::cmp::Ordering::Less => Some(body),
             std::cmp::Ordering::Equal => None,
@@ -109,10 +116,10 @@ impl Margins {
     }
 
     fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
-        let clearances = std::mem::take(&mut self.clearances).into_iter();
+        let clearances = std::mem::take(&mut self.clearance_per_pair).into_iter();
         let kept = clearances
             .filter_map(|([a, b], clearance)| Some(([number(a)?, number(b)?], clearance)));
-        self.clearances = kept.collect();
+        self.clearance_per_pair = kept.collect();
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) struct PlacedBody {
 #[derive(Debug)]
 pub(crate) struct Hull {
     corners: Vec<DVec3>,
-    support: SupportMap,
+    support_map: SupportMap,
     /// The radius of the ball by which the hull is grown.
     radius: f64,
 }
@@ -95,7 +95,7 @@ impl Hull {
         let (corners, support) = corners_of_hull(points.copied().collect());
         Hull {
             corners,
-            support,
+            support_map: support,
             radius: radii.fold(0.0, greater),
         }
     }
@@ -103,7 +103,7 @@ impl Hull {
     /// Returns the number of a corner that is farthest along a direction.
     #[inline(always)]
     fn extremal_corner(&self, direction: DVec3) -> u32 {
-        match &self.support {
+        match &self.support_map {
             // Inlined where vector instructions are chosen.
             SupportMap::Scan(scan) => scan.extremal_point(direction),
             other => other.extremal_point(direction),
@@ -183,7 +183,7 @@ impl Part {
 
     /// Returns the half extents of the part's bounding box along the axes of the base, when the part's frame is at `frame`.
     #[inline(always)]
-    pub(crate) fn box_extents(&self, frame: &Frame) -> DVec3 {
+    pub(crate) fn box_half_extents(&self, frame: &Frame) -> DVec3 {
         let (rotation, extents) = (&frame.rotation, self.half_extents);
         rotation.x_axis.abs() * extents.x
             + rotation.y_axis.abs() * extents.y
@@ -221,7 +221,7 @@ fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, SupportMap) {
             points: hull.points,
             ..Polytope::default()
         };
-        Pieces::polytopes(&[polytope]).ok()
+        Pieces::from_polytopes(&[polytope]).ok()
     });
     match with_facets {
         Some(pieces) => {

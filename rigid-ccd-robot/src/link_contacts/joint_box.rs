@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 pub(crate) struct JointBox {
     ranges: Vec<[f64; 2]>,
     /// The share of the volume of the box that was halved first.
-    pub(crate) share: f64,
+    pub(crate) volume_share: f64,
 }
 
 impl JointBox {
@@ -39,7 +39,10 @@ impl JointBox {
                 comes_back.then_some([-PI, PI])?
             };
         }
-        Some(JointBox { ranges, share: 1.0 })
+        Some(JointBox {
+            ranges,
+            volume_share: 1.0,
+        })
     }
 
     /// Returns the configuration in the middle.
@@ -48,7 +51,7 @@ impl JointBox {
     }
 
     /// Returns how far the position of a joint is at most from that in the middle.
-    pub(crate) fn deviation(&self, source: PositionSource) -> f64 {
+    pub(crate) fn max_deviation(&self, source: PositionSource) -> f64 {
         let range = &self.ranges[source.number()];
         let ([low, high], middle) = (*range, middle(range));
         let half = if high - middle > middle - low {
@@ -74,7 +77,7 @@ impl JointBox {
         Some([[low, middle], [middle, high]].map(|range| {
             let mut half = self.clone();
             half.ranges[widest] = range;
-            half.share *= 0.5;
+            half.volume_share *= 0.5;
             half
         }))
     }

@@ -1,7 +1,7 @@
 //! The search for proofs about one pair of links after another.
 
 use super::joint_box::JointBox;
-use super::{LinkContactClass, TOUCHING_DISTANCE};
+use super::{AXIS_CONTACT_DISTANCE, LinkContactClass};
 use crate::cell::Cell;
 use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
@@ -27,7 +27,7 @@ struct BoxExamination {
     /// Whether they overlap over the whole box.
     overlaps: bool,
     /// Whether they touch in the middle; `None` if rounding hides it.
-    touches: Option<bool>,
+    touches_in_middle: Option<bool>,
 }
 
 /// A box that waits to be examined; the largest comes first.
@@ -69,7 +69,7 @@ impl<'c> PairSearch<'c> {
                 break;
             };
             let look = self.examine_box(&joint_box, &mut pairs)?;
-            match look.touches {
+            match look.touches_in_middle {
                 Some(true) if is_rigid => return Ok(LinkContactClass::Always),
                 Some(true) => touching = touching.or_else(|| Some(joint_box.middle())),
                 Some(false) => apart = apart.or_else(|| Some(joint_box.middle())),
@@ -82,7 +82,7 @@ impl<'c> PairSearch<'c> {
                 });
             }
             if look.is_free {
-                share += joint_box.share;
+                share += joint_box.volume_share;
             } else if look.overlaps {
                 // Nothing is left to examine in the box.
             } else if let Some(halves) = joint_box.halves(&weights) {
@@ -115,8 +115,8 @@ impl<'c> PairSearch<'c> {
         if joint.is_prismatic {
             return Ok(false);
         }
-        self.placement.place_box(cell, &all.middle(), |_| 0.0);
-        let point = Body::sphere(TOUCHING_DISTANCE)?;
+        self.placement.place_joint_box(cell, &all.middle(), |_| 0.0);
+        let point = Body::sphere(AXIS_CONTACT_DISTANCE)?;
         let parts = cell.parts()[..cell.robot_part_count()].iter();
         let own = parts.filter(|part| links.contains(&cell.link_of(part.owner)));
         let reach = own
@@ -155,12 +155,13 @@ impl<'c> PairSearch<'c> {
         pairs: &mut [PartPair],
     ) -> Result<BoxExamination, Error> {
         let middle = joint_box.middle();
-        let deviation = |source| joint_box.deviation(source);
-        self.placement.place_box(self.cell, &middle, deviation);
+        let deviation = |source| joint_box.max_deviation(source);
+        self.placement
+            .place_joint_box(self.cell, &middle, deviation);
         let mut look = BoxExamination {
             is_free: true,
             overlaps: false,
-            touches: Some(false),
+            touches_in_middle: Some(false),
         };
         for pair in pairs {
             let thresholds = Thresholds {
@@ -173,19 +174,19 @@ impl<'c> PairSearch<'c> {
             }
             // The engine measures the bodies themselves; frames become poses with an error like their own.
             let rounding = 4.0 * self.placement.rounding;
-            let [a, b] = pair.owners(self.cell.parts());
+            let [a, b] = pair.body_numbers(self.cell.parts());
             let (a, b) = (self.placed_body(a)?, self.placed_body(b)?);
             let outcome = self.solver.distance(a, b)?.outcome;
             if outcome.upper() <= 0.0 {
-                look.touches = Some(true);
-            } else if !(outcome.lower() > rounding) && look.touches == Some(false) {
-                look.touches = None;
+                look.touches_in_middle = Some(true);
+            } else if !(outcome.lower() > rounding) && look.touches_in_middle == Some(false) {
+                look.touches_in_middle = None;
             }
             // Written so that NaN is not free.
             if !(outcome.lower() > pair.displacement(&self.placement) + rounding) {
                 look.is_free = false;
             }
-            if look.touches == Some(true) {
+            if look.touches_in_middle == Some(true) {
                 look.is_free = false;
                 let (cell, placement) = (self.cell, &self.placement);
                 let depth = pair.displacement(placement) + rounding;
@@ -212,7 +213,7 @@ impl<'c> PairSearch<'c> {
         let mut pairs = Vec::new();
         for &a in &parts_of(one) {
             for &b in &parts_of(other) {
-                let displacements = &self.placement.displacements;
+                let displacements = &self.placement.displacement_bounds;
                 pairs.push(PartPair::of_robot(cell, displacements, [a, b]));
             }
         }
@@ -247,6 +248,6 @@ impl PartialOrd for WaitingBox {
 
 impl Ord for WaitingBox {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.0.share.total_cmp(&other.0.share)
+        self.0.volume_share.total_cmp(&other.0.volume_share)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::robot::{Joint, Link, PositionRule};
-use crate::test_robots::{least_distance_of_links, random_robot, with_limits};
+use crate::test_robots::{least_distance_of_links, random_robot, with_symmetric_limits};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::{Body, Pose, trajectory};
@@ -15,7 +15,7 @@ fn no_configuration_contradicts_a_proof() {
     let (mut never, mut always, mut sometimes, mut undecided) = (0, 0, 0, 0);
     for _ in 0..40 {
         let limit = [0.3, 1.2][random.random_range(0..2)];
-        let robot = with_limits(&random_robot(&mut random), limit);
+        let robot = with_symmetric_limits(&random_robot(&mut random), limit);
         for (links, meeting) in robot.classify_link_contacts(300).unwrap() {
             let distance = |at: &[f64]| least_distance_of_links(&robot, links, at);
             let samples = (0..60).map(|_| {

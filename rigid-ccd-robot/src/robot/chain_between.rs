@@ -7,13 +7,13 @@ use rigid_ccd::trajectory::Chain;
 /// The chain of joints by which one link of a robot moves in the frame of another link.
 ///
 /// ```
-/// # use rigid_ccd_robot::{Joint, Link, Position, Robot};
+/// # use rigid_ccd_robot::{Joint, Link, PositionRule, Robot};
 /// # use rigid_ccd::{Pose, trajectory};
 /// # let finger = |name: &str, y: f64, position| -> Result<Joint, rigid_ccd::InputError> { Ok(Joint {
 /// #     name: name.into(), parent: "hand".into(), child: format!("{name} finger"),
 /// #     joint: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position }) };
-/// # let follows = Position::Follows { joint: "left".into(), multiplier: 1.0, offset: 0.0 };
-/// # let joints = vec![finger("left", 0.1, Position::Free)?, finger("right", -0.1, follows)?];
+/// # let follows = PositionRule::Follows { joint: "left".into(), multiplier: 1.0, offset: 0.0 };
+/// # let joints = vec![finger("left", 0.1, PositionRule::Free)?, finger("right", -0.1, follows)?];
 /// # let links = ["hand", "left finger", "right finger"].map(Link::named).to_vec();
 /// let gripper = Robot::new(links, joints)?;
 /// let [left, right] = [gripper.link_number("left finger")?, gripper.link_number("right finger")?];

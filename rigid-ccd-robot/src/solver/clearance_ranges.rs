@@ -27,20 +27,20 @@ pub struct RangeSettings {
     /// A bound of how far points of links are from where the path places them. It is 0 for a robot that follows the path
     /// exactly. A closed loop of joints is a path of configurations in which the loop is closed; between these, points
     /// differ by the error of the interpolation.
-    pub pose_error: f64,
+    pub max_pose_error: f64,
 }
 
 impl RangeSettings {
     /// A resolution of 1/4096 of a segment, and no error of poses.
     pub const DEFAULT: Self = RangeSettings {
         resolution: 1.0 / 4096.0,
-        pose_error: 0.0,
+        max_pose_error: 0.0,
     };
 
     // Written so that NaN is refused.
     fn check(&self) -> Result<(), PathError> {
         let error = |name, value, allowed| {
-            Err(PathError::RangeSetting {
+            Err(PathError::InvalidRangeSetting {
                 name,
                 value,
                 allowed,
@@ -49,8 +49,8 @@ impl RangeSettings {
         if !(self.resolution >= 1e-9) {
             return error("resolution", self.resolution, "at least 1e-9");
         }
-        if !(self.pose_error >= 0.0 && self.pose_error.is_finite()) {
-            return error("pose error", self.pose_error, "finite and at least 0");
+        if !(self.max_pose_error >= 0.0 && self.max_pose_error.is_finite()) {
+            return error("pose error", self.max_pose_error, "finite and at least 0");
         }
         Ok(())
     }
@@ -77,14 +77,14 @@ impl CellSolver<'_> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose, Settings, answer::ClearanceVerdict, trajectory};
-    /// use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, Position, RangeSettings, Robot};
+    /// use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, RangeSettings, Robot};
     ///
     /// let slider = Joint {
     ///     name: "slider".into(),
     ///     parent: "rail".into(),
     ///     child: "ball".into(),
     ///     joint: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
-    ///     position: Position::Free,
+    ///     position: PositionRule::Free,
     /// };
     /// let ball = Link::named("ball").with_body(Body::sphere(0.5)?, Pose::IDENTITY);
     /// let robot = Robot::new(vec![Link::named("rail"), ball], vec![slider])?;
@@ -111,7 +111,7 @@ impl CellSolver<'_> {
         // Both bodies of a pair may be away from where they are placed.
         self.search
             .pairs
-            .set_margin_increase(2.0 * ranges.pose_error);
+            .set_margin_increase(2.0 * ranges.max_pose_error);
         let found = self.find_ranges(path, ranges.resolution);
         self.search.pairs.set_margin_increase(0.0);
         found
@@ -122,7 +122,7 @@ impl CellSolver<'_> {
         path: &[Q],
         resolution: f64,
     ) -> Result<Vec<ClearanceRange>, PathError> {
-        self.begin(path)?;
+        self.set_path(path)?;
         let mut found = Vec::new();
         self.examine(self.search.whole_path(), resolution, &mut found)?;
         let segments = self.search.segment_count();
@@ -141,10 +141,10 @@ impl CellSolver<'_> {
         resolution: f64,
         found: &mut Vec<(f64, f64, ClearanceVerdict)>,
     ) -> Result<(), Error> {
-        let is_in_time = self.search.time_limit.reached_limit().is_none();
+        let is_in_time = self.search.stop_condition.reached_limit().is_none();
         let clearance = if is_in_time && self.is_clearance_kept(stretch)? {
             ClearanceVerdict::Kept
-        } else if is_in_time && self.search.is_violated(&stretch)? {
+        } else if is_in_time && self.search.is_margin_violated(&stretch)? {
             ClearanceVerdict::Violated
         } else if is_in_time
             && stretch.to - stretch.from > resolution
@@ -166,7 +166,7 @@ impl CellSolver<'_> {
 
     fn is_clearance_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
         self.search.answer(Question::AnyContact, stretch)?;
-        let found = &self.search.found;
+        let found = &self.search.result;
         Ok(found.nearest.is_none() && found.limit.is_none())
     }
 }

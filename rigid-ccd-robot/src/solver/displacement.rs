@@ -15,26 +15,26 @@ const ROUNDING_FACTOR: f64 = 1.0 + 1e-11;
 
 /// For each part and each joint that moves it, a bound of its displacement as the frame before that joint sees it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Displacements {
+pub(crate) struct DisplacementBounds {
     /// The joints that move each part, from the nearest one to the one at the base.
     joints: Vec<usize>,
     /// For each part, the start of its joints.
-    joint_starts: Vec<usize>,
+    joint_start_by_part: Vec<usize>,
     bounds: Vec<f64>,
 }
 
-impl Displacements {
+impl DisplacementBounds {
     pub(crate) fn new(kinematics: &Kinematics, parts: &[Part]) -> Self {
-        let mut all = Displacements::default();
+        let mut all = DisplacementBounds::default();
         for part in parts {
-            all.joint_starts.push(all.joints.len());
+            all.joint_start_by_part.push(all.joints.len());
             let mut frame = part.frame;
             while frame > 0 {
                 all.joints.push(frame - 1);
                 frame = kinematics.joints()[frame - 1].parent;
             }
         }
-        all.joint_starts.push(all.joints.len());
+        all.joint_start_by_part.push(all.joints.len());
         all.bounds = vec![0.0; all.joints.len()];
         all
     }
@@ -47,17 +47,18 @@ impl Displacements {
         part: usize,
         seen_from: usize,
     ) -> Option<u32> {
-        let joints = &self.joints[self.joint_starts[part]..self.joint_starts[part + 1]];
+        let joints =
+            &self.joints[self.joint_start_by_part[part]..self.joint_start_by_part[part + 1]];
         let parent = |joint: usize| kinematics.joints()[joint].parent;
         let step = joints
             .iter()
             .position(|&joint| parent(joint) == seen_from)?;
-        Some((self.joint_starts[part] + step) as u32)
+        Some((self.joint_start_by_part[part] + step) as u32)
     }
 
     /// Returns the place of the bound for a part as the base sees it; `None` for a part that rests there.
     pub(crate) fn displacement_index_at_base(&self, part: usize) -> Option<u32> {
-        let range = self.joint_starts[part]..self.joint_starts[part + 1];
+        let range = self.joint_start_by_part[part]..self.joint_start_by_part[part + 1];
         (!range.is_empty()).then(|| range.end as u32 - 1)
     }
 
@@ -78,7 +79,7 @@ impl Displacements {
         deviations: &[f64],
         rounding: f64,
     ) {
-        for (part, bounds) in parts.iter().zip(self.joint_starts.windows(2)) {
+        for (part, bounds) in parts.iter().zip(self.joint_start_by_part.windows(2)) {
             let centre = frames[part.frame].transform_point(part.centre);
             let mut displacement = 0.0;
             for slot in bounds[0]..bounds[1] {
@@ -90,7 +91,7 @@ impl Displacements {
                     let axis = frames[joint.parent].rotation * joint.axis;
                     let arm = centre - frames[number + 1].translation;
                     let distance = axis.cross(arm).length() + part.ball_radius + 3.0 * rounding;
-                    chord(deviations[number]) * distance
+                    chord_upper_bound(deviations[number]) * distance
                 };
                 self.bounds[slot] = displacement * ROUNDING_FACTOR;
             }
@@ -100,7 +101,7 @@ impl Displacements {
 
 /// Returns an upper bound of the chord of an angle on the unit circle: `2 sin(angle/2)`, and 2 beyond half a turn.
 #[inline(always)]
-fn chord(angle: f64) -> f64 {
+fn chord_upper_bound(angle: f64) -> f64 {
     // Written so that NaN stays.
     if angle >= 3.0 {
         return 2.0;

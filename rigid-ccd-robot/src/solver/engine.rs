@@ -2,7 +2,7 @@
 
 use super::Question;
 use super::open_pairs::OpenPair;
-use super::part_pairs::{PartPair, sort_by_share};
+use super::part_pairs::{PartPair, sort_by_proof_distance};
 use super::search::Search;
 use super::stretch::Step;
 use ccd_core::order::{greater, lesser};
@@ -13,25 +13,25 @@ use std::ops::ControlFlow::{self, Break, Continue};
 impl Search<'_> {
     /// Asks the engine whether one of the suspects is in contact in the middle of a stretch.
     pub(super) fn check_suspects(&mut self, at: f64) -> Step {
-        if self.suspects.is_empty() {
+        if self.near_nonconvex_pairs.is_empty() {
             return Ok(Continue(()));
         }
-        let mut suspects = std::mem::take(&mut self.suspects);
-        sort_by_share(&mut suspects);
+        let mut suspects = std::mem::take(&mut self.near_nonconvex_pairs);
+        sort_by_proof_distance(&mut suspects);
         let mut step = Ok(Continue(()));
         for (k, pair) in suspects.iter().enumerate() {
-            let bodies = pair.owners(self.cell.parts());
+            let bodies = pair.body_numbers(self.cell.parts());
             let mut earlier = suspects[..k].iter();
-            if earlier.any(|other| bodies == other.owners(self.cell.parts())) {
+            if earlier.any(|other| bodies == other.body_numbers(self.cell.parts())) {
                 continue;
             }
             step = self.check_suspect(pair, bodies, at);
             // An earlier contact than one at this point has another middle.
-            if !matches!(step, Ok(Continue(()))) || self.found.end <= at {
+            if !matches!(step, Ok(Continue(()))) || self.result.end <= at {
                 break;
             }
         }
-        self.suspects = suspects;
+        self.near_nonconvex_pairs = suspects;
         step
     }
 
@@ -53,26 +53,26 @@ impl Search<'_> {
     }
 
     /// Lets the engine decide about each open pair.
-    pub(super) fn ask_engine(&mut self) -> Result<(), Error> {
+    pub(super) fn decide_open_pairs(&mut self) -> Result<(), Error> {
         let mut open = std::mem::take(&mut self.open_pairs);
-        let result = self.decide(open.in_order(self.question));
+        let result = self.decide(open.sorted_for(self.question));
         self.open_pairs = open;
         result
     }
 
     fn decide(&mut self, open: &[OpenPair]) -> Result<(), Error> {
         for pair in open {
-            if pair.from >= self.found.end {
+            if pair.from >= self.result.end {
                 continue;
             }
             let pair = OpenPair {
-                to: lesser(pair.to, self.found.end),
+                to: lesser(pair.to, self.result.end),
                 ..*pair
             };
             let step = match self.question {
                 Question::AnyContact | Question::FirstContact => {
                     let answer = self.ask(self.question, &pair, None)?;
-                    self.keep_answer(&pair, &answer.outcome)
+                    self.record_contact_answer(&pair, &answer.outcome)
                 }
                 Question::ClosestApproach => self.measure_least_distance(&pair)?,
             };
@@ -84,11 +84,11 @@ impl Search<'_> {
     }
 
     /// Keeps an answer about contacts of an open pair.
-    fn keep_answer(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
+    fn record_contact_answer(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
         match outcome.hit() {
             Ok(None) => Continue(()),
             Ok(Some(hit)) => {
-                self.found.limit = None;
+                self.result.limit = None;
                 self.keep_contact(&open.pair, open.point(hit.time))
             }
             Err(known) => {
@@ -96,9 +96,9 @@ impl Search<'_> {
                     Question::FirstContact => open.point(known.safe_until),
                     _ => 0.0,
                 };
-                self.found.limit = Some((known.limit, until));
+                self.result.limit = Some((known.limit, until));
                 if self.question == Question::FirstContact {
-                    self.found.end = until;
+                    self.result.end = until;
                 }
                 Continue(())
             }
@@ -107,7 +107,7 @@ impl Search<'_> {
 
     /// Measures the least distance of an open pair, if it may be less than what is found.
     fn measure_least_distance(&mut self, open: &OpenPair) -> Step {
-        let least = self.found.upper - self.settings.tolerance;
+        let least = self.result.upper - self.settings.tolerance;
         // Written so that NaN is measured.
         if least <= 0.0 {
             return Ok(Break(()));
@@ -129,13 +129,13 @@ impl Search<'_> {
     /// Keeps the distance of an open pair, if it is the least.
     fn record_distance(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
         if let Some(limit) = outcome.limit() {
-            self.found.limit = Some((limit, 0.0));
+            self.result.limit = Some((limit, 0.0));
         }
         let rounding = 2.0 * self.placement.rounding;
         // The bounds of bodies that exceed their shapes may differ by more than the tolerance.
-        self.found.lower = lesser(self.found.lower, outcome.lower() - rounding);
+        self.result.lower = lesser(self.result.lower, outcome.lower() - rounding);
         let upper = outcome.upper() + rounding;
-        if upper < self.found.upper {
+        if upper < self.result.upper {
             let at = open.point(outcome.time().unwrap_or(0.0));
             self.keep_nearest(&open.pair, at, upper);
         }
@@ -158,11 +158,12 @@ impl Search<'_> {
         self.solver.set_settings(Settings {
             margin: open.pair.margin + rounding,
             clearance: clearance.map(|clearance| greater(clearance + rounding, 0.0)),
-            deadline: self.time_limit.remaining(),
+            deadline: self.stop_condition.remaining(),
             ..self.settings.clone()
         });
         for (at, positions) in [open.from, open.to].into_iter().zip(&mut self.ends) {
-            self.path.interpolate_in(open.segment, at, positions);
+            self.path
+                .interpolate_in_segment(open.segment, at, positions);
         }
         let [from, to] = &self.ends;
         self.exact

@@ -17,7 +17,7 @@ pub(crate) struct PairChains<'c> {
 struct PairChain {
     chain: Chain,
     /// For each joint of the chain, the number of the moving joint; `None` for a fixed one.
-    moving: Vec<Option<usize>>,
+    moving_joint_numbers: Vec<Option<usize>>,
 }
 
 impl<'c> PairChains<'c> {
@@ -44,7 +44,10 @@ impl<'c> PairChains<'c> {
         let is_obstacle = b >= cell.robot_body_count();
         // All obstacles see a body move by the same chain.
         let key = if is_obstacle { [a, usize::MAX] } else { pair };
-        let PairChain { chain, moving } = self
+        let PairChain {
+            chain,
+            moving_joint_numbers: moving,
+        } = self
             .chains
             .entry(key)
             .or_insert_with(|| pair_chain(cell, a, (!is_obstacle).then_some(b)));
@@ -92,6 +95,6 @@ fn pair_chain(cell: &Cell, a: usize, b: Option<usize>) -> PairChain {
     moving.push(None);
     PairChain {
         chain: Chain::new(Pose::IDENTITY, joints),
-        moving,
+        moving_joint_numbers: moving,
     }
 }

@@ -18,7 +18,7 @@ pub(crate) struct Kinematics {
     /// The sum of the distances of all joints from the frames that hold them.
     pub(crate) arm_length_sum: f64,
     /// The number of all joints, fixed ones included.
-    pub(crate) joint_count: usize,
+    pub(crate) total_joint_count: usize,
 }
 
 /// A joint that moves, with what does not change.
@@ -68,7 +68,7 @@ impl Kinematics {
             links,
             numbers,
             arm_length_sum: arms,
-            joint_count: robot.joints().len(),
+            total_joint_count: robot.joints().len(),
         }
     }
 

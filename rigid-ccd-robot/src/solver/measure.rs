@@ -4,8 +4,8 @@ use super::part_pairs::PartPair;
 use super::placement::Placement;
 use crate::cell::Cell;
 use crate::cell::part::Part;
-use crate::tuning::{FAR_DISPLACEMENT, MIN_SQUARED_AXIS};
-use ccd_distance_gjk::{RequiredBounds, Vertex, bound_distance};
+use crate::tuning::{MIN_BOX_TEST_DISPLACEMENT, MIN_SQUARED_OFFSET};
+use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 
@@ -48,22 +48,22 @@ pub(crate) fn measure(
         frames[0].transform_point(a.centre),
         frames[1].transform_point(b.centre),
     ];
-    let gap = gap_of_volumes([a, b], &frames[0], centres, is_obstacle);
+    let gap = volume_gap_at_centres([a, b], &frames[0], centres, is_obstacle);
     let required = displacement + thresholds.free_distance + rounding;
     if gap > required {
         return DistanceVerdict::Free;
     }
-    if skips_far && displacement > FAR_DISPLACEMENT && gap > thresholds.near_distance {
+    if skips_far && displacement > MIN_BOX_TEST_DISPLACEMENT && gap > thresholds.near_distance {
         pair.proof_distance_share = 1.0;
         return DistanceVerdict::Undecided(f64::INFINITY);
     }
     let first_axis = if pair.axis != DVec3::ZERO {
         pair.axis
     } else {
-        first_axis(b, centres, is_obstacle)
+        initial_direction(b, centres, is_obstacle)
     };
     let radii = a.radius + b.radius;
-    let until = RequiredBounds {
+    let until = TerminationBounds {
         lower: required + radii,
         upper: thresholds.near_distance - rounding + radii,
     };
@@ -88,11 +88,11 @@ pub(crate) fn measure(
 }
 
 /// Returns a lower bound of the distance of a pair in the middle of a stretch by bounding volumes.
-pub(crate) fn volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
+pub(crate) fn bounding_volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
     let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
     let centres = parts.map(|part| placement.frames[part.frame].transform_point(part.centre));
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
-    gap_of_volumes(
+    volume_gap_at_centres(
         parts,
         &placement.frames[parts[0].frame],
         centres,
@@ -103,7 +103,7 @@ pub(crate) fn volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) ->
 /// Returns a lower bound of the distance by bounding volumes: boxes for a part and an obstacle, balls for two parts of the
 /// robot.
 #[inline(always)]
-fn gap_of_volumes(
+fn volume_gap_at_centres(
     [a, b]: [&Part; 2],
     frame_a: &Frame,
     centres: [DVec3; 2],
@@ -111,7 +111,7 @@ fn gap_of_volumes(
 ) -> f64 {
     let offset = centres[1] - centres[0];
     if is_obstacle {
-        let extents = a.box_extents(frame_a) + b.half_extents;
+        let extents = a.box_half_extents(frame_a) + b.half_extents;
         (offset.abs() - extents).max_element()
     } else {
         offset.length() - a.ball_radius - b.ball_radius
@@ -120,11 +120,15 @@ fn gap_of_volumes(
 
 /// Returns the first direction in which a pair is measured: to the nearest point of an obstacle's box, or between centres.
 #[inline(always)]
-pub(super) fn first_axis(b: &Part, [centre_a, centre_b]: [DVec3; 2], is_obstacle: bool) -> DVec3 {
+pub(super) fn initial_direction(
+    b: &Part,
+    [centre_a, centre_b]: [DVec3; 2],
+    is_obstacle: bool,
+) -> DVec3 {
     if is_obstacle {
         let nearest = centre_a.clamp(centre_b - b.half_extents, centre_b + b.half_extents);
         let axis = nearest - centre_a;
-        if axis.length_squared() > MIN_SQUARED_AXIS {
+        if axis.length_squared() > MIN_SQUARED_OFFSET {
             return axis;
         }
     }

@@ -75,7 +75,7 @@ impl UndecidedPairs {
 
     /// Returns the open pairs in the order in which the engine is asked: the earliest first for the first contact, the
     /// nearest first for other questions.
-    pub(crate) fn in_order(&mut self, question: Question) -> &[OpenPair] {
+    pub(crate) fn sorted_for(&mut self, question: Question) -> &[OpenPair] {
         match question {
             Question::FirstContact => self.0.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
             Question::AnyContact | Question::ClosestApproach => self.0.sort_unstable_by(|a, b| {

@@ -1,7 +1,7 @@
 //! Pairs of parts that may touch.
 
 use super::boxes::ObstacleBoxes;
-use super::displacement::Displacements;
+use super::displacement::DisplacementBounds;
 use super::placement::Placement;
 use crate::cell::Cell;
 use crate::cell::part::Part;
@@ -39,7 +39,11 @@ pub(crate) struct PartPairs<'c> {
 impl PartPair {
     /// Creates a pair of two of the robot's own parts, whose displacements are measured in the nearest frame that holds
     /// both.
-    pub(crate) fn of_robot(cell: &Cell, displacements: &Displacements, parts: [usize; 2]) -> Self {
+    pub(crate) fn of_robot(
+        cell: &Cell,
+        displacements: &DisplacementBounds,
+        parts: [usize; 2],
+    ) -> Self {
         let kinematics = cell.kinematics();
         let frame = kinematics.common_frame(parts.map(|part| cell.parts()[part].frame));
         let slots = parts.map(|part| displacements.slot(kinematics, part, frame));
@@ -62,7 +66,7 @@ impl PartPair {
     pub(crate) fn displacement(&self, placement: &Placement) -> f64 {
         let [a, b] = self
             .displacement_indices
-            .map(|slot| placement.displacements.bound(slot));
+            .map(|slot| placement.displacement_bounds.bound(slot));
         a + b
     }
 
@@ -73,15 +77,15 @@ impl PartPair {
     }
 
     /// Returns the numbers of both bodies.
-    pub(crate) fn owners(&self, parts: &[Part]) -> [usize; 2] {
+    pub(crate) fn body_numbers(&self, parts: &[Part]) -> [usize; 2] {
         [self.a, self.b].map(|part| parts[part as usize].owner)
     }
 }
 
 impl<'c> PartPairs<'c> {
-    pub(crate) fn new(cell: &'c Cell, displacements: &Displacements) -> Self {
+    pub(crate) fn new(cell: &'c Cell, displacements: &DisplacementBounds) -> Self {
         let own = cell
-            .checked_own_pairs()
+            .checked_robot_part_pairs()
             .map(|parts| PartPair::of_robot(cell, displacements, parts));
         let mut pairs = PartPairs {
             boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
@@ -108,7 +112,7 @@ impl<'c> PartPairs<'c> {
     }
 
     /// Returns what is added to the margins of all pairs.
-    pub(crate) fn growth(&self) -> f64 {
+    pub(crate) fn margin_increase(&self) -> f64 {
         self.margin_increase
     }
 
@@ -116,7 +120,7 @@ impl<'c> PartPairs<'c> {
         let (cell, margin, growth) = (self.cell, self.margin, self.margin_increase);
         self.largest_obstacle_margin = cell.largest_obstacle_margin(margin) + growth;
         for pair in &mut self.self_pairs {
-            pair.margin = cell.margin(pair.owners(cell.parts()), margin) + growth;
+            pair.margin = cell.margin(pair.body_numbers(cell.parts()), margin) + growth;
         }
     }
 
@@ -134,11 +138,11 @@ impl<'c> PartPairs<'c> {
             if part.frame == 0 {
                 continue;
             }
-            let slot = placement.displacements.displacement_index_at_base(a);
-            let displacement = placement.displacements.bound(slot);
+            let slot = placement.displacement_bounds.displacement_index_at_base(a);
+            let displacement = placement.displacement_bounds.bound(slot);
             let frame = &placement.frames[part.frame];
             let growth = displacement + self.largest_obstacle_margin + allowance;
-            let extents = part.box_extents(frame) + DVec3::splat(growth);
+            let extents = part.box_half_extents(frame) + DVec3::splat(growth);
             let centre = frame.transform_point(part.centre);
             self.boxes
                 .for_each_meeting(centre - extents, centre + extents, |obstacle| {
@@ -153,6 +157,6 @@ impl<'c> PartPairs<'c> {
 }
 
 /// Sorts pairs by their share, that of the nearest first.
-pub(crate) fn sort_by_share(pairs: &mut [PartPair]) {
+pub(crate) fn sort_by_proof_distance(pairs: &mut [PartPair]) {
     pairs.sort_unstable_by(|a, b| a.proof_distance_share.total_cmp(&b.proof_distance_share));
 }

@@ -1,7 +1,7 @@
 //! A stretch of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
 
-use super::displacement::Displacements;
-use super::rounding::point_error;
+use super::displacement::DisplacementBounds;
+use super::rounding::point_error_bound;
 use super::stretch::Stretch;
 use super::waypoints::Waypoints;
 use crate::cell::Cell;
@@ -14,45 +14,47 @@ use rigid_ccd::{Body, Error, Pose};
 /// stretch.
 pub(crate) struct Placement {
     pub(crate) frames: Vec<Frame>,
-    pub(crate) displacements: Displacements,
+    pub(crate) displacement_bounds: DisplacementBounds,
     /// The largest error of a point that is computed with the frames.
     pub(crate) rounding: f64,
     positions: Vec<f64>,
-    deviations: Vec<f64>,
+    max_deviation_by_joint: Vec<f64>,
 }
 
 impl Placement {
     pub(crate) fn new(cell: &Cell) -> Self {
         Placement {
             frames: Vec::new(),
-            displacements: Displacements::new(cell.kinematics(), cell.parts()),
+            displacement_bounds: DisplacementBounds::new(cell.kinematics(), cell.parts()),
             rounding: 0.0,
             positions: Vec::new(),
-            deviations: Vec::new(),
+            max_deviation_by_joint: Vec::new(),
         }
     }
 
     /// Prepares for the stretches of a path.
     pub(crate) fn begin(&mut self, cell: &Cell, path: &Waypoints) {
-        self.rounding = point_error(cell.kinematics(), cell.parts(), path.magnitudes());
+        self.rounding = point_error_bound(cell.kinematics(), cell.parts(), path.magnitudes());
     }
 
     /// Computes the frames in the middle of a stretch, and the bounds of displacements.
     #[inline(always)]
     pub(crate) fn place(&mut self, cell: &Cell, path: &Waypoints, stretch: &Stretch) {
         self.place_frames(cell, path, stretch.middle());
-        path.deviations(stretch, &self.positions, &mut self.deviations);
+        path.deviations(stretch, &self.positions, &mut self.max_deviation_by_joint);
         self.update_displacements(cell);
     }
 
     /// Returns whether a joint moves in the stretch that is placed.
     pub(crate) fn moves(&self) -> bool {
-        self.deviations.iter().any(|&deviation| deviation != 0.0)
+        self.max_deviation_by_joint
+            .iter()
+            .any(|&deviation| deviation != 0.0)
     }
 
     /// Computes the frames at a configuration, and the bounds of displacements for other ones: the position of each moving
     /// joint differs there by at most its `deviation`.
-    pub(crate) fn place_box(
+    pub(crate) fn place_joint_box(
         &mut self,
         cell: &Cell,
         configuration: &[f64],
@@ -60,15 +62,15 @@ impl Placement {
     ) {
         let joints = || cell.kinematics().joints().iter();
         self.positions.clear();
-        self.deviations.clear();
+        self.max_deviation_by_joint.clear();
         for joint in joints() {
             self.positions.push(joint.source.position(configuration));
-            self.deviations.push(deviation(joint.source));
+            self.max_deviation_by_joint.push(deviation(joint.source));
         }
-        let largest = joints().zip(&self.deviations);
+        let largest = joints().zip(&self.max_deviation_by_joint);
         let largest =
             largest.map(|(joint, deviation)| joint.source.magnitude(configuration) + deviation);
-        self.rounding = point_error(cell.kinematics(), cell.parts(), largest);
+        self.rounding = point_error_bound(cell.kinematics(), cell.parts(), largest);
         let positions = self.positions.iter().copied();
         cell.kinematics().place(positions, &mut self.frames);
         self.update_displacements(cell);
@@ -76,11 +78,11 @@ impl Placement {
 
     #[inline(always)]
     fn update_displacements(&mut self, cell: &Cell) {
-        self.displacements.update(
+        self.displacement_bounds.update(
             cell.kinematics(),
             &cell.parts()[..cell.robot_part_count()],
             &self.frames,
-            &self.deviations,
+            &self.max_deviation_by_joint,
             self.rounding,
         );
     }

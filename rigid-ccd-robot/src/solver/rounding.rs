@@ -16,11 +16,11 @@ const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 /// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. For a
 /// joint that follows another one the units are those of its factor and its offset. The difference to a position in the middle of a
 /// stretch has the errors of both.
-const POSITION_ERROR: f64 = 16.0;
+const POSITION_ERROR_ULPS: f64 = 16.0;
 
 /// Returns a bound of the distance between points of all parts, as computed with frames along an edge, and the points
 /// themselves. The positions of the moving joints are computed from numbers of at most `positions`.
-pub(crate) fn point_error(
+pub(crate) fn point_error_bound(
     kinematics: &Kinematics,
     parts: &[Part],
     positions: impl Iterator<Item = f64>,
@@ -35,7 +35,7 @@ pub(crate) fn point_error(
         }
     }
     let reach = parts.iter().map(|part| part.reach).fold(0.0, greater);
-    let turn =
-        ROTATION_ERROR_PER_JOINT * (kinematics.joint_count + 2) as f64 + POSITION_ERROR * angles;
-    U * (turn + POSITION_ERROR) * (arms + reach)
+    let turn = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
+        + POSITION_ERROR_ULPS * angles;
+    U * (turn + POSITION_ERROR_ULPS) * (arms + reach)
 }

@@ -6,16 +6,17 @@
 
 use super::Question;
 use super::exact::PairChains;
-use super::measure::{DistanceVerdict, Thresholds, measure, volume_gap};
+use super::measure::{DistanceVerdict, Thresholds, bounding_volume_gap, measure};
 use super::open_pairs::UndecidedPairs;
-use super::part_pairs::{PartPair, PartPairs, sort_by_share};
+use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
 use super::placement::Placement;
 use super::stretch::{Step, Stretch};
-use super::time_limit::TimeLimit;
+use super::time_limit::StopCondition;
 use super::waypoints::Waypoints;
 use crate::cell::Cell;
 use crate::tuning::{
-    ENGINE_DISPLACEMENT, ENGINE_LENGTH_FOR_APPROACH, ENGINE_STRETCH_LENGTH, MIN_HALVINGS,
+    MAX_APPROACH_STRETCH_LENGTH, MAX_ENGINE_DISPLACEMENT, MAX_ENGINE_STRETCH_LENGTH,
+    MIN_ENGINE_HALVINGS,
 };
 use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
@@ -35,7 +36,7 @@ pub(crate) struct Search<'c> {
     pub(super) candidates: Vec<PartPair>,
     /// Pairs of bodies that are not convex, whose hulls are near each other in the middle of the stretch, or nearer than
     /// what was found.
-    pub(super) suspects: Vec<PartPair>,
+    pub(super) near_nonconvex_pairs: Vec<PartPair>,
     /// What the engine is to decide.
     pub(super) open_pairs: UndecidedPairs,
     pub(super) solver: Solver,
@@ -44,8 +45,8 @@ pub(crate) struct Search<'c> {
     pub(super) settings: Settings,
     // Of the current question.
     pub(super) question: Question,
-    pub(super) time_limit: TimeLimit,
-    pub(crate) found: SearchResult,
+    pub(super) stop_condition: StopCondition,
+    pub(crate) result: SearchResult,
 }
 
 /// What a search has found so far.
@@ -78,19 +79,19 @@ impl<'c> Search<'c> {
         let placement = Placement::new(cell);
         Search {
             cell,
-            pairs: PartPairs::new(cell, &placement.displacements),
+            pairs: PartPairs::new(cell, &placement.displacement_bounds),
             exact: PairChains::new(cell),
             path: Waypoints::default(),
             placement,
             candidates: Vec::new(),
-            suspects: Vec::new(),
+            near_nonconvex_pairs: Vec::new(),
             open_pairs: UndecidedPairs::default(),
             solver: Solver::new(),
             ends: Default::default(),
             settings: Settings::DEFAULT,
             question: Question::AnyContact,
-            time_limit: TimeLimit::NONE,
-            found: SearchResult::NOTHING_FOUND,
+            stop_condition: StopCondition::NONE,
+            result: SearchResult::NOTHING_FOUND,
         }
     }
 
@@ -106,7 +107,7 @@ impl<'c> Search<'c> {
 
     /// Returns bounds of the least distance, after a question about it.
     pub(crate) fn distance_bounds(&self) -> (f64, f64) {
-        let SearchResult { upper, lower, .. } = self.found;
+        let SearchResult { upper, lower, .. } = self.result;
         // Pairs are left out that stay farther apart than the upper bound at that time, less the tolerance.
         let least = upper - self.settings.tolerance - 4.0 * self.placement.rounding;
         (greater(lesser(least, lower), 0.0), upper)
@@ -119,20 +120,20 @@ impl<'c> Search<'c> {
 
     /// Takes a path of at least one configuration, which the questions that follow are about. Their time starts now.
     pub(crate) fn begin<Q: AsRef<[f64]>>(&mut self, path: &[Q]) {
-        self.time_limit = TimeLimit::starting_now(&self.settings);
+        self.stop_condition = StopCondition::starting_now(&self.settings);
         self.path.set(self.cell.kinematics(), path);
         self.placement.begin(self.cell, &self.path);
     }
 
-    /// Answers a question about a stretch of the path; the answer is in `found`.
+    /// Answers a question about a stretch of the path; the answer is in `result`.
     pub(crate) fn answer(&mut self, question: Question, stretch: Stretch) -> Result<(), Error> {
         self.question = question;
-        self.found = SearchResult::NOTHING_FOUND;
+        self.result = SearchResult::NOTHING_FOUND;
         self.candidates.clear();
         self.open_pairs.clear();
         match self.search(stretch, None)? {
             Break(()) => Ok(()),
-            Continue(()) => self.ask_engine(),
+            Continue(()) => self.decide_open_pairs(),
         }
     }
 
@@ -150,12 +151,12 @@ impl<'c> Search<'c> {
     /// Searches a stretch of the path among the given candidate pairs, or among all pairs if there are none. Pairs that
     /// stay open are left to the engine.
     fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> Step {
-        if stretch.from >= self.found.end {
+        if stretch.from >= self.result.end {
             return Ok(Continue(()));
         }
-        if let Some(limit) = self.time_limit.reached_limit() {
-            self.found.limit = Some((limit, lesser(stretch.from, self.open_pairs.start())));
-            self.found.lower = 0.0;
+        if let Some(limit) = self.stop_condition.reached_limit() {
+            self.result.limit = Some((limit, lesser(stretch.from, self.open_pairs.start())));
+            self.result.lower = 0.0;
             return Ok(Break(()));
         }
         let base = self.candidates.len();
@@ -169,7 +170,7 @@ impl<'c> Search<'c> {
         }
         let undecided = first..self.candidates.len();
         if !undecided.is_empty() {
-            sort_by_share(&mut self.candidates[first..]);
+            sort_by_proof_distance(&mut self.candidates[first..]);
             let [earlier, later] = stretch.halves();
             let halves = match self.question {
                 Question::FirstContact => [earlier, later],
@@ -201,7 +202,7 @@ impl<'c> Search<'c> {
             first..self.candidates.len()
         });
         let first = self.candidates.len();
-        self.suspects.clear();
+        self.near_nonconvex_pairs.clear();
         for k in among {
             let mut pair = self.candidates[k];
             let is_last = self.goes_to_engine(&stretch, &pair);
@@ -209,21 +210,21 @@ impl<'c> Search<'c> {
             match measure(self.cell, &self.placement, &mut pair, thresholds, !is_last) {
                 DistanceVerdict::Free => continue,
                 DistanceVerdict::Near if !pair.is_convex(self.cell.parts()) => {
-                    self.suspects.push(pair);
+                    self.near_nonconvex_pairs.push(pair);
                 }
                 DistanceVerdict::Near => self.keep_contact(&pair, stretch.middle())?,
                 DistanceVerdict::Undecided(upper) if self.is_nearest(upper) => {
                     if pair.is_convex(self.cell.parts()) {
                         self.keep_nearest(&pair, stretch.middle(), upper);
                     } else {
-                        self.suspects.push(pair);
+                        self.near_nonconvex_pairs.push(pair);
                     }
                 }
                 DistanceVerdict::Undecided(_) => {}
             }
             if is_last {
                 self.open_pairs
-                    .add_or_merge(pair, pair.owners(self.cell.parts()), &stretch);
+                    .add_or_merge(pair, pair.body_numbers(self.cell.parts()), &stretch);
             } else {
                 self.candidates.push(pair);
             }
@@ -242,7 +243,7 @@ impl<'c> Search<'c> {
             },
             // Touching hulls end the search; others are measured exactly.
             Question::ClosestApproach => Thresholds {
-                free_distance: self.found.upper - tolerance,
+                free_distance: self.result.upper - tolerance,
                 near_distance: 0.0,
             },
         }
@@ -256,12 +257,12 @@ impl<'c> Search<'c> {
         }
         let length = stretch.to - stretch.from;
         let is_short = match self.question {
-            Question::ClosestApproach => length <= ENGINE_LENGTH_FOR_APPROACH,
-            _ => length <= ENGINE_STRETCH_LENGTH,
+            Question::ClosestApproach => length <= MAX_APPROACH_STRETCH_LENGTH,
+            _ => length <= MAX_ENGINE_STRETCH_LENGTH,
         };
         is_short || {
             let displacement = pair.displacement(&self.placement);
-            stretch.halvings >= MIN_HALVINGS && displacement < ENGINE_DISPLACEMENT
+            stretch.halvings >= MIN_ENGINE_HALVINGS && displacement < MAX_ENGINE_DISPLACEMENT
         }
     }
 
@@ -279,31 +280,31 @@ impl<'c> Search<'c> {
         if self.question == Question::ClosestApproach {
             // The nearest bodies first: others are then farther apart than these by their bounding volumes.
             for pair in &mut self.candidates[first..] {
-                pair.proof_distance_share = volume_gap(self.cell, &self.placement, pair);
+                pair.proof_distance_share = bounding_volume_gap(self.cell, &self.placement, pair);
             }
-            sort_by_share(&mut self.candidates[first..]);
+            sort_by_proof_distance(&mut self.candidates[first..]);
         }
     }
 
     /// Returns whether a distance is of interest and the least so far.
     #[inline(always)]
     fn is_nearest(&self, upper: f64) -> bool {
-        self.question == Question::ClosestApproach && upper < self.found.upper
+        self.question == Question::ClosestApproach && upper < self.result.upper
     }
 
     /// Keeps a pair as the nearest so far, with an upper bound of its distance.
     pub(super) fn keep_nearest(&mut self, pair: &PartPair, at: f64, upper: f64) {
-        self.found.upper = upper;
-        self.found.nearest = Some((at, *pair));
+        self.result.upper = upper;
+        self.result.nearest = Some((at, *pair));
     }
 
     /// Keeps a contact of a pair at a point. The search ends unless an earlier contact is looked for.
     pub(super) fn keep_contact(&mut self, pair: &PartPair, at: f64) -> ControlFlow<()> {
-        self.found.nearest = Some((at, *pair));
+        self.result.nearest = Some((at, *pair));
         let parts = self.cell.parts();
-        self.found.upper = parts[pair.a as usize].excess + parts[pair.b as usize].excess;
-        self.found.lower = 0.0;
-        self.found.end = at;
+        self.result.upper = parts[pair.a as usize].excess + parts[pair.b as usize].excess;
+        self.result.lower = 0.0;
+        self.result.end = at;
         match self.question {
             Question::FirstContact => Continue(()),
             Question::AnyContact | Question::ClosestApproach => Break(()),

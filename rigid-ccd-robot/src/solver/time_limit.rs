@@ -8,20 +8,20 @@ use std::time::{Duration, Instant};
 
 /// The time after which a search ends, and the flag by which another thread stops it.
 #[derive(Clone, Debug)]
-pub(crate) struct TimeLimit {
+pub(crate) struct StopCondition {
     end: Option<Instant>,
     stop: Option<Arc<AtomicBool>>,
 }
 
-impl TimeLimit {
-    pub(crate) const NONE: TimeLimit = TimeLimit {
+impl StopCondition {
+    pub(crate) const NONE: StopCondition = StopCondition {
         end: None,
         stop: None,
     };
 
     /// Returns the limit of a search that starts now.
     pub(crate) fn starting_now(settings: &Settings) -> Self {
-        TimeLimit {
+        StopCondition {
             // A time beyond the end of the clock is none.
             end: settings
                 .deadline

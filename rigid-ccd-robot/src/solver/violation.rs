@@ -3,7 +3,7 @@
 //! It is if both bodies are nearer in the middle by more than they move from there.
 
 use super::Question;
-use super::measure::{first_axis, vertex};
+use super::measure::{initial_direction, vertex};
 use super::part_pairs::PartPair;
 use super::placement::Placement;
 use super::search::Search;
@@ -11,22 +11,23 @@ use super::stretch::Stretch;
 use crate::cell::Cell;
 use ccd_core::fan_triangles;
 use ccd_core::order::{greater, lesser};
-use ccd_distance_gjk::{RequiredBounds, bound_distance};
+use ccd_distance_gjk::{TerminationBounds, bound_distance};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Settings};
 
 impl Search<'_> {
     /// Returns whether some pair is certainly nearer than its margin everywhere in a stretch, also if it is farther apart than
     /// it is placed by as much as margins are grown.
-    pub(super) fn is_violated(&mut self, stretch: &Stretch) -> Result<bool, Error> {
+    pub(super) fn is_margin_violated(&mut self, stretch: &Stretch) -> Result<bool, Error> {
         let parts = self.cell.parts();
         self.question = Question::AnyContact;
         self.placement.place(self.cell, &self.path, stretch);
         self.candidates.clear();
         self.append_candidates();
         let mut pairs = std::mem::take(&mut self.candidates);
-        pairs.sort_unstable_by_key(|pair| pair.owners(parts));
-        let of_bodies = pairs.chunk_by(|one, other| one.owners(parts) == other.owners(parts));
+        pairs.sort_unstable_by_key(|pair| pair.body_numbers(parts));
+        let of_bodies =
+            pairs.chunk_by(|one, other| one.body_numbers(parts) == other.body_numbers(parts));
         let mut is_violated = Ok(false);
         for near in of_bodies {
             is_violated = self.are_bodies_nearer(near);
@@ -44,8 +45,10 @@ impl Search<'_> {
         let displacements = near.iter().map(|pair| pair.displacement(&self.placement));
         let displacement = displacements.fold(0.0, greater);
         // The margin is grown once already.
-        let distance =
-            pair.margin - 2.0 * self.pairs.growth() - displacement - 4.0 * self.placement.rounding;
+        let distance = pair.margin
+            - 2.0 * self.pairs.margin_increase()
+            - displacement
+            - 4.0 * self.placement.rounding;
         if pair.is_convex(self.cell.parts()) {
             let (cell, placement) = (self.cell, &self.placement);
             return Ok(are_convex_parts_nearer(cell, placement, pair, distance));
@@ -54,11 +57,11 @@ impl Search<'_> {
         if !(distance > 0.0) {
             return Ok(false);
         }
-        let [a, b] = pair.owners(self.cell.parts());
+        let [a, b] = pair.body_numbers(self.cell.parts());
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         self.solver.set_settings(Settings {
-            deadline: self.time_limit.remaining(),
+            deadline: self.stop_condition.remaining(),
             ..self.settings.clone()
         });
         Ok(self.solver.distance(a, b)?.outcome.upper() < distance)
@@ -83,10 +86,10 @@ pub(crate) fn are_convex_parts_nearer(
         frames[1].transform_point(b.centre),
     ];
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
-    let axis = first_axis(b, centres, is_obstacle);
+    let axis = initial_direction(b, centres, is_obstacle);
     let vertex = |direction: DVec3| vertex(parts, &frames, direction);
     if distance > 0.0 {
-        let until = RequiredBounds {
+        let until = TerminationBounds {
             lower: distance,
             upper: 0.5 * distance,
         };
@@ -97,7 +100,7 @@ pub(crate) fn are_convex_parts_nearer(
 }
 
 /// The largest number of points of a convex set that are looked at.
-const MAX_POINTS: usize = 40;
+const MAX_HULL_POINTS: usize = 40;
 
 /// Returns whether a convex set certainly contains the ball of a radius about the origin. `support` returns the point of the
 /// set with the least height along a direction.
@@ -114,7 +117,7 @@ fn contains_ball(support: impl Fn(DVec3) -> DVec3, radius: f64) -> bool {
         }
         points.push(point);
     }
-    while points.len() <= MAX_POINTS {
+    while points.len() <= MAX_HULL_POINTS {
         let Some((normal, height)) = lowest_facet(&points) else {
             return false;
         };

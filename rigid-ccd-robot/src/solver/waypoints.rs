@@ -12,7 +12,7 @@ pub(crate) struct Waypoints {
     count: usize,
     positions: Vec<f64>,
     /// For each joint, a bound of the numbers of which its positions are computed.
-    magnitudes: Vec<f64>,
+    magnitude_bound_by_joint: Vec<f64>,
 }
 
 impl Waypoints {
@@ -21,11 +21,15 @@ impl Waypoints {
         self.joint_count = kinematics.joints().len();
         self.count = path.len();
         self.positions.clear();
-        self.magnitudes.clear();
-        self.magnitudes.resize(self.joint_count, 0.0);
+        self.magnitude_bound_by_joint.clear();
+        self.magnitude_bound_by_joint.resize(self.joint_count, 0.0);
         for configuration in path {
             let configuration = configuration.as_ref();
-            for (joint, magnitude) in kinematics.joints().iter().zip(&mut self.magnitudes) {
+            for (joint, magnitude) in kinematics
+                .joints()
+                .iter()
+                .zip(&mut self.magnitude_bound_by_joint)
+            {
                 self.positions.push(joint.source.position(configuration));
                 *magnitude = greater(*magnitude, joint.source.magnitude(configuration));
             }
@@ -39,19 +43,19 @@ impl Waypoints {
 
     /// Returns for each joint a bound of the numbers of which its positions are computed, also between configurations.
     pub(crate) fn magnitudes(&self) -> impl Iterator<Item = f64> {
-        self.magnitudes.iter().copied()
+        self.magnitude_bound_by_joint.iter().copied()
     }
 
     /// Computes the positions of all joints at a point of the path.
     #[inline(always)]
     pub(crate) fn interpolate(&self, at: f64, positions: &mut Vec<f64>) {
         let segment = PathPoint::of(at, self.segment_count()).segment;
-        self.interpolate_in(segment, at, positions);
+        self.interpolate_in_segment(segment, at, positions);
     }
 
     /// Computes the positions of all joints at a point of a segment, its ends included.
     #[inline(always)]
-    pub(crate) fn interpolate_in(&self, segment: usize, at: f64, positions: &mut Vec<f64>) {
+    pub(crate) fn interpolate_in_segment(&self, segment: usize, at: f64, positions: &mut Vec<f64>) {
         let share = at - segment as f64;
         positions.clear();
         let from = self.at(segment);

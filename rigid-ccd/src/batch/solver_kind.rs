@@ -92,7 +92,7 @@ pub trait Solve: Send {
 
 impl SolverKind {
     /// Returns all combinations of a schedule and a distance backend, each with the sound bound.
-    pub fn all() -> impl Iterator<Item = SolverKind> {
+    pub fn all_sound() -> impl Iterator<Item = SolverKind> {
         ScheduleKind::value_variants().iter().flat_map(|&schedule| {
             OracleKind::value_variants()
                 .iter()

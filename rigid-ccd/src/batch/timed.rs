@@ -1,6 +1,6 @@
 //! Answers and times queries by a method that is chosen at run time.
 
-use super::{Bodies, Question, Solve, SolverKind, TimedAnswer, median};
+use super::{BodyPair, Question, Solve, SolverKind, TimedAnswer, median};
 use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
 use ccd_core::Settings;
@@ -28,7 +28,7 @@ pub(crate) struct TimedQuestion {
 /// # Errors
 /// The query is not valid, or the method does not answer the question.
 pub(crate) fn answer_timed(
-    bodies: Bodies<'_>,
+    bodies: BodyPair<'_>,
     course: &Movements,
     timing: &TimedQuestion,
     solver: &mut dyn Solve,

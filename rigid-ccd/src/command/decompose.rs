@@ -111,7 +111,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
     source.adjustments = source
         .adjustments
         .combined_with(&args.meshes.adjustments())?;
-    refuse_prepared_body(&source.file)?;
+    refuse_prepared_input(&source.file)?;
     let detail = source.detail(args.detail()?);
     let out = args.out.as_deref().map(|out| claim(out, &source.file));
     let out = out.transpose()?;
@@ -142,7 +142,7 @@ fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
     Ok((form, Output::claim(out)?))
 }
 
-fn refuse_prepared_body(mesh: &Path) -> Result<()> {
+fn refuse_prepared_input(mesh: &Path) -> Result<()> {
     if mesh.extension().is_some_and(|e| e == STORED_BODY_EXTENSION) {
         bail!(
             "{}: is already a prepared body; give the mesh it was made from",

@@ -2,7 +2,7 @@
 
 use super::meshes::MeshArgs;
 use crate::Remark;
-use crate::batch::{Bodies, SolverKind};
+use crate::batch::{BodyPair, SolverKind};
 use crate::command::files::{Rows, is_same_file};
 use crate::command::progress::Progress;
 use crate::command::size::{sides_text, warn_of_different_units};
@@ -119,13 +119,13 @@ impl Pair {
     /// Prints the remarks about the rows of a table, and a remark if the tolerance is large relative to the smaller
     /// body.
     pub(super) fn print_remarks(&self, tolerance: f64, rows: &Rows) {
-        let Bodies { a, b } = self.bodies();
+        let BodyPair { a, b } = self.bodies();
         let remark = Remark::remark_on_tolerance(tolerance, [a, b].map(Remark::size));
         print_remarks(remark.into_iter().chain(rows.remarks()));
     }
 
-    pub(super) fn bodies(&self) -> Bodies<'_> {
-        Bodies {
+    pub(super) fn bodies(&self) -> BodyPair<'_> {
+        BodyPair {
             a: &self.a,
             b: self.b.as_ref().unwrap_or(&self.a),
         }

@@ -20,7 +20,7 @@ pub struct Progress {
     /// The number of input bytes that each step of the current batch counts for, if the total is in bytes.
     bytes_per_step: AtomicU64,
     /// The end of the current batch's rows, in bytes of the input, if the total is in bytes.
-    batch_end: AtomicU64,
+    batch_end_byte: AtomicU64,
     /// The sender whose drop tells the displaying thread that the work is done.
     done_sender: Option<Sender<()>>,
     display_thread: Option<JoinHandle<()>>,
@@ -107,7 +107,7 @@ impl Progress {
             steps: Arc::default(),
             total_work: TotalWork::Unknown,
             bytes_per_step: AtomicU64::new(0),
-            batch_end: AtomicU64::new(0),
+            batch_end_byte: AtomicU64::new(0),
             done_sender: None,
             display_thread: None,
         }
@@ -127,7 +127,7 @@ impl Progress {
     /// answered.
     pub fn begin_batch(&self, steps: usize, end: u64) {
         if let TotalWork::Bytes(_) = self.total_work {
-            let begin = self.batch_end.swap(end, Ordering::Relaxed);
+            let begin = self.batch_end_byte.swap(end, Ordering::Relaxed);
             self.bar.set_position(begin);
             let bytes = end.saturating_sub(begin) / (steps as u64).max(1);
             self.bytes_per_step.store(bytes, Ordering::Relaxed);

@@ -67,7 +67,7 @@ pub(super) fn read(
     };
     for (position, row) in rows {
         scene
-            .load_once(&row.text, how)
+            .load_body_once(&row.text, how)
             .with_context(|| format!("{}: line {}", name(), position.line))?;
         scene.rows.push(row);
     }
@@ -136,7 +136,7 @@ fn refuse_equal_ids(rows: &[PlacedRow]) -> Result<()> {
 }
 
 impl SceneTable {
-    fn load_once(&mut self, text: &str, how: SceneArgs<'_>) -> Result<()> {
+    fn load_body_once(&mut self, text: &str, how: SceneArgs<'_>) -> Result<()> {
         if self.bodies.contains_key(text) {
             return Ok(());
         }

@@ -66,7 +66,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {
-                chosen.count_omitted(fault.to_string());
+                chosen.count_undrawable(fault.to_string());
                 continue;
             }
         };
@@ -125,7 +125,7 @@ pub(super) fn write_rows_page(
     for (course, row) in chosen.take_rows() {
         match painter.view(&course, &row) {
             Ok(view) => views.push(view),
-            Err(error) => chosen.count_omitted(format!("row {}: {error}", row.id)),
+            Err(error) => chosen.count_undrawable(format!("row {}: {error}", row.id)),
         }
     }
     if let Some(faults) = chosen.describe_faults() {

@@ -1,7 +1,7 @@
 //! Computes the distance of two bodies over time, with a proven lower bound of this distance.
 
 use crate::Solver;
-use crate::batch::Bodies;
+use crate::batch::BodyPair;
 use crate::table::courses::Movements;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, InputError, Settings, Stretch};
@@ -53,7 +53,7 @@ impl GapOverTime {
     }
 
     /// Returns the time at which the measured distance is least.
-    pub fn nearest_time(&self) -> f64 {
+    pub fn least_distance_time(&self) -> f64 {
         let points = self.gap.points.iter();
         let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
         nearest.map_or(0.0, |point| point.time)
@@ -68,7 +68,7 @@ impl GapOverTime {
 /// If the motions are out of range.
 pub fn gap(
     solver: &mut Solver,
-    bodies: Bodies<'_>,
+    bodies: BodyPair<'_>,
     course: &Movements,
     floor: f64,
 ) -> Result<GapOverTime, InputError> {
@@ -80,7 +80,7 @@ pub fn gap(
         solver,
         bodies,
         movements: course,
-        distance_floor: greater(floor, 0.0),
+        distance_lower_bound: greater(floor, 0.0),
         deadline: Instant::now() + TIME_LIMIT,
     };
     let (mut points, steps) = survey.advance()?;
@@ -96,9 +96,9 @@ pub fn gap(
 
 struct GapSampler<'a> {
     solver: &'a mut Solver,
-    bodies: Bodies<'a>,
+    bodies: BodyPair<'a>,
     movements: &'a Movements,
-    distance_floor: f64,
+    distance_lower_bound: f64,
     deadline: Instant,
 }
 
@@ -200,7 +200,7 @@ impl GapSampler<'_> {
     /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
     /// measurement, but not below what is proven for all times.
     fn proven(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
-        let floor = self.distance_floor;
+        let floor = self.distance_lower_bound;
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];

@@ -49,7 +49,7 @@ pub(crate) fn scene_view(
         ShownBody::new(&shown.name, mesh, &color, &shown.motion)
     });
     let shown: Vec<ShownBody> = shown.collect();
-    let hits = hits(contacts);
+    let hits = impacts(contacts);
     let origin = bodies
         .first()
         .zip(shown.first())
@@ -74,7 +74,7 @@ pub(crate) fn scene_verdict(
     contacts: &[Result<Impact, PairError>],
     duration: f64,
 ) -> String {
-    let hits = hits(contacts);
+    let hits = impacts(contacts);
     let all = match bodies.len() {
         1 => "One body".to_owned(),
         count => format!("{count} bodies"),
@@ -104,7 +104,7 @@ pub(crate) fn scene_verdict(
     words
 }
 
-fn hits(contacts: &[Result<Impact, PairError>]) -> Vec<&Impact> {
+fn impacts(contacts: &[Result<Impact, PairError>]) -> Vec<&Impact> {
     let hits = contacts.iter().filter_map(|found| found.as_ref().ok());
     hits.collect()
 }

@@ -87,7 +87,7 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
             1 => random_movements(&mut random, 2.0),
             _ => random_movements(&mut random, 40.0),
         };
-        let found = gap(&mut solver, Bodies { a, b }, &course, 0.0).unwrap();
+        let found = gap(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
         let line = &found.gap.proven;
         assert!(
             line.windows(2).all(|two| two[0][0] <= two[1][0] + 1e-12),
@@ -128,7 +128,7 @@ fn nothing_touches_before_the_last_step() {
         };
         let [a, b] = [k % 4, (k / 4) % 4].map(|k| &bodies[k]);
         let course = Movements::Motions(query.clone());
-        let found = gap(&mut solver, Bodies { a, b }, &course, 0.0).unwrap();
+        let found = gap(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
         solver.set_settings(Settings::DEFAULT);
         let hit = solver
             .first_contact((a, query.a), (b, query.b), query.duration)

@@ -121,8 +121,8 @@ fn stop_search_settings(given: &Settings) -> Settings {
 struct StopSearch<'s, 'a> {
     scene: &'s Scene<'a>,
     /// For each body, the indices of the bodies that it may touch.
-    partners: Vec<Vec<usize>>,
-    stops: Vec<Stop>,
+    partners_by_body: Vec<Vec<usize>>,
+    stop_by_body: Vec<Stop>,
     time_limits: TimeLimits,
     schedule: BestFirst<Direct>,
     oracle: Direct,
@@ -146,8 +146,8 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         };
         StopSearch {
             scene,
-            partners,
-            stops: vec![goes_on; scene.len()],
+            partners_by_body: partners,
+            stop_by_body: vec![goes_on; scene.len()],
             time_limits: clock,
             schedule: BestFirst::default(),
             oracle: Direct::default(),
@@ -160,8 +160,8 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         for event in events {
             let [a, b] = event.bodies;
             if event.overlaps() {
-                self.partners[a].retain(|&other| other != b);
-                self.partners[b].retain(|&other| other != a);
+                self.partners_by_body[a].retain(|&other| other != b);
+                self.partners_by_body[b].retain(|&other| other != a);
             } else {
                 coming.push(self.future_contact_from_event(event, 0.0));
             }
@@ -179,7 +179,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             let [a, b] = event.bodies;
             for (index, other) in [(a, b), (b, a)] {
                 if self.moves(index) {
-                    self.stops[index] = Stop {
+                    self.stop_by_body[index] = Stop {
                         time: event.time,
                         stopped_by: Some(other),
                         contact,
@@ -191,13 +191,13 @@ impl<'s, 'a> StopSearch<'s, 'a> {
                 coming.extend(self.find_future_contacts_of(index));
             }
         }
-        Ok(self.stops)
+        Ok(self.stop_by_body)
     }
 
     /// Returns the future contacts of moving bodies with a body that has just stopped.
     fn find_future_contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
-        let time = self.stops[index].time;
-        let partners = self.partners[index].iter();
+        let time = self.stop_by_body[index].time;
+        let partners = self.partners_by_body[index].iter();
         let moving = partners.filter(|&&other| self.moves(other));
         let pairs: Vec<[usize; 2]> = moving
             .map(|&other| in_ascending_order(index, other))
@@ -261,7 +261,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         index: usize,
     ) -> Result<Movement<'r>, InputError> {
         if !self.moves(index) {
-            return Ok(Motion::still(shifted.inner.pose(self.stops[index].time)?).into());
+            return Ok(Motion::still(shifted.inner.pose(self.stop_by_body[index].time)?).into());
         }
         let Movement::Motion(motion) = shifted.inner else {
             return Ok(shifted.into());
@@ -275,14 +275,14 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         if self.moves(index) {
             return Ok(0.0);
         }
-        let (member, time) = (&self.scene.members[index], self.stops[index].time);
+        let (member, time) = (&self.scene.members[index], self.stop_by_body[index].time);
         let stretch = member.movement.stretch_between(time, time)?;
         Ok(stretch.deviation_bound.at(reach(member.body, &stretch)))
     }
 
     fn moves(&self, index: usize) -> bool {
         self.scene.members[index].mobility == Mobility::Moving
-            && self.stops[index].stopped_by.is_none()
+            && self.stop_by_body[index].stopped_by.is_none()
     }
 }
 

@@ -210,8 +210,8 @@ impl Columns {
                 let missing = needed.find(|slot| !is_there(slot));
                 if let (Some(given), Some(missing)) = (given, missing) {
                     return Err(TableError::MissingColumn {
-                        given: self.name(given).to_owned(),
-                        missing: self.name(missing).to_owned(),
+                        present_column: self.name(given).to_owned(),
+                        missing_column: self.name(missing).to_owned(),
                     });
                 }
             }

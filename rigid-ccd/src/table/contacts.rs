@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::batch::{Bodies, Question};
+use crate::batch::{BodyPair, Question};
 use crate::table::courses::Movements;
 use crate::table::results::{Column, ResultRow, reordered_columns};
 use ccd_core::{Answer, Contact, ContactsError, InputError, Outcome, Settings};
@@ -32,7 +32,7 @@ pub(crate) enum ContactListError {
 /// # Errors
 /// The query is not valid, or the contacts cannot be listed.
 pub(crate) fn contact_rows(
-    bodies: Bodies<'_>,
+    bodies: BodyPair<'_>,
     course: &Movements,
     settings: &Settings,
     (question, answer): (Question, &Answer),

@@ -94,12 +94,12 @@ pub enum TableError {
         column: String,
     },
     /// A column is missing that another one requires.
-    #[error("header: no column `{missing}`, but column `{given}` needs it")]
+    #[error("header: no column `{missing_column}`, but column `{present_column}` needs it")]
     MissingColumn {
         /// The column that the header has.
-        given: String,
+        present_column: String,
         /// The column that the header lacks.
-        missing: String,
+        missing_column: String,
     },
     /// The table has no header.
     #[error("is empty: the first line must name the columns")]
@@ -202,7 +202,7 @@ pub enum RowProblem {
         Number(*.time),
         Number(*.first)
     )]
-    TimeTooLarge {
+    TimeNotDistinguishable {
         /// The time of the row that is refused.
         time: f64,
         /// The time of the path's first row.
@@ -227,14 +227,14 @@ pub enum RowProblem {
     },
     /// The angular velocity in the previous row does not lead to the orientation in this row.
     #[error(
-        "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {left:.3} radians away from this orientation; \
+        "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {orientation_error:.3} radians away from this orientation; \
          a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
     )]
     OrientationMismatch {
         /// The letter of the body, as in the columns' prefix.
         body: char,
         /// The angle in radians between the orientation in the row and the one to which the angular velocity leads.
-        left: f64,
+        orientation_error: f64,
     },
     /// Only the default schedule answers this question.
     #[error("needs --schedule best-first")]

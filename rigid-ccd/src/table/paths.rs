@@ -59,7 +59,7 @@ pub(super) struct PathReader {
     /// The number of bytes of the input up to the end of the paths read.
     pub(super) byte_count: u64,
     /// The hashes of the ids of the paths read, to find ids that appear again.
-    known: HashSet<u64>,
+    known_id_hashes: HashSet<u64>,
     id_hasher: RandomState,
 }
 
@@ -79,7 +79,7 @@ impl PathReader {
             path_count: 0,
             checksum,
             byte_count: bytes,
-            known: HashSet::new(),
+            known_id_hashes: HashSet::new(),
             id_hasher: RandomState::new(),
         })
     }
@@ -109,7 +109,7 @@ impl PathReader {
         };
         let id = row::id(columns, records.current());
         let seen = match (self.grouping, &id) {
-            (Grouping::ById, Some(id)) => !self.known.insert(self.id_hasher.hash_one(id)),
+            (Grouping::ById, Some(id)) => !self.known_id_hashes.insert(self.id_hasher.hash_one(id)),
             // Consecutive rows without an id form one path.
             (Grouping::ById, None) | (Grouping::EachRow, _) => false,
         };
@@ -197,7 +197,7 @@ fn check_row_follows(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowP
     }
     // Written so that NaN is refused.
     if !(since > since_before && since.is_finite()) {
-        return Err(RowProblem::TimeTooLarge {
+        return Err(RowProblem::TimeNotDistinguishable {
             time,
             first: first.time,
         });
@@ -226,7 +226,10 @@ fn check_orientation(
     if before.spin == DVec3::ZERO || left <= MAX_RESIDUAL_ROTATION {
         Ok(())
     } else {
-        Err(RowProblem::OrientationMismatch { body, left })
+        Err(RowProblem::OrientationMismatch {
+            body,
+            orientation_error: left,
+        })
     }
 }
 

@@ -115,7 +115,7 @@ impl Curve {
     /// several segments.
     pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
         // A segment that only touches the interval overlaps it, too.
-        let mut overlapping = self.segments.segments_between(from, to).iter();
+        let mut overlapping = self.segments.overlapping_segments(from, to).iter();
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
             vector: segment.derivative(2, segment.share(time)),

@@ -33,7 +33,7 @@ use ccd_core::{
 pub struct Link<'c> {
     chain: &'c Chain,
     /// The link in whose frame this link is seen; `None` for the world.
-    seen_from: Option<usize>,
+    reference_link: Option<usize>,
     link: usize,
     from: &'c [f64],
     to: &'c [f64],
@@ -71,7 +71,7 @@ impl Chain {
         if link > joints.len() {
             return Err(InputError::NoSuchLink {
                 link,
-                joints: joints.len(),
+                joint_count: joints.len(),
             });
         }
         for positions in [from, to] {
@@ -88,7 +88,7 @@ impl Chain {
         check_duration(duration)?;
         Ok(Link {
             chain: self,
-            seen_from: None,
+            reference_link: None,
             link,
             from,
             to,
@@ -107,7 +107,7 @@ impl<'c> Link<'c> {
     pub fn seen_from(self, link: usize) -> Result<Self, InputError> {
         if link <= self.link {
             Ok(Link {
-                seen_from: Some(link),
+                reference_link: Some(link),
                 ..self
             })
         } else {
@@ -123,7 +123,7 @@ impl<'c> Link<'c> {
     fn joints(&self, time: f64) -> impl Iterator<Item = (&'c Joint, f64, f64)> {
         let share = time / self.duration;
         let (from, to, duration) = (self.from, self.to, self.duration);
-        let range = self.seen_from.unwrap_or(0)..self.link;
+        let range = self.reference_link.unwrap_or(0)..self.link;
         range.map(move |k| {
             let joint = &self.chain.joints()[k];
             let change = if joint.is_fixed() {
@@ -137,7 +137,7 @@ impl<'c> Link<'c> {
 
     /// Returns the pose, the velocities and the accelerations of the link at a time.
     fn state(&self, time: f64) -> Result<LinkState, InputError> {
-        let mut state = LinkState::state_at_rest(match self.seen_from {
+        let mut state = LinkState::state_at_rest(match self.reference_link {
             Some(_) => Pose::IDENTITY,
             None => self.chain.base(),
         });
@@ -154,8 +154,8 @@ impl<'c> Link<'c> {
         for ((joint, start, rate), (first, last)) in starts.zip(self.positions(from, to)) {
             let largest = greater(first.abs(), last.abs());
             let positions = PositionBounds {
-                max_position: largest,
-                max_position_with_start: greater(largest, start.abs()),
+                max_abs_position: largest,
+                max_abs_with_start: greater(largest, start.abs()),
                 first,
                 rate: rate.abs(),
             };

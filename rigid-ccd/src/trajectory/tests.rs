@@ -251,7 +251,7 @@ fn slerp_of_tiny_turns() {
         let keys: Vec<_> = (0..=count).map(key).collect();
         Ok(Spline::new(
             Curve::bezier(&[[0.0; 3]], 2.0)?,
-            OrientationCurve::slerp(&keys)?,
+            OrientationCurve::piecewise_slerp(&keys)?,
         ))
     });
 }
@@ -271,7 +271,8 @@ fn bezier() {
 fn b_spline_and_slerp() {
     check("B-spline, slerp", 0.3, |rng| {
         let curve = Curve::b_spline(&points(rng, 8), 2.0)?;
-        Spline::new(curve, OrientationCurve::slerp(&keys(rng, 5))?).about(random_vector(rng, 1.0))
+        Spline::new(curve, OrientationCurve::piecewise_slerp(&keys(rng, 5))?)
+            .about(random_vector(rng, 1.0))
     });
 }
 
@@ -464,7 +465,7 @@ fn tangents_have_the_velocities_of_poses() {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
         let chain = random_chain(&mut rng, 5, AxisChoice::AnyDirection);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
-        let turns = OrientationCurve::slerp(&keys(&mut rng, 6)).unwrap();
+        let turns = OrientationCurve::piecewise_slerp(&keys(&mut rng, 6)).unwrap();
         let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);
         let thrown = random_ballistic(&mut rng).unwrap();
         let all: [&dyn SmoothTrajectory; 3] = [&link, &spline, &thrown];

@@ -15,7 +15,7 @@ use ccd_core::{InputError, Pose};
 /// use rigid_ccd::glam::DQuat;
 /// use rigid_ccd::trajectory::OrientationCurve;
 /// let keys = [0.0, 1.0, 2.0].map(|t| (t, DQuat::from_rotation_z(t * t / 4.0).to_array()));
-/// let (half, _) = OrientationCurve::slerp(&keys)?.at(0.5);
+/// let (half, _) = OrientationCurve::piecewise_slerp(&keys)?.at(0.5);
 /// assert!(half.angle_between(DQuat::from_rotation_z(1.0 / 8.0)) < 1e-7);
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
@@ -46,7 +46,7 @@ impl OrientationCurve {
     /// # Errors
     /// [`InputError::ZeroQuaternion`], [`InputError::NotFinite`], and [`InputError::OutOfRange`] for times that
     /// do not increase.
-    pub fn slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
+    pub fn piecewise_slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
         let keys = aligned_quaternions(keys)?;
         let segment = |two: &[(f64, DQuat)]| {
             let [(from, start), (to, end)] = [two[0], two[1]];

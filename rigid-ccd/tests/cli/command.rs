@@ -55,7 +55,7 @@ impl CommandCall {
 
     /// Runs the command, checks that it ends with the exit code `code`, and returns its output.
     #[track_caller]
-    pub(crate) fn expect_exit_code(&self, code: i32) -> Output {
+    pub(crate) fn run_expecting_code(&self, code: i32) -> Output {
         let output = self.output();
         let found = output.status.code();
         assert_eq!(found, Some(code), "{:?}: {}", self.args, stderr(&output));
@@ -66,12 +66,12 @@ impl CommandCall {
     #[track_caller]
     #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
     pub(crate) fn run_for_messages(&self, code: i32) -> String {
-        stderr(&self.expect_exit_code(code))
+        stderr(&self.run_expecting_code(code))
     }
 
     #[track_caller]
     pub(crate) fn run_for_rows(&self) -> Vec<Row> {
-        parse(&self.expect_exit_code(0).stdout)
+        parse(&self.run_expecting_code(0).stdout)
     }
 }
 

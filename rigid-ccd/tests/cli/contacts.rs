@@ -11,7 +11,7 @@ const CUBE_MOTIONS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,
 fn rows_and_contacts(run: CommandCall, table: &Path) -> (Vec<Row>, Vec<Row>) {
     let output = run
         .args(&["--contacts", table.to_str().unwrap()])
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     (parse(&output.stdout), parse(&std::fs::read(table).unwrap()))
 }
 
@@ -56,7 +56,7 @@ fn contacts_at_the_start_and_on_standard_output() {
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--out", results.to_str().unwrap(), "--contacts", "-"])
         .stdin("id,a_pz,a_vz\ntouching,1.5005,-4\noverlapping,1,0\n")
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     let contacts = parse(&output.stdout);
     assert_eq!(contacts.len(), 4);
     for row in &contacts {
@@ -126,7 +126,7 @@ fn a_row_with_too_many_contacts_is_reported() {
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--budget", "3", "--contacts", table.to_str().unwrap()])
         .stdin("id,a_pz,a_vz\nfirst,1.5005,-4\n")
-        .expect_exit_code(2);
+        .run_expecting_code(2);
     assert_eq!(parse(&output.stdout)[0].text("status"), "touching");
     let message = stderr(&output);
     assert_contains(&message, "row 0 (line 2): contacts: ");
@@ -150,7 +150,7 @@ fn counters_are_more_columns_and_a_line_of_means() {
             "--schedule",
             schedule,
         ]);
-        let output = run.stdin(CUBE_MOTIONS).expect_exit_code(0);
+        let output = run.stdin(CUBE_MOTIONS).run_expecting_code(0);
         assert_eq!(
             header(&output.stdout),
             header(&plain.stdout) + ",advancements,oracle_steps,cycles,fallbacks,front"

@@ -296,7 +296,7 @@ fn unreadable_stored_bodies_are_reported() {
 #[test]
 fn help_lists_the_statistics() {
     for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "excess")] {
-        let output = CommandCall::with_args(&["decompose", option]).expect_exit_code(0);
+        let output = CommandCall::with_args(&["decompose", option]).run_expecting_code(0);
         let text = String::from_utf8(output.stdout).unwrap();
         assert_contains(&text, expected);
     }

@@ -10,7 +10,7 @@ fn corners() -> impl Iterator<Item = [f32; 3]> {
 }
 
 #[rustfmt::skip]
-const CUBE_CORNERS: [u16; 36] = [
+const CUBE_TRIANGLE_INDICES: [u16; 36] = [
     0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
     2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
 ];
@@ -18,7 +18,11 @@ const CUBE_CORNERS: [u16; 36] = [
 /// Returns a glTF file of two nodes with one cube each: `base`, a metre wide, and `lid`, flat and two metres above it.
 fn gltf() -> (Value, Vec<u8>) {
     let mut bytes: Vec<u8> = corners().flatten().flat_map(f32::to_le_bytes).collect();
-    bytes.extend(CUBE_CORNERS.iter().flat_map(|corner| corner.to_le_bytes()));
+    bytes.extend(
+        CUBE_TRIANGLE_INDICES
+            .iter()
+            .flat_map(|corner| corner.to_le_bytes()),
+    );
     let json = json!({
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0, 1]}],
@@ -57,7 +61,7 @@ fn glb() -> Vec<u8> {
 /// Returns an OBJ with a cube of length 20 about the origin.
 fn large_cube_obj() -> String {
     let vertices = corners().map(|[x, y, z]| format!("v {} {} {}\n", 10.0 * x, 10.0 * y, 10.0 * z));
-    let faces = CUBE_CORNERS
+    let faces = CUBE_TRIANGLE_INDICES
         .chunks(3)
         .map(|f| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1));
     vertices.chain(faces).collect()
@@ -125,7 +129,7 @@ fn an_unknown_part_lists_those_there_are() {
             CommandCall::query(&["--a", BALL_SPEC, "--b", &body]).stdin(FALLING_BALL_MOTION),
             CommandCall::with_args(&["decompose", &body]),
         ] {
-            let output = run.expect_exit_code(2);
+            let output = run.run_expecting_code(2);
             let expected =
                 format!("scene.glb: has no part {missing:?}; its parts are 0 \"base\", 1 \"lid\"");
             assert_contains(&stderr(&output), &expected);
@@ -187,7 +191,7 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
             CommandCall::with_args(&["decompose", &body]),
             CommandCall::with_args(&["decompose", name(&path), option]),
         ] {
-            run.expect_exit_code(2);
+            run.run_expecting_code(2);
         }
     }
 }
@@ -211,7 +215,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
         );
     }
     let out = scene.directory.join("hollow.ccd");
-    CommandCall::with_args(&["decompose", &hollow, "--out", name(&out)]).expect_exit_code(0);
+    CommandCall::with_args(&["decompose", &hollow, "--out", name(&out)]).run_expecting_code(0);
     let rows = CommandCall::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
     assert_eq!(rows.run_for_rows()[0].text("status"), "free");
     // A prepared body is not adjusted.
@@ -228,7 +232,7 @@ fn cylinders_and_cones_are_bodies() {
         let run = CommandCall::query(&["--a", BALL_SPEC, "--b", body, "--tolerance", "1e-7"]);
         let output = run
             .stdin("a_px,a_vx,duration\n-4,1,4\n")
-            .expect_exit_code(0);
+            .run_expecting_code(0);
         assert_contains(&stderr(&output), "sticking out by up to");
         let rows = crate::parse(&output.stdout);
         // The cone's radius equals its height, so that the slant is at 45 degrees.
@@ -259,7 +263,7 @@ fn units_are_converted() {
             CommandCall::query(&["--a", &cube, "--b", &die, "--unit", unit, "--tolerance"])
                 .args(&[&(1e-4 / metres).to_string()])
                 .stdin(&above(metres))
-                .expect_exit_code(0);
+                .run_expecting_code(0);
         let message = stderr(&output);
         let rows = crate::parse(&output.stdout);
         assert_eq!(rows[0].text("status"), "contact", "{unit}: {message}");
@@ -310,7 +314,7 @@ fn a_part_is_prepared_and_stored() {
     let output =
         CommandCall::with_args(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
             .args(&[name(&stored), "--format", "json"])
-            .expect_exit_code(0);
+            .run_expecting_code(0);
     let statistics: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(statistics["mesh"], part(&file, "lid"));
     assert_eq!(statistics["unit"], "mm");

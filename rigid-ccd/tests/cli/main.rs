@@ -176,7 +176,7 @@ fn files_are_read_and_written() {
                 results.to_str().unwrap(),
             ])
             .stdin("");
-    let output = run.expect_exit_code(0);
+    let output = run.run_expecting_code(0);
     assert_eq!(output.stdout, b"");
     let rows = parse(&std::fs::read(&results).unwrap());
     assert_eq!(rows[0].text("status"), "contact");
@@ -198,7 +198,7 @@ fn the_same_file_twice_is_loaded_once() {
     ];
     let output = CommandCall::query(&bodies)
         .stdin("a_px,a_vx\n3,-3\n")
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     assert_eq!(stderr(&output).matches(", solid").count(), 1);
 }
 
@@ -240,7 +240,7 @@ fn raised_tolerances_are_reported() {
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--tolerance", "1e-12"])
         .stdin(far)
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     assert_contains(&stderr(&output), "--tolerance 1e-12 cannot be certified");
 }
 
@@ -339,7 +339,7 @@ fn the_summary_counts_rows_and_quiet_omits_it() {
 fn a_table_without_rows_gives_a_header() {
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin("id\n")
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     let header = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(
         header.starts_with("id,status,time,distance_lower,"),
@@ -354,7 +354,7 @@ fn a_table_without_rows_gives_a_header() {
 #[test]
 fn help_shows_examples() {
     for args in [&["--help"][..], &["query", "--help"], &["query", "-h"]] {
-        let output = CommandCall::with_args(args).stdin("").expect_exit_code(0);
+        let output = CommandCall::with_args(args).stdin("").run_expecting_code(0);
         assert!(
             String::from_utf8(output.stdout)
                 .unwrap()

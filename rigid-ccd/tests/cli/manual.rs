@@ -11,7 +11,7 @@ use std::fs;
 #[case("powershell")]
 #[case("zsh")]
 fn every_shell_completes_commands_and_options(#[case] shell: &str) {
-    let output = CommandCall::with_args(&["completions", shell]).expect_exit_code(0);
+    let output = CommandCall::with_args(&["completions", shell]).run_expecting_code(0);
     let script = String::from_utf8(output.stdout).unwrap();
     // A fish script names long options without their dashes.
     let option = if shell == "fish" {
@@ -33,7 +33,7 @@ fn an_unknown_shell_is_refused() {
 #[test]
 fn the_command_and_every_subcommand_have_a_man_page() {
     let scene = Scene::new("man");
-    CommandCall::with_args(&["man", scene.directory.to_str().unwrap()]).expect_exit_code(0);
+    CommandCall::with_args(&["man", scene.directory.to_str().unwrap()]).run_expecting_code(0);
     for (page, word) in [
         ("ccd", "query"),
         ("ccd-query", "motions"),

@@ -10,7 +10,7 @@ fn query_messages(table: &str) -> String {
     let output = CommandCall::query(&SPHERES_OPTIONS)
         .args(&["--quiet"])
         .stdin(table)
-        .expect_exit_code(2);
+        .run_expecting_code(2);
     stderr(&output)
 }
 
@@ -138,7 +138,7 @@ fn selected_rows_have_the_same_answers() {
     for bad in ["3", "4..4", "a..b", "-1..2"] {
         CommandCall::query(&SPHERES_OPTIONS)
             .args(&["--rows", bad])
-            .expect_exit_code(2);
+            .run_expecting_code(2);
     }
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }

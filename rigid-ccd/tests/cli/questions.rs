@@ -404,7 +404,7 @@ fn a_check_fails_unless_every_row_is_proven() {
     CommandCall::query(&BALLS_OPTIONS)
         .args(&["--check"])
         .stdin(&two)
-        .expect_exit_code(2);
+        .run_expecting_code(2);
     for (options, refusal) in [
         (&["--ask", "distance"][..], "--check needs --clearance"),
         (
@@ -431,7 +431,7 @@ fn a_finished_check_fails_again() {
         .args(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--out", out.to_str().unwrap()]);
     assert_eq!(run.output().status.code(), Some(3));
-    run.args(&["--resume"]).expect_exit_code(3);
+    run.args(&["--resume"]).run_expecting_code(3);
 }
 
 /// Returns a tube about z as the text of an OBJ file.

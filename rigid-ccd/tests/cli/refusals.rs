@@ -17,7 +17,7 @@ fn bad_rows_keep_their_place_and_are_reported() {
                    also good,4,-4,1,0,0,0,,,,0,1\n";
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin(motions)
-        .expect_exit_code(2);
+        .run_expecting_code(2);
     let rows = parse(&output.stdout);
     let message = stderr(&output);
     for (k, (id, reason)) in [
@@ -67,7 +67,7 @@ fn bad_rows_keep_their_place_and_are_reported() {
 fn an_unknown_column_is_reported_with_the_most_similar_one() {
     let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
         .stdin("id,a_pw\n1,2\n")
-        .expect_exit_code(2);
+        .run_expecting_code(2);
     assert_eq!(output.stdout, b"");
     let message = stderr(&output);
     assert_contains(&message, "standard input: header: unknown column `a_pw`");
@@ -167,7 +167,7 @@ fn an_unclosed_quote_is_an_error() {
     ] {
         let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
             .stdin(motions)
-            .expect_exit_code(2);
+            .run_expecting_code(2);
         let message = stderr(&output);
         let expected = format!("standard input: {expected} opens a cell here");
         assert_contains(&message, &expected);

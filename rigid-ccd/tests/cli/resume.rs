@@ -212,7 +212,7 @@ fn resuming_without_an_interrupted_run_starts_a_new_one() {
 }
 
 /// Returns the text and the modification time of each table.
-fn read_tables_and_write_times(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
+fn tables_and_modification_times(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
     let table = |name: &&str| {
         let path = path(scene, name);
         let written = fs::metadata(&path).unwrap().modified().unwrap();
@@ -231,7 +231,7 @@ fn a_finished_run_is_left_unchanged() {
         let scene = Scene::new(name);
         let output = run_to_end(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
-        let before = read_tables_and_write_times(&scene);
+        let before = tables_and_modification_times(&scene);
         let output = run_to_end(query(&scene, &["--resume"]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let message = stderr(&output);
@@ -245,11 +245,11 @@ fn a_finished_run_is_left_unchanged() {
             "{message}"
         );
         assert!(!message.contains("median"), "{message}");
-        assert_eq!(read_tables_and_write_times(&scene), before);
+        assert_eq!(tables_and_modification_times(&scene), before);
         // Without the option, a new run starts.
         let output = run_to_end(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code));
-        assert_ne!(read_tables_and_write_times(&scene)[0].1, before[0].1);
+        assert_ne!(tables_and_modification_times(&scene)[0].1, before[0].1);
     }
 }
 
@@ -259,7 +259,7 @@ fn a_finished_run_with_other_options_is_refused() {
     let scene = Scene::new("finished-other");
     let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
-    let before = read_tables_and_write_times(&scene);
+    let before = tables_and_modification_times(&scene);
     for (options, input, expected) in [
         (
             &["--tolerance", "1e-6"][..],
@@ -282,7 +282,7 @@ fn a_finished_run_with_other_options_is_refused() {
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
         assert_contains(&message, expected);
-        assert_eq!(read_tables_and_write_times(&scene), before);
+        assert_eq!(tables_and_modification_times(&scene), before);
     }
     // A file of another program is not mistaken for the table.
     fs::write(path(&scene, "results.csv"), "mine").unwrap();
@@ -305,7 +305,7 @@ fn complete_tables_are_renamed() {
     let scene = Scene::new("nameless");
     let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
-    let before = read_tables_and_write_times(&scene);
+    let before = tables_and_modification_times(&scene);
     for names in [&TABLE_FILE_NAMES[..], &TABLE_FILE_NAMES[1..]] {
         for name in names {
             let partial = path(&scene, &format!("{name}.partial"));
@@ -313,7 +313,7 @@ fn complete_tables_are_renamed() {
         }
         let output = run_to_end(query(&scene, &["--resume"]), table);
         assert!(output.status.success(), "{}", stderr(&output));
-        assert_eq!(read_tables_and_write_times(&scene), before);
+        assert_eq!(tables_and_modification_times(&scene), before);
     }
 }
 

@@ -12,7 +12,7 @@ const BODIES_TABLE: &str = "body,id,px,pz,vz\n\
     sphere:.5,away,5,4,1\n";
 
 fn contacts(run: &CommandCall) -> Vec<Row> {
-    let output = run.expect_exit_code(0);
+    let output = run.run_expecting_code(0);
     parse(&output.stdout)
 }
 
@@ -94,7 +94,7 @@ fn contacts_at_the_start_and_bad_motions_have_their_status() {
         "--out",
         out.to_str().unwrap(),
     ]);
-    run.expect_exit_code(2);
+    run.run_expecting_code(2);
     let rows = parse(&std::fs::read(&out).unwrap());
     assert_eq!(rows[0].text("status"), "error");
     assert!(!rows[0].text("reason").is_empty());
@@ -105,7 +105,7 @@ fn a_scene_is_not_overwritten() {
     let scene = Scene::new("scene-over");
     let bodies = scene.file("scene.csv", BODIES_TABLE);
     let bodies = bodies.to_str().unwrap();
-    CommandCall::with_args(&["scene", bodies, "--out", bodies]).expect_exit_code(2);
+    CommandCall::with_args(&["scene", bodies, "--out", bodies]).run_expecting_code(2);
     assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES_TABLE);
 }
 

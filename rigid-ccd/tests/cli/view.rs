@@ -12,7 +12,7 @@ fn view(folder: &Path, more: &[&str]) -> Value {
     CommandCall::with_args(&["view"])
         .args(more)
         .folder(folder)
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     embedded_views(&folder.join("view.html"))
 }
 
@@ -137,7 +137,7 @@ fn results_are_shown_as_they_are() {
     CommandCall::with_args(&["query"])
         .args(&query)
         .folder(&scene.directory)
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     let page = embedded_views(&scene.directory.join("page.html"));
     let args = [
         &CUBE_AND_SLAB_OPTIONS[..],
@@ -209,7 +209,7 @@ fn results_of_other_bodies_are_not_shown() {
     let output = CommandCall::with_args(&view)
         .args(&["--results", "results.csv"])
         .folder(&scene.directory)
-        .expect_exit_code(2);
+        .run_expecting_code(2);
     assert_contains(&stderr(&output), "row hit: at 0.62");
     assert_contains(&stderr(&output), "other bodies");
     let other = file(&scene, "other.csv", "id,a_pz\nelse,4\n");
@@ -236,7 +236,7 @@ fn verdict(scene: &Scene, more: &[&str]) -> String {
     CommandCall::with_args(&["query"])
         .args(&args)
         .folder(&scene.directory)
-        .expect_exit_code(0);
+        .run_expecting_code(0);
     let page = embedded_views(&scene.directory.join("x.html"));
     views(&page)[0]["verdict"].as_str().unwrap().to_owned()
 }
@@ -424,7 +424,7 @@ fn a_page_overwrites_nothing_that_is_read() {
     ] {
         CommandCall::with_args(&args)
             .folder(&scene.directory)
-            .expect_exit_code(2);
+            .run_expecting_code(2);
         assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS_TABLE);
     }
     for args in [
@@ -434,6 +434,6 @@ fn a_page_overwrites_nothing_that_is_read() {
     ] {
         CommandCall::with_args(args)
             .folder(&scene.directory)
-            .expect_exit_code(2);
+            .run_expecting_code(2);
     }
 }

@@ -43,7 +43,7 @@ pub enum MeshClass {
     /// The mesh bounds a convex solid.
     Convex,
     /// The shape is the hull of the vertices. The faces are its facets except for rounding.
-    Points,
+    VertexHull,
 }
 
 impl Shape {

@@ -51,13 +51,13 @@ impl DoubleDouble {
     /// Returns the sine and the cosine, by reduction to quarter turns and power series.
     pub fn sin_cos(self) -> (DoubleDouble, DoubleDouble) {
         // π/2 in three parts.
-        const HALF_PI: [f64; 3] = [
+        const HALF_PI_PARTS: [f64; 3] = [
             std::f64::consts::FRAC_PI_2,
             6.123_233_995_736_766e-17,
             -1.497_384_904_859_17e-33,
         ];
-        let quarters = (self.hi / HALF_PI[0]).round();
-        let r = HALF_PI
+        let quarters = (self.hi / HALF_PI_PARTS[0]).round();
+        let r = HALF_PI_PARTS
             .iter()
             .fold(self, |r, &part| r - two_prod(quarters, part));
         let square = r * r;

@@ -75,7 +75,7 @@ pub enum HullTrees {
 
 fn body(shape: &Shape, kind: PieceKind, trees: HullTrees) -> Result<Body, String> {
     let vertices = || shape.vertices.iter().map(|&v| DVec3::from(v)).collect();
-    if shape.mesh_class == MeshClass::Points {
+    if shape.mesh_class == MeshClass::VertexHull {
         let polytope = Polytope {
             points: vertices(),
             ..Polytope::default()

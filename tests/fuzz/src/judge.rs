@@ -15,7 +15,7 @@ use start::StartState;
 
 /// The allowed decrease of the distance from that at the start under `StartPolicy::Leave`, in units of the rounding
 /// bound.
-const MAX_START_DISTANCE_DECREASE: f64 = 1.0;
+const MAX_DISTANCE_DECREASE_FACTOR: f64 = 1.0;
 
 /// A kind of fault of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -91,7 +91,7 @@ impl<'a> Judge<'a> {
         let until = times.fold(0.0, larger);
         let (evidence, proven) = self
             .scene
-            .first_time_below(self.contact_criterion(given), until);
+            .first_violation(self.contact_criterion(given), until);
         let mut faults = Vec::new();
         for (k, one) in given.iter().enumerate() {
             let found = self.faults_of_answer(one, evidence).into_iter();
@@ -122,7 +122,7 @@ impl<'a> Judge<'a> {
         match self.case.config.start {
             StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
                 ContactCriterion {
-                    threshold: self.required_distance(margin),
+                    distance_threshold: self.required_distance(margin),
                     depth: self.rounding,
                 }
             }
@@ -132,7 +132,7 @@ impl<'a> Judge<'a> {
                     _ => None,
                 });
                 ContactCriterion {
-                    threshold: gaps.fold(margin, larger),
+                    distance_threshold: gaps.fold(margin, larger),
                     depth: 0.0,
                 }
             }
@@ -213,7 +213,7 @@ impl<'a> Judge<'a> {
         match self.case.config.start {
             StartPolicy::Leave => smaller(
                 margin,
-                self.start.distance - MAX_START_DISTANCE_DECREASE * self.rounding,
+                self.start.distance - MAX_DISTANCE_DECREASE_FACTOR * self.rounding,
             ),
             StartPolicy::Report => margin,
         }
@@ -338,7 +338,7 @@ impl<'a> Judge<'a> {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
             let track = &self.scene.sides[k].track;
             let to_world = |p: [f64; 3]| {
-                snapshots[k].arm_of(Vector::from_array(p) - track.centre)
+                snapshots[k].world_arm(Vector::from_array(p) - track.centre)
                     + (snapshots[k].centre - snapshots[0].centre)
             };
             Some(

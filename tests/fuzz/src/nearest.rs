@@ -24,10 +24,10 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
         }
     };
     for i in 0..3 {
-        offset_to_plane(s[i], t, face_t)
+        offset_to_face(s[i], t, face_t)
             .into_iter()
             .for_each(&mut offer);
-        offset_to_plane(t[i], s, face_s)
+        offset_to_face(t[i], s, face_s)
             .into_iter()
             .for_each(&mut offer);
         for j in 0..3 {
@@ -124,7 +124,7 @@ fn offset_between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>
 }
 
 /// Returns the vector from a point to its projection onto a triangle's plane, if the projection is within the triangle.
-fn offset_to_plane<N: Number>(
+fn offset_to_face<N: Number>(
     p: Vector<N>,
     t: &Triangle<N>,
     face: Option<Vector<N>>,

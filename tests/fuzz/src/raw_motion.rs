@@ -187,7 +187,7 @@ impl ExactMotion {
 
 impl Snapshot {
     /// Returns the vector in the world from the centre to a point, given that vector in the body's frame as `x`.
-    pub fn arm_of(&self, x: Vector<DoubleDouble>) -> Vector<DoubleDouble> {
+    pub fn world_arm(&self, x: Vector<DoubleDouble>) -> Vector<DoubleDouble> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c
     }

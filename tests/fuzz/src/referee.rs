@@ -25,7 +25,7 @@ pub struct MovingBody {
     pub triangles: Vec<Triangle<DoubleDouble>>,
     balls: Vec<Ball>,
     /// The bounding ball of all triangles.
-    whole: Ball,
+    bounding_ball: Ball,
     /// The radius of the ball around the centre of rotation that contains all triangles.
     reach: f64,
 }
@@ -64,7 +64,7 @@ impl MovingBody {
         let reaches = corners.iter().map(|p| p.length().to_f64());
         let reach = reaches.fold(0.0, larger);
         MovingBody {
-            whole: Ball::ball_around(&corners, &track),
+            bounding_ball: Ball::ball_around(&corners, &track),
             reach,
             triangles,
             balls,
@@ -80,9 +80,9 @@ impl MovingBody {
     ) -> Triangle<DoubleDouble> {
         let ([p, q, r], to) = (self.triangles[k], snapshot.centre - origin);
         [
-            snapshot.arm_of(p) + to,
-            snapshot.arm_of(q) + to,
-            snapshot.arm_of(r) + to,
+            snapshot.world_arm(p) + to,
+            snapshot.world_arm(q) + to,
+            snapshot.world_arm(r) + to,
         ]
     }
 }
@@ -220,7 +220,7 @@ impl Scene {
 
     /// Returns the earliest time found, up to `until`, at which the bodies are nearer than the limit allows. The flag
     /// is true if none was missed, except for f64's rounding.
-    pub fn first_time_below(
+    pub fn first_violation(
         &self,
         limit: ContactCriterion,
         until: f64,
@@ -233,7 +233,7 @@ impl Scene {
 #[derive(Clone, Copy, Debug)]
 pub struct ContactCriterion {
     /// The distance below which the bodies are nearer than allowed.
-    pub threshold: f64,
+    pub distance_threshold: f64,
     /// The penetration depth of triangles above which the bodies are nearer than allowed.
     pub depth: f64,
 }

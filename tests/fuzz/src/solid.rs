@@ -11,7 +11,7 @@ pub enum PointLocation {
     Outside,
     Inside,
     /// The point is inside several parts that touch or cross, or inside a part that crosses itself.
-    Doubtful,
+    InSeveralParts,
     /// The location is unknown, because every ray touched an edge or vertex.
     Unknown,
 }
@@ -41,7 +41,7 @@ impl Solid {
     }
 
     /// Returns one corner of every connected part.
-    pub fn part_corners(&self) -> impl Iterator<Item = Vector<DoubleDouble>> {
+    pub fn corner_per_part(&self) -> impl Iterator<Item = Vector<DoubleDouble>> {
         let firsts = self
             .parts
             .iter()
@@ -67,7 +67,7 @@ impl Solid {
             .values()
             .any(|&(winding, crossed)| winding != 0 && crossed % 2 == 0);
         match around {
-            _ if repeated || self.has_crossing_parts && around > 1 => PointLocation::Doubtful,
+            _ if repeated || self.has_crossing_parts && around > 1 => PointLocation::InSeveralParts,
             around if around % 2 == 1 => PointLocation::Inside,
             _ => PointLocation::Outside,
         }
@@ -82,7 +82,7 @@ impl Solid {
     ) -> Option<HashMap<usize, (i32, u32)>> {
         let mut seen = HashMap::new();
         for (t, &part) in self.triangles.iter().zip(&self.parts) {
-            let turn = crossing(p, ray, t)?;
+            let turn = ray_crossing_sign(p, ray, t)?;
             if turn != 0 {
                 let (winding, crossed) = seen.entry(part).or_insert((0, 0));
                 *winding += turn;
@@ -106,7 +106,7 @@ const RAY_DIRECTIONS: [[f64; 3]; 8] = [
 
 /// Returns 1 if a ray crosses a triangle along its normal, −1 if against it, and 0 if it misses the triangle. Returns
 /// `None` if the ray touches an edge or vertex.
-fn crossing(
+fn ray_crossing_sign(
     p: Vector<DoubleDouble>,
     ray: Vector<DoubleDouble>,
     t: &Triangle<DoubleDouble>,

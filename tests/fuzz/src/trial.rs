@@ -59,7 +59,7 @@ impl Failure {
 }
 
 /// Builds the bodies of a case, runs the methods, and judges their answers.
-pub fn run_methods(case: Case, methods: Vec<(PieceKind, Method)>) -> Trial {
+pub fn run_and_judge(case: Case, methods: Vec<(PieceKind, Method)>) -> Trial {
     let mut trial = Trial {
         case,
         methods: Vec::new(),
@@ -187,14 +187,14 @@ pub fn shrink(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut methods = vec![(PieceKind::Triangles, Method::Direct)];
         methods.push(failure.kind_and_method);
-        let again = run_methods(case.clone(), methods);
+        let again = run_and_judge(case.clone(), methods);
         again.failures.iter().any(|f| f.fault == failure.fault)
     };
     let mut case = case.clone();
     if case
         .shapes
         .iter()
-        .any(|s| s.mesh_class == MeshClass::Points)
+        .any(|s| s.mesh_class == MeshClass::VertexHull)
     {
         return case;
     }

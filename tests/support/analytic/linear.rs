@@ -154,7 +154,7 @@ fn linked_tori() -> Scene {
     // sections, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
     let expect = ExpectedOutcome::Hit {
-        earliest_time_of_distance: Box::new(move |g| major - 2.0 * minor - g / nearer),
+        first_time_within_distance: Box::new(move |g| major - 2.0 * minor - g / nearer),
         latest_time: major - 2.0 * minor,
     };
     Scene::new(
@@ -210,7 +210,7 @@ fn spinning_icosphere() -> Scene {
     let spin = DVec3::new(1.0, 2.0, 3.0);
     let ball = MovingShape::moving(ball, height * DVec3::Z, -speed * DVec3::Z, spin);
     let expect = ExpectedOutcome::Hit {
-        earliest_time_of_distance: Box::new(move |g| (height - radius - g) / speed),
+        first_time_within_distance: Box::new(move |g| (height - radius - g) / speed),
         latest_time: (height - inner) / speed,
     };
     Scene::new("T22 spinning icosphere", [ball, slab()], expect)

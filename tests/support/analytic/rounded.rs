@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 pub(super) fn scenes() -> Vec<Scene> {
     vec![
         balls_passing(),
-        balls_head_on(),
+        opposing_balls(),
         ball_on_wall(),
         capsule_on_wall(),
         rounded_box_on_wall(),
@@ -39,12 +39,12 @@ fn ball(radius: f64) -> Shape {
 
 fn wall() -> MovingShape {
     MovingShape::still(
-        without_mesh(cuboid(DVec3::new(0.5, 4.0, 4.0))),
+        without_faces(cuboid(DVec3::new(0.5, 4.0, 4.0))),
         2.0 * DVec3::X,
     )
 }
 
-fn without_mesh(mut shape: Shape) -> Shape {
+fn without_faces(mut shape: Shape) -> Shape {
     shape.mesh.faces.clear();
     shape
 }
@@ -67,7 +67,7 @@ fn balls_passing() -> Scene {
 }
 
 /// Returns two balls that move in opposite directions on parallel lines, and meet.
-fn balls_head_on() -> Scene {
+fn opposing_balls() -> Scene {
     let left =
         MovingShape::translating_shape(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = MovingShape::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
@@ -102,7 +102,7 @@ fn capsule_on_wall() -> Scene {
 
 /// Returns a rounded box that flies at a wall, face first.
 fn rounded_box_on_wall() -> Scene {
-    let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
+    let mut shape = without_faces(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;
     let flying = MovingShape::translating_shape(shape, -DVec3::X, 4.0 * DVec3::X);
     let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;

@@ -1,7 +1,7 @@
 //! Scenes with simultaneous translation and rotation, or with other difficulties.
 
 use super::{ExpectedOutcome, Scene};
-use crate::models::{Mesh, PITCH, Shape, cuboid, nut, screw};
+use crate::models::{Mesh, PITCH, Shape, cuboid, nut_thread, screw};
 use crate::query::MovingShape;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
@@ -44,7 +44,10 @@ pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     );
     // Turned ahead by the angle that corresponds to the screw's low start.
     let turned = DQuat::from_rotation_z(SCREW_START_DEPTH / PITCH * TAU);
-    let still = MovingShape::still(nut(0.1, fineness).placed(turned, DVec3::ZERO), DVec3::ZERO);
+    let still = MovingShape::still(
+        nut_thread(0.1, fineness).placed(turned, DVec3::ZERO),
+        DVec3::ZERO,
+    );
     Scene::new(name, [turning, still], ExpectedOutcome::Unknown)
 }
 

@@ -41,7 +41,7 @@ impl Judge<'_> {
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
             Outcome::LeastDistance { time, contact, .. } => {
-                let least = self.least_sampled_distance();
+                let least = self.least_found_distance();
                 law!(
                     lower <= least + rounding,
                     "lower {lower} is above the least distance {least}"
@@ -84,7 +84,7 @@ impl Judge<'_> {
         let required = *required;
         let rounding = self.query.rounding();
         let outcome = &answer.outcome;
-        let least = self.least_sampled_distance();
+        let least = self.least_found_distance();
         let (lower, upper) = (outcome.lower(), outcome.upper());
         law!(
             lower <= least + rounding,
@@ -189,7 +189,7 @@ impl Judge<'_> {
     }
 
     /// Returns the least distance that the referee has found at any time; 0 if it has found a contact.
-    fn least_sampled_distance(&self) -> f64 {
+    fn least_found_distance(&self) -> f64 {
         let sampled = self.samples.iter().map(|sample| sample.1);
         let least = sampled.fold(f64::INFINITY, lesser);
         match self.finding {

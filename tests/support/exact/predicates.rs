@@ -65,7 +65,7 @@ fn offset_from(a: DVec3, p: &LazyPoint<'_>) -> [Relaxed; 3] {
 }
 
 /// Returns true, by exact arithmetic, if a triangle with its boundary contains a point; the triangle may have no area.
-pub(super) fn triangle_contains(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
+pub(super) fn triangle_contains_lazy_point(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     let [a, b, c] = triangle;
     // A triangle without area is a segment in every view, bounded by its box.
     let beyond = |axis: usize| {

@@ -1,8 +1,8 @@
 //! Lists the solids for tests of decompositions.
 
 use super::{
-    Shape, blob, boulder, cuboid, dented_cube, divided_cube, divided_l_prism, gear, hollow,
-    icosphere, interlocking_combs, l_prism, merged_solids, perforated_plate, pile, post,
+    Shape, blob, boulder, cuboid, dented_cube, disjoint_solids, divided_cube, divided_l_prism,
+    gear, hollow, icosphere, interlocking_combs, l_prism, perforated_plate, pile, post,
     slotted_plate, terrain, torus, torus_knot,
 };
 use ccd_core::glam::{DQuat, DVec3};
@@ -71,7 +71,7 @@ pub fn flat_faced_solids() -> Vec<Model> {
         ),
         Model::new(
             "two cubes",
-            merged_solids(
+            disjoint_solids(
                 &cuboid(DVec3::ONE),
                 &cuboid(DVec3::ONE).moved(2.5 * DVec3::X),
             ),
@@ -90,7 +90,7 @@ fn curved_solids() -> Vec<Model> {
         Model::new("hollow ball", hollow(&ball(1.0), &ball(0.9))),
         Model::new(
             "ball in a cavity",
-            merged_solids(&hollow(&ball(1.0), &ball(0.8)), &ball(0.7)),
+            disjoint_solids(&hollow(&ball(1.0), &ball(0.8)), &ball(0.7)),
         ),
     ]
 }

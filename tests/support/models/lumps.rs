@@ -46,7 +46,7 @@ pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
 }
 
 /// Returns two solids that do not touch as one mesh.
-pub fn merged_solids(one: &Shape, other: &Shape) -> Shape {
+pub fn disjoint_solids(one: &Shape, other: &Shape) -> Shape {
     let mut mesh = one.mesh.clone();
     mesh.append(&other.mesh);
     Shape::from_closed_mesh(mesh)

@@ -20,7 +20,7 @@ pub fn screw(fineness: usize) -> Shape {
 
 /// Returns the inner surface of the nut: one pitch high, from z = [`PITCH`] on, and wider than the screw by
 /// `clearance`.
-pub fn nut(clearance: f64, fineness: usize) -> Shape {
+pub fn nut_thread(clearance: f64, fineness: usize) -> Shape {
     Shape::from_open_mesh(thread_surface(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 

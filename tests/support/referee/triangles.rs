@@ -107,7 +107,7 @@ pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
     }
     for e in edges_a {
         for f in edges_b {
-            best = lesser(best, inner_edge_distance_squared(e, f));
+            best = lesser(best, edge_interior_distance_squared(e, f));
         }
     }
     best
@@ -123,7 +123,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
 }
 
 /// Returns the squared distance of the lines of two edges; infinity unless both nearest points are on the edges.
-fn inner_edge_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+fn edge_interior_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;
@@ -160,9 +160,9 @@ pub(crate) struct Face {
     pub(crate) corners: [DVec3; 3],
     /// The unit vector along the longest edge. For a needle, whose normal is mostly rounding, this vector and `across`
     /// are accurate to the last relevant digits.
-    along: DVec3,
+    edge_direction: DVec3,
     /// The unit vector in the triangle's plane that is perpendicular to the longest edge.
-    across: DVec3,
+    edge_normal: DVec3,
     length: f64,
     /// The coordinate of the last corner along the longest edge.
     apex: f64,
@@ -182,8 +182,8 @@ impl Face {
         Face {
             height: (c - a).dot(across),
             corners,
-            along,
-            across,
+            edge_direction: along,
+            edge_normal: across,
             length,
             apex,
         }
@@ -193,7 +193,10 @@ impl Face {
     /// on an edge.
     fn nearest_point(&self, p: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
-        let (x, y) = ((p - a).dot(self.along), (p - a).dot(self.across));
+        let (x, y) = (
+            (p - a).dot(self.edge_direction),
+            (p - a).dot(self.edge_normal),
+        );
         let share = y / self.height;
         let (left, right) = (
             self.apex * share,
@@ -202,7 +205,7 @@ impl Face {
         // False for NaN, as for a triangle without area.
         let inside = y >= 0.0 && y <= self.height && x >= left && x <= right;
         let foot = if inside {
-            a + x * self.along + y * self.across
+            a + x * self.edge_direction + y * self.edge_normal
         } else {
             a
         };

@@ -112,7 +112,7 @@ impl Solver for C2a {
                 ),
                 tolerance,
             };
-            self.closing_speed_bounder.set_frame(&frame);
+            self.closing_speed_bounder.set_placement_a(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 DescentOutcome::Done(found) => found,
                 DescentOutcome::WithinTolerance => {
@@ -262,7 +262,7 @@ fn max_relative_excess(
     const COARSE_STEP_COUNT_AND_EXCESS: (u64, f64) = (3, 3.0);
     /// The number of the last finer step, after which all steps are exact, and the excess that the finer steps are
     /// allowed.
-    const LAST_FINER_STEP_AND_EXCESS: (u64, f64) = (6, 0.5);
+    const LAST_INEXACT_STEP_EXCESS: (u64, f64) = (6, 0.5);
     /// The length of a step at and below which the next step is exact, as a fraction of the duration.
     const EXACT_BELOW_STEP_FRACTION: f64 = 0.005;
     /// The distance at and below which the next step is exact, as a multiple of the tolerance.
@@ -275,7 +275,7 @@ fn max_relative_excess(
     match step {
         _ if exact => 0.0,
         _ if step <= COARSE_STEP_COUNT_AND_EXCESS.0 => COARSE_STEP_COUNT_AND_EXCESS.1,
-        _ if step <= LAST_FINER_STEP_AND_EXCESS.0 => LAST_FINER_STEP_AND_EXCESS.1,
+        _ if step <= LAST_INEXACT_STEP_EXCESS.0 => LAST_INEXACT_STEP_EXCESS.1,
         _ => 0.0,
     }
 }

@@ -97,7 +97,7 @@ impl Contact {
         };
         let [first, second] = order.map(|k| (&courses[k], self.trees[k].origin));
         let relative = RelativeMotion::new(first, second);
-        let mut search = Search {
+        let mut search = ContactSearch {
             trees: order.map(|k| &self.trees[k]),
             motion_encloser: MotionEncloser::new(relative, resolution, self.work_limit.max_steps),
             max_pairs: self.work_limit.max_pairs,
@@ -120,7 +120,7 @@ impl Solver for Contact {
 }
 
 /// A depth-first search of both trees and of the halves of time, for one query.
-struct Search<'a> {
+struct ContactSearch<'a> {
     trees: [&'a ObbTree; 2],
     motion_encloser: MotionEncloser,
     max_pairs: u64,
@@ -129,7 +129,7 @@ struct Search<'a> {
     search_end: f64,
 }
 
-impl Search<'_> {
+impl ContactSearch<'_> {
     fn run(&mut self) -> ContactClaim {
         let mut found = None;
         let interval = HalvedInterval::whole_duration(self.search_end);

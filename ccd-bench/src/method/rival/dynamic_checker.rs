@@ -37,15 +37,15 @@ mod tests;
 pub struct DynamicChecker {
     trees: RssTreePair,
     work_limit: WorkLimit,
-    radius_cache_a: RadiusCache,
-    radius_cache_b: RadiusCache,
+    radius_cache_a: BodyRadiusCache,
+    radius_cache_b: BodyRadiusCache,
     segment_stack: Vec<TimeSegment>,
     pair_stack: Vec<(RssNodePair, f64)>,
 }
 
 /// A cache of the largest distance of a body's points from its centre of rotation, valid until the centre changes.
 #[derive(Clone, Copy, Debug, Default)]
-struct RadiusCache(Option<(DVec3, f64)>);
+struct BodyRadiusCache(Option<(DVec3, f64)>);
 
 /// The two ends of an interval of time, each as a time with a lower bound on the distance of the bodies then.
 type TimeSegment = [(f64, f64); 2];
@@ -87,8 +87,8 @@ impl DynamicChecker {
         DynamicChecker {
             trees: RssTreePair::new(a, b),
             work_limit: WorkLimit::default(),
-            radius_cache_a: RadiusCache::default(),
-            radius_cache_b: RadiusCache::default(),
+            radius_cache_a: BodyRadiusCache::default(),
+            radius_cache_b: BodyRadiusCache::default(),
             segment_stack: Vec::new(),
             pair_stack: Vec::new(),
         }
@@ -302,7 +302,7 @@ impl RequiredPrecision {
     }
 }
 
-impl RadiusCache {
+impl BodyRadiusCache {
     fn radius_about(&mut self, centre: DVec3, tree: &RssTree) -> f64 {
         match self.0 {
             Some((last, reach)) if last == centre => reach,

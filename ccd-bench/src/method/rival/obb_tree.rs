@@ -7,7 +7,7 @@ mod tests;
 use ccd_core::order::greater;
 pub(super) use overlap::trees_intersect;
 
-use super::principal_axes::principal_axes;
+use super::principal_axes::mean_and_principal_axes;
 use super::tree::{NodeContent, build_binary_tree};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_decomp::TriangleMesh;
@@ -49,7 +49,7 @@ impl ObbTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corners = |face: &[u32; 3]| face.map(|v| mesh.vertices()[v as usize]);
         let mut triangles: Vec<[DVec3; 3]> = mesh.faces().iter().map(corners).collect();
-        let origin = Obb::fit_box(&triangles).1.centre;
+        let origin = Obb::fit_mean_and_box(&triangles).1.centre;
         for corner in triangles.iter_mut().flatten() {
             *corner -= origin;
         }
@@ -57,7 +57,7 @@ impl ObbTree {
         let radius = lengths.fold(0.0, greater);
         let nodes = build_binary_tree(
             &mut triangles,
-            |triangles, _| Obb::fit_box(triangles),
+            |triangles, _| Obb::fit_mean_and_box(triangles),
             |triangles, (mean, bounds)| partition_triangles(triangles, *mean, bounds.axes),
         );
         let node = |((_, bounds), content)| Node { bounds, content };
@@ -89,9 +89,9 @@ impl ObbTree {
 
 impl Obb {
     /// Returns the mean of the triangles' corners, and the box around them along their principal axes.
-    fn fit_box(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
+    fn fit_mean_and_box(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
         let points = triangles.iter().flatten().copied();
-        let (mean, axes) = principal_axes(points.clone());
+        let (mean, axes) = mean_and_principal_axes(points.clone());
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for point in points {
             let along = axes.transpose_mul_vec3(point - mean);

@@ -6,7 +6,9 @@ use nalgebra::{Matrix3, SymmetricEigen};
 
 /// Returns the mean of points and the principal axes of their spread as columns, the longest first,
 /// right-handed \[OBBTREE96 §4\].
-pub(super) fn principal_axes(points: impl Iterator<Item = DVec3> + Clone) -> (DVec3, DMat3) {
+pub(super) fn mean_and_principal_axes(
+    points: impl Iterator<Item = DVec3> + Clone,
+) -> (DVec3, DMat3) {
     let (sum, count) = points
         .clone()
         .fold((DVec3::ZERO, 0.0), |(sum, count), p| (sum + p, count + 1.0));

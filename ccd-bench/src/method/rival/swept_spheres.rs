@@ -1,6 +1,6 @@
 //! A tree of spheres swept over rectangles, above the triangles of a mesh.
 
-use super::principal_axes::principal_axes;
+use super::principal_axes::mean_and_principal_axes;
 use super::tree::{NodeContent, OpenedPair, open_pair};
 use super::triangles_apart::{NearestPoints, Triangle, nearest_points};
 use super::{Placement, rectangles};
@@ -21,7 +21,7 @@ pub(super) struct RssTree {
     /// The nodes of the tree: the root first, two children side by side.
     nodes: Vec<Node>,
     /// The frames of the nodes' rectangles, relative to the body's frame.
-    frames: Vec<Placement>,
+    frames_per_node: Vec<Placement>,
     triangles: Vec<Triangle>,
 }
 
@@ -83,7 +83,10 @@ impl RssTree {
     ///
     /// It is attained at the farthest corner of the rectangle, plus the radius \[C2A09 §4\].
     pub(super) fn axis_distance_bound(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
-        let (node, frame) = (&self.nodes[node as usize], &self.frames[node as usize]);
+        let (node, frame) = (
+            &self.nodes[node as usize],
+            &self.frames_per_node[node as usize],
+        );
         let corner = (frame.translation - centre).cross(axis);
         let x = node.side_lengths.x * frame.rotation.x_axis.cross(axis);
         let y = node.side_lengths.y * frame.rotation.y_axis.cross(axis);
@@ -122,7 +125,10 @@ impl RssTreePair {
 
     /// Returns both roots, with body B placed in A's frame, or `None` if a mesh has no triangles.
     pub(super) fn root_pair(&self, placement: &Placement) -> Option<RssNodePair> {
-        let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);
+        let (a, b) = (
+            self.a.frames_per_node.first()?,
+            self.b.frames_per_node.first()?,
+        );
         Some(RssNodePair {
             a: 0,
             b: 0,
@@ -157,7 +163,7 @@ impl RssTreePair {
         }
         GapBound {
             distance_bound: distance,
-            direction: self.a.frames[pair.a as usize].rotation * (between / length),
+            direction: self.a.frames_per_node[pair.a as usize].rotation * (between / length),
         }
     }
 

@@ -58,7 +58,7 @@ impl Journal {
             _folder_lock: Some(claim),
             ..Journal::read(folder)
         };
-        journal.write()?;
+        journal.write_tables()?;
         Ok(journal)
     }
 
@@ -102,7 +102,7 @@ impl Journal {
         Ok(())
     }
 
-    fn write(&self) -> Result<()> {
+    fn write_tables(&self) -> Result<()> {
         write(&self.folder.join(TRIALS_FILE), &self.trials)?;
         write(&self.folder.join(CHART_FILE), &self.cells)
     }

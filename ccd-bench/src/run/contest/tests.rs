@@ -3,7 +3,7 @@ use crate::method::Method;
 use crate::method::guarded::MethodPrograms;
 use crate::method::solver::ContactClaim;
 use crate::scene::model::cuboid;
-use crate::scene::{ModelCache, PieceKind, scene_descriptions};
+use crate::scene::{ModelBodyCache, PieceKind, scene_descriptions};
 use crate::truth::Truth;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
@@ -72,7 +72,7 @@ fn small_scene() -> Scene {
         .into_iter()
         .find(|listing| listing.name == "knot216")
         .unwrap();
-    listing.make_scene(&mut ModelCache::default()).unwrap()
+    listing.make_scene(&mut ModelBodyCache::default()).unwrap()
 }
 
 const NO_LIMITS: MeasurementLimits = MeasurementLimits {
@@ -88,8 +88,8 @@ fn every_prefix_of_the_order_is_spread_over_all_rows() {
     let scene = small_scene();
     let contest = PreparedScene::new(&scene).unwrap();
     let count = scene.queries.len();
-    let mut all = contest.row_order(usize::MAX);
-    assert_eq!(contest.row_order(5), all[..5]);
+    let mut all = contest.spread_row_indices(usize::MAX);
+    assert_eq!(contest.spread_row_indices(5), all[..5]);
     let most = *all[..5].iter().max().unwrap();
     let least = *all[..5].iter().min().unwrap();
     assert!(most - least > count / 2, "{:?}", &all[..5]);

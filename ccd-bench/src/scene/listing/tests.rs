@@ -34,7 +34,9 @@ fn missing_data_is_named_in_the_error() {
     let make = |listing: &SceneDescription| {
         format!(
             "{:#}",
-            listing.make_scene(&mut ModelCache::default()).unwrap_err()
+            listing
+                .make_scene(&mut ModelBodyCache::default())
+                .unwrap_err()
         )
     };
     listing.a = "knot216".to_owned();

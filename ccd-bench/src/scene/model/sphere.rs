@@ -12,12 +12,12 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut points = vec![DVec3::Z];
     let mut faces = Vec::with_capacity(2 * vertices);
     let mut above = Ring {
-        first_vertex: 0,
+        first_vertex_index: 0,
         vertex_count: 1,
     };
     for (k, &count) in counts.iter().enumerate() {
         let ring = Ring {
-            first_vertex: points.len() as u32,
+            first_vertex_index: points.len() as u32,
             vertex_count: count,
         };
         let (sin, cos) = (PI * (k + 1) as f64 / (counts.len() + 1) as f64).sin_cos();
@@ -29,7 +29,7 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         above = ring;
     }
     let south = Ring {
-        first_vertex: points.len() as u32,
+        first_vertex_index: points.len() as u32,
         vertex_count: 1,
     };
     points.push(DVec3::NEG_Z);
@@ -40,13 +40,13 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
 /// A circle of latitude: vertices with consecutive indices, counted eastward; a pole is a circle of one vertex.
 #[derive(Clone, Copy)]
 struct Ring {
-    first_vertex: u32,
+    first_vertex_index: u32,
     vertex_count: usize,
 }
 
 impl Ring {
     fn vertex_index(&self, i: usize) -> u32 {
-        self.first_vertex + (i % self.vertex_count) as u32
+        self.first_vertex_index + (i % self.vertex_count) as u32
     }
 
     /// Returns the number of edges of the circle; a pole has none.

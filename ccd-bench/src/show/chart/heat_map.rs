@@ -28,7 +28,7 @@ pub struct HeatRow {
     /// The name of the family of scenes.
     pub name: String,
     /// The description of the parameter that makes the family harder.
-    pub parameter: String,
+    pub parameter_description: String,
     /// One cell for each method; `None` without measurements.
     pub cells: Vec<Option<HeatCell>>,
 }
@@ -184,7 +184,7 @@ impl HeatMap {
     fn draw_row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
         for (text, down, size) in [
             (&row.name, 0.34, SMALL_FONT_SIZE),
-            (&row.parameter, 0.76, SMALLEST_FONT_SIZE),
+            (&row.parameter_description, 0.76, SMALLEST_FONT_SIZE),
         ] {
             let at = (CHART_MARGIN, top + down * ROW_HEIGHT);
             draw_text(sheet, text, at, &text_style(size))?;

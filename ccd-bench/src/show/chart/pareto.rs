@@ -19,7 +19,7 @@ const MIN_DRAWN_ERROR: f64 = 1e-12;
 /// The number of planes side by side, and their height in pixels.
 const PLOTS_PER_ROW_AND_HEIGHT: (usize, f64) = (3, 260.0);
 /// The width of a method's lane in the strip of unsafe methods, and the least width of the strip, in pixels.
-const UNSAFE_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
+const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 
 /// Returns the SVG text of the chart, with a plane for each measured scene; `None` if there are no times.
 pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
@@ -92,8 +92,8 @@ fn draw_scene(
     let strip = match hollow.len() {
         0 => 0.0,
         lanes => greater(
-            UNSAFE_STRIP_WIDTHS.1,
-            UNSAFE_STRIP_WIDTHS.0 * (lanes as f64 + 1.0),
+            LANE_AND_STRIP_WIDTHS.1,
+            LANE_AND_STRIP_WIDTHS.0 * (lanes as f64 + 1.0),
         ),
     };
     let width = panel.dim_in_pixel().0 as i32;

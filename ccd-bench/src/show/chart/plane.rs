@@ -18,7 +18,7 @@ pub(super) const LINE_HEIGHT: f64 = 18.0;
 /// The height of the chart's title and subtitle, in pixels.
 pub(super) const HEAD_HEIGHT: f64 = 50.0;
 /// The number of columns of the legend, and the width of each in pixels.
-const LEGEND_COLUMNS_AND_WIDTH: (usize, f64) = (2, 400.0);
+const LEGEND_COLUMN_LAYOUT: (usize, f64) = (2, 400.0);
 /// The colour of grid lines behind the data.
 const GRID_COLOUR: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 
@@ -168,7 +168,7 @@ pub(super) fn draw_header(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Res
 
 /// Returns the height of the legend and the remarks, in pixels.
 pub(super) fn footer_height(shown: &[StyledMethod<'_>], remarks: &[&str]) -> f64 {
-    LINE_HEIGHT * (shown.len().div_ceil(LEGEND_COLUMNS_AND_WIDTH.0) + remarks.len()) as f64
+    LINE_HEIGHT * (shown.len().div_ceil(LEGEND_COLUMN_LAYOUT.0) + remarks.len()) as f64
         + CHART_MARGIN
 }
 
@@ -179,7 +179,7 @@ pub(super) fn draw_footer(
     remarks: &[&str],
     top: f64,
 ) -> Result<()> {
-    let (columns, width) = LEGEND_COLUMNS_AND_WIDTH;
+    let (columns, width) = LEGEND_COLUMN_LAYOUT;
     for (index, (method, style)) in shown.iter().enumerate() {
         let left = CHART_MARGIN + width * (index % columns) as f64;
         let middle = top + LINE_HEIGHT * ((index / columns) as f64 + 0.5);

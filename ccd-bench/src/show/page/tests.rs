@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::{ModelCache, scene_descriptions};
+use crate::scene::{ModelBodyCache, scene_descriptions};
 use serde_json::Value;
 
 /// Returns the page of the smallest scene, with a table whose names contain HTML.
@@ -10,7 +10,7 @@ fn page() -> String {
         .find(|listing| listing.name == "knot216");
     let scene = listing
         .unwrap()
-        .make_scene(&mut ModelCache::default())
+        .make_scene(&mut ModelBodyCache::default())
         .unwrap();
     let table = TextTable {
         title: "A <table>".to_owned(),

@@ -1,6 +1,6 @@
 //! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
-use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, contact_at};
 use super::super::shapes::{
     cuboid, extrude_cells, helicoid, sheet, slit_plate, stacked_squares, torus,
 };
@@ -34,7 +34,7 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Makes two interlocked hooks, at right angles to each other, that are pulled apart until their bars meet (case T15).
-fn hooks(slack: f64) -> Result<FamilyStep> {
+fn hooks(slack: f64) -> Result<FamilyScene> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
     let hook = extrude_cells(
@@ -46,15 +46,15 @@ fn hooks(slack: f64) -> Result<FamilyStep> {
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
     let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .with_orientation(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
-    let step = FamilyStep::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
+    let step = FamilyScene::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
     step.with_query_and_rotations(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
 }
 
 /// Makes a ring that falls flat onto an equal ring, and meets it all around.
-fn ring_onto_ring(way: f64) -> Result<FamilyStep> {
+fn ring_onto_ring(way: f64) -> Result<FamilyScene> {
     let (radius, tube) = (1.0, 0.25);
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
-    let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
+    let step = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
     step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }
@@ -66,22 +66,22 @@ const THREAD_RADII: [f64; 2] = [0.9, 1.0];
 
 /// Makes the flank of a screw that rotates between the flanks of its nut at their common pitch (case T18). `play` is
 /// the distance between the flanks, as a share of the pitch.
-fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyStep> {
+fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyScene> {
     // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
     // here: the flanks keep more than half of their play.
     let sides = 64;
     let flank = helicoid(THREAD_RADII, PITCH, sides, 3)?;
     let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .with_spin(TAU * turns * DVec3::Z);
-    let step = FamilyStep::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
+    let step = FamilyScene::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
     step.with_query_and_rotations(turning, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a sheet that slides between two other sheets, at a gap from each.
-fn sheet_between_sheets(gap: f64) -> Result<FamilyStep> {
+fn sheet_between_sheets(gap: f64) -> Result<FamilyScene> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     contact_free_step(
-        FamilyStep::new(
+        FamilyScene::new(
             sheet(4)?,
             stacked_squares(&sheet(4)?, [-gap, gap].into_iter())?,
         ),
@@ -92,32 +92,32 @@ fn sheet_between_sheets(gap: f64) -> Result<FamilyStep> {
 
 /// Makes a tilted plate that moves through a slit, which is wider than the plate's extent across it by a gap (case
 /// T16).
-fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
+fn plate_through_slit(gap: f64) -> Result<FamilyScene> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
     let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
         .with_orientation(DQuat::from_rotation_y(tilt));
     contact_free_step(
-        FamilyStep::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
+        FamilyScene::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
         gap,
         moving,
     )
 }
 
-fn contact_free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilyStep> {
+fn contact_free_step(step: FamilyScene, gap: f64, moving: BodyMotion) -> Result<FamilyScene> {
     let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
     step.with_query_and_rotations_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a rod that rotates into a wall, with its mesh stored in a frame that is rotated by the given angle (case T3).
-fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
+fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyScene> {
     let wall = 1.2;
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
     let rod = rod()?.transformed(DAffine3::from_quat(frame.inverse()))?;
     let turning = BodyMotion::STILL
         .with_orientation(frame)
         .with_spin(PI * DVec3::Y);
-    let step = FamilyStep::new(rod, cuboid(1.0, 3.0, 3.0)?);
+    let step = FamilyScene::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(rod_angle_at_wall(wall) / PI, 1e-14);
     step.with_query_and_rotations(
         turning,

@@ -1,6 +1,6 @@
 //! Scenes whose sizes, distances and units are far from 1.
 
-use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, contact_at};
 use super::super::shapes::{cone, cube, cuboid, slab};
 use super::{fall_onto_slab, family, negative_powers_of_ten, powers_of_ten};
 use crate::truth::Truth;
@@ -29,7 +29,7 @@ pub(super) fn families() -> Vec<Family> {
         family("one inside the other", cube_inside_cube)
             .with_parameter("size against size", negative_powers_of_ten(0..=9)),
         family("unit of time", scene_in_time_unit).with_parameter("duration", sizes(1..=9)),
-        family("moving together", cubes_moving_together)
+        family("moving together", cube_onto_moving_cube)
             .with_parameter("common travel", powers_of_ten(0..=9)),
         family("far centre of rotation", cube_about_far_centre)
             .with_parameter("distance in sizes", powers_of_ten(0..=9)),
@@ -46,20 +46,20 @@ fn margin_parameter_values() -> Vec<f64> {
 }
 
 /// Makes a cube that falls onto a larger or smaller cube, and reaches it at half the duration.
-fn cubes_of_unequal_size(size: f64) -> Result<FamilyStep> {
+fn cubes_of_unequal_size(size: f64) -> Result<FamilyScene> {
     let way = greater(size, 1.0);
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
-    let step = FamilyStep::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
+    let step = FamilyScene::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
     step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
 /// `tests/it/scenes.rs`.
-fn scene_in_length_unit(size: f64) -> Result<FamilyStep> {
+fn scene_in_length_unit(size: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
-    let step = FamilyStep::new(
+    let step = FamilyScene::new(
         cuboid(half, half, half)?,
         cuboid(9.0 * size, 9.0 * size, size)?,
     )
@@ -69,24 +69,24 @@ fn scene_in_length_unit(size: f64) -> Result<FamilyStep> {
 }
 
 /// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
-fn scene_in_time_unit(duration: f64) -> Result<FamilyStep> {
+fn scene_in_time_unit(duration: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::FALLING;
-    let step = FamilyStep::new(cube()?, slab()?);
-    let step = FamilyStep { duration, ..step };
+    let step = FamilyScene::new(cube()?, slab()?);
+    let step = FamilyScene { duration, ..step };
     let slab = BodyMotion::RESTING_SLAB;
     step.with_query_and_rotations(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another cube while both move sideways by `travel`.
-fn cubes_moving_together(travel: f64) -> Result<FamilyStep> {
+fn cube_onto_moving_cube(travel: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
-    let step = FamilyStep::new(cube()?, cube()?);
+    let step = FamilyScene::new(cube()?, cube()?);
     step.with_query(falling, fleeing, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that rotates about a centre far below it, so that it moves towards a wall nearly in a straight line.
-fn cube_about_far_centre(distance: f64) -> Result<FamilyStep> {
+fn cube_about_far_centre(distance: f64) -> Result<FamilyScene> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
         angular_velocity: spin * DVec3::Y,
@@ -96,28 +96,28 @@ fn cube_about_far_centre(distance: f64) -> Result<FamilyStep> {
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
-    let step = FamilyStep::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
+    let step = FamilyScene::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-14);
     step.with_query(turning, BodyMotion::resting(2.0 * DVec3::X), expected)
 }
 
 /// Makes a cone that falls onto a slab with its tip first; the sides of the cone are long and thin triangles.
-fn needle_onto_slab(width: f64) -> Result<FamilyStep> {
+fn needle_onto_slab(width: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     fall_onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
 
 /// Makes a cube that falls onto another cube, both at coordinates of about `distance` in the world frame.
-fn cubes_far_from_origin(distance: f64) -> Result<FamilyStep> {
+fn cubes_far_from_origin(distance: f64) -> Result<FamilyScene> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
-    let step = FamilyStep::new(cube()?, cube()?);
+    let step = FamilyScene::new(cube()?, cube()?);
     step.with_query(falling, BodyMotion::resting(origin), contact_at(0.5, 1e-14))
 }
 
 /// Makes a long and thin box that falls onto a slab; the sides of the box are long and thin triangles.
-fn thin_box_onto_slab(ratio: f64) -> Result<FamilyStep> {
+fn thin_box_onto_slab(ratio: f64) -> Result<FamilyScene> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
     let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_x(0.3));
@@ -127,31 +127,31 @@ fn thin_box_onto_slab(ratio: f64) -> Result<FamilyStep> {
 
 /// Makes a small cube that moves by distance 1, and hits a thin plate at half of that distance. The scene is like T13
 /// of `tests/it/scenes.rs`.
-fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
+fn bullet_and_paper(ratio: f64) -> Result<FamilyScene> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
     let paper = BodyMotion::resting(0.5 * DVec3::X);
-    let step = FamilyStep::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
+    let step = FamilyScene::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = contact_at(0.5 - half - bullet, 1e-14);
     step.with_query_and_rotations(flying, paper, expected)
 }
 
 /// Makes a cube that falls towards a slab, and is at the distance `margin` from it at half the duration.
-fn margin(margin: f64) -> Result<FamilyStep> {
+fn margin(margin: f64) -> Result<FamilyScene> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
     let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
-    let step = FamilyStep::new(cube()?, slab()?);
-    let step = FamilyStep { margin, ..step };
+    let step = FamilyScene::new(cube()?, slab()?);
+    let step = FamilyScene { margin, ..step };
     let slab = BodyMotion::RESTING_SLAB;
     step.with_query_and_rotations(falling, slab, contact_at(0.5, 1e-14))
 }
 
 /// Makes a small cube that moves inside a larger cube, so that the solids overlap but their surfaces do not meet. The
 /// scene is like T24 of `tests/it/scenes.rs`.
-fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
+fn cube_inside_cube(size: f64) -> Result<FamilyScene> {
     let half = 0.9 * size;
-    let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
+    let step = FamilyScene::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
     step.with_query_and_rotations(moving, BodyMotion::STILL, Truth::ContactAtStart)
 }

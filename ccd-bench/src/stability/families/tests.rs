@@ -1,7 +1,7 @@
 //! Tests that the exact answers of the families agree with the answers of the referee.
 
 use super::families;
-use crate::stability::{ExactCase, Family, FamilyStep};
+use crate::stability::{ExactCase, Family, FamilyScene};
 use crate::truth::{Referee, Surface, Truth};
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -35,7 +35,7 @@ fn families_have_names_and_steps_of_their_own() {
 fn every_step_can_be_made() {
     families().par_iter().for_each(|family| {
         for &value in &family.parameter_values {
-            let step = (family.make_step)(value);
+            let step = (family.make_scene)(value);
             let step = step.unwrap_or_else(|error| panic!("{} {value:e}: {error}", family.name));
             assert!(!step.cases.is_empty() && step.tolerance > 0.0);
             for ExactCase {
@@ -73,8 +73,8 @@ fn the_referee_finds_the_answers_that_are_claimed() {
 /// Asserts that the referee agrees with the exact answers of a family's queries at a parameter value, and returns the
 /// number of queries that it decided.
 fn assert_referee_agrees(family: &Family, value: f64) -> usize {
-    let step = (family.make_step)(value).unwrap();
-    let FamilyStep { meshes, cases, .. } = &step;
+    let step = (family.make_scene)(value).unwrap();
+    let FamilyScene { meshes, cases, .. } = &step;
     let many = meshes
         .iter()
         .any(|mesh| mesh.faces().len() > MAX_REFEREE_TRIANGLES);

@@ -1,6 +1,6 @@
 //! Scenes whose contact is close to the start or close to the end.
 
-use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, contact_at};
 use super::super::shapes::{cube, sheet, slab};
 use super::{family, negative_powers_of_ten};
 use crate::truth::Truth;
@@ -36,28 +36,28 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Returns the meshes and the motion of a cube that falls at speed 1 onto a slab, and reaches it at a given time.
-fn cube_falling_onto_slab(time: f64) -> Result<(FamilyStep, BodyMotion)> {
-    let step = FamilyStep::new(cube()?, slab()?);
+fn cube_falling_onto_slab(time: f64) -> Result<(FamilyScene, BodyMotion)> {
+    let step = FamilyScene::new(cube()?, slab()?);
     Ok((
         step,
         BodyMotion::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
     ))
 }
 
-fn contact_after_start(time: f64) -> Result<FamilyStep> {
+fn contact_after_start(time: f64) -> Result<FamilyScene> {
     let (step, falling) = cube_falling_onto_slab(time)?;
     let step = step.with_tolerance(greater(0.1 * time, 1e-11));
     let expected = contact_at(time, 1e-14);
     step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB, expected)
 }
 
-fn contact_before_end(before: f64) -> Result<FamilyStep> {
+fn contact_before_end(before: f64) -> Result<FamilyScene> {
     let (step, falling) = cube_falling_onto_slab(1.0 - before)?;
     let expected = contact_at(1.0 - before, 1e-14);
     step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB, expected)
 }
 
-fn contact_after_end(after: f64) -> Result<FamilyStep> {
+fn contact_after_end(after: f64) -> Result<FamilyScene> {
     let (step, falling) = cube_falling_onto_slab(1.0 + after)?;
     let step = step.with_tolerance(greater(0.25 * after, 1e-11));
     let slab = BodyMotion::RESTING_SLAB;
@@ -65,8 +65,8 @@ fn contact_after_end(after: f64) -> Result<FamilyStep> {
 }
 
 /// Makes two flat sheets without thickness that start at a small distance and meet face to face.
-fn sheet_onto_sheet(way: f64) -> Result<FamilyStep> {
+fn sheet_onto_sheet(way: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
-    let step = FamilyStep::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
+    let step = FamilyScene::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
     step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }

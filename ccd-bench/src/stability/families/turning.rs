@@ -1,6 +1,6 @@
 //! Scenes of rotations, from very small ones to thousands of turns.
 
-use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, contact_at};
 use super::super::shapes::{cube, cuboid};
 use super::{
     ROD_HALF_SIDES, fall_onto_slab, family, powers_of_ten, rod, rod_angle_at_wall, rod_beside_wall,
@@ -23,14 +23,14 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Makes a cube that falls flat onto a slab while it rotates about the vertical.
-fn cube_falling_while_spinning(turns: f64) -> Result<FamilyStep> {
+fn cube_falling_while_spinning(turns: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::FALLING.with_spin(TAU * turns * DVec3::Z);
     fall_onto_slab(cube()?, falling, 0.625)
 }
 
 /// Makes an upright rod that rotates until its corner meets a wall at x = 1.2, within the first quarter of a turn. The
 /// scene is like T4 of `tests/it/scenes.rs`.
-fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
+fn rod_into_a_wall(turns: f64) -> Result<FamilyScene> {
     let wall = 1.2;
     let spin = TAU * turns;
     let turning = BodyMotion::STILL.with_spin(spin * DVec3::Y);
@@ -41,13 +41,13 @@ fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
 /// Makes an arm that hangs down from its centre of rotation, and swings round until it hits a wall above the centre.
 /// The scene is like T9 of `tests/it/scenes.rs`. At the start its tip moves along the wall, so that a bound on the
 /// speeds of that moment finds no approach.
-fn arm_swinging_into_wall(spin: f64) -> Result<FamilyStep> {
+fn arm_swinging_into_wall(spin: f64) -> Result<FamilyScene> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(ROD_HALF_SIDES.1, 0.5 * arm, ROD_HALF_SIDES.1)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
     let swinging = BodyMotion::STILL.with_spin(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
-    let step = FamilyStep::new(hanging, cuboid(3.0, 1.0, 3.0)?);
+    let step = FamilyScene::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-15);
     step.with_query_and_rotations(
         swinging,
@@ -58,12 +58,12 @@ fn arm_swinging_into_wall(spin: f64) -> Result<FamilyStep> {
 
 /// Makes two parallel rods that rotate in opposite directions, as mirror images, until they meet. The scene is like T14
 /// of `tests/it/scenes.rs`.
-fn counter_rotating_rods(turns: f64) -> Result<FamilyStep> {
+fn counter_rotating_rods(turns: f64) -> Result<FamilyScene> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning = |spin: f64, x: f64| BodyMotion::resting(x * DVec3::X).with_spin(spin * DVec3::Y);
     let angle = rod_angle_at_wall(0.5 * apart);
     debug_assert!(angle < PI);
-    let step = FamilyStep::new(rod()?, rod()?);
+    let step = FamilyScene::new(rod()?, rod()?);
     let expected = contact_at(angle / spin, 1e-15);
     step.with_query_and_rotations(turning(spin, 0.0), turning(-spin, apart), expected)
 }

@@ -40,7 +40,7 @@ fn unresolved_claim(safe_until: f64) -> ContactClaim {
 #[case("one inside the other", ContactClaim::Refused, Verdict::Refused)]
 fn claims_are_judged(#[case] family: &str, #[case] claim: ContactClaim, #[case] verdict: Verdict) {
     let family = families().into_iter().find(|f| f.name == family).unwrap();
-    let step = (family.make_step)(family.parameter_values[1]).unwrap();
+    let step = (family.make_scene)(family.parameter_values[1]).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
     let outcome = QueryOutcome::Answered(TimedReply {
         reply: Reply::new(claim, 1),
@@ -64,7 +64,7 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
 ) {
     let mut families = families().into_iter();
     let family = families.find(|f| f.name == "margin").unwrap();
-    let step = (family.make_step)(0.0).unwrap();
+    let step = (family.make_scene)(0.0).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
     let case = &step.cases[0];
     let Truth::Hit { lo, .. } = case.expected_truth else {

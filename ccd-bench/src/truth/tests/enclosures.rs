@@ -76,11 +76,7 @@ fn rotations_are_those_of_floats_and_narrow() {
     ] {
         let expected = DMat3::from_quat(DQuat::from_scaled_axis(spin * time));
         let off = 1e-15 * (2.0 + spin.length() * time);
-        assert_close(
-            &IntervalMatrix::from_angular_velocity(spin, time),
-            expected,
-            off,
-        );
+        assert_close(&IntervalMatrix::rotation_after(spin, time), expected, off);
     }
     let quaternion = DQuat::from_xyzw(0.5, -0.1, 0.3, 0.7).normalize();
     let matrix = IntervalMatrix::from_quaternion(quaternion * 3.0);

@@ -56,8 +56,8 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
         (0.3, 0.3)
     );
     let both = ExcessSum::sum_of_bodies(&exceeding(0.1), &exceeding(0.2));
-    assert!(both.shape_distance_bound_at_overlap() > 0.1 + 0.2);
-    assert!(both.shape_distance_upper_bound(0.3) > 0.3 + both.shape_distance_bound_at_overlap());
+    assert!(both.upper_bound_at_overlap() > 0.1 + 0.2);
+    assert!(both.shape_distance_upper_bound(0.3) > 0.3 + both.upper_bound_at_overlap());
     assert!(
         both.shape_distance_upper_bound(both.certain_nearness_threshold(1.0)) >= 1.0 - 1e-15
             && both.certain_nearness_threshold(1.0) < 0.7

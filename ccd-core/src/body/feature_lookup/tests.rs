@@ -32,7 +32,7 @@ fn prism_with_virtual_facets() -> Pieces {
         facets: (0..).zip(loops.chain(caps)).map(facet).collect(),
         ..Polytope::default()
     };
-    Pieces::polytopes(&[polytope]).unwrap()
+    Pieces::from_polytopes(&[polytope]).unwrap()
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::{Hierarchy, HierarchyNode::Inner, HierarchyNode::Leaf};
 use crate::body::{Body, Volume};
 use crate::error::InputError;
-use crate::tests::scene::{SoupKind, pieces, rng, soup};
+use crate::tests::scene::{SoupKind, pieces, random_triangle_soup, rng};
 
 fn assert_refused(nodes: &[super::HierarchyNode], pieces: usize) -> usize {
     match Hierarchy::new(nodes.to_vec(), pieces) {
@@ -48,14 +48,19 @@ fn invalid_nodes_are_refused_by_index() {
 fn a_hierarchy_of_other_pieces_is_refused() {
     let mut rng = rng(1);
     let of = |count| {
-        Hierarchy::median_split(&pieces(&soup(
+        Hierarchy::median_split(&pieces(&random_triangle_soup(
             &mut crate::tests::scene::rng(2),
             SoupKind::WellShaped,
             count,
             1.0,
         )))
     };
-    let pieces = pieces(&soup(&mut rng, SoupKind::WellShaped, 5, 1.0));
+    let pieces = pieces(&random_triangle_soup(
+        &mut rng,
+        SoupKind::WellShaped,
+        5,
+        1.0,
+    ));
     for count in [1, 4, 6, 40] {
         let made = Body::with_hierarchy(&pieces, &of(count), Volume::Surface);
         assert!(
@@ -71,7 +76,7 @@ fn the_median_split_is_a_tree_and_balanced() {
     let mut rng = rng(3);
     for look in SoupKind::ALL {
         for count in [1, 2, 3, 31, 1_000] {
-            let pieces = pieces(&soup(&mut rng, look, count, 1.0));
+            let pieces = pieces(&random_triangle_soup(&mut rng, look, count, 1.0));
             let hierarchy = Hierarchy::median_split(&pieces);
             let nodes = hierarchy.nodes().to_vec();
             assert_eq!(nodes.len(), 2 * count - 1);
@@ -108,7 +113,12 @@ fn a_chain_is_a_hierarchy_too() {
     let mut short: Vec<_> = nodes[..2 * few - 2].to_vec();
     short.push(Leaf(few as u32 - 1));
     let hierarchy = Hierarchy::new(short, few).unwrap();
-    let pieces = pieces(&soup(&mut rng(4), SoupKind::WellShaped, few, 1.0));
+    let pieces = pieces(&random_triangle_soup(
+        &mut rng(4),
+        SoupKind::WellShaped,
+        few,
+        1.0,
+    ));
     let body = Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap();
     assert_eq!(body.pieces().len(), few);
 }

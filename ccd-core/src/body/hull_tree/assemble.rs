@@ -15,7 +15,7 @@ use crate::body::pieces::Pieces;
 use crate::body::pieces::builder::{PiecesBuilder, PolytopeParts};
 use crate::body::polytope::Polytope;
 use crate::error::InputError;
-use crate::math::exact::first_point_below_exact_range;
+use crate::math::exact::first_inexact_point_index;
 use crate::math::order::greater;
 use crate::math::vector::bounding_box;
 use glam::DVec3;
@@ -58,7 +58,7 @@ impl HullTree {
             facets_by_point: facets_by_point(&done),
             facet_classes: classes,
             facet_class_ends: class_ends,
-            has_uniform_radius: done.iter().map(|node| node.has_uniform_radius).collect(),
+            uniform_radius_by_node: done.iter().map(|node| node.has_uniform_radius).collect(),
             half_diagonals: done.iter().map(|node| node.half_diagonal).collect(),
             pieces: flatten_hulls(done)?,
         };
@@ -104,7 +104,7 @@ fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
 
 /// Creates the leaf node for a piece, whose hull is the piece itself.
 fn check_and_make_leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
-    if let Some(point) = first_point_below_exact_range(&piece.points) {
+    if let Some(point) = first_inexact_point_index(&piece.points) {
         let point = point as u32;
         return Err(HullFault::CoordinateTooSmall { point }.at_node(at));
     }

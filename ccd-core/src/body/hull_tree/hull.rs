@@ -32,9 +32,9 @@ pub struct Hull {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FacetClass {
     /// The facet is part of the mesh.
-    Original,
+    OnMesh,
     /// The facet belongs to pieces but not to the mesh: it closes a piece inside the solid.
-    Contained,
+    InsideSolid,
     /// The facet bridges a gap between pieces, outside all of them.
     Free,
 }

@@ -39,8 +39,8 @@ impl FacetData {
             facet_data.push(FacetData {
                 origin: facet.origin,
                 class: match facet.origin {
-                    FacetOrigin::Face(_) | FacetOrigin::Faces => FacetClass::Original,
-                    FacetOrigin::Virtual => FacetClass::Contained,
+                    FacetOrigin::Face(_) | FacetOrigin::Faces => FacetClass::OnMesh,
+                    FacetOrigin::Virtual => FacetClass::InsideSolid,
                 },
                 faces: near.filter(within).collect(),
             });
@@ -53,8 +53,8 @@ impl FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
             origin: match class {
-                FacetClass::Original => FacetOrigin::Faces,
-                FacetClass::Contained | FacetClass::Free => FacetOrigin::Virtual,
+                FacetClass::OnMesh => FacetOrigin::Faces,
+                FacetClass::InsideSolid | FacetClass::Free => FacetOrigin::Virtual,
             },
             class,
             faces: parts.iter().flat_map(|part| part.mesh_faces()).collect(),
@@ -196,7 +196,7 @@ fn single_triangle_facet_data(child: &NumberedChild<'_>) -> Option<FacetData> {
             [face] => FacetOrigin::Face(face.id),
             _ => FacetOrigin::Virtual,
         },
-        class: FacetClass::Original,
+        class: FacetClass::OnMesh,
         faces: Vec::new(),
     })
 }

@@ -33,6 +33,6 @@ impl TryFrom<StoredHullTree> for HullTree {
     type Error = HullTreeError;
 
     fn try_from(stored: StoredHullTree) -> Result<Self, HullTreeError> {
-        HullTree::new(&Pieces::polytopes(&stored.pieces)?, &stored.nodes)
+        HullTree::new(&Pieces::from_polytopes(&stored.pieces)?, &stored.nodes)
     }
 }

@@ -52,7 +52,7 @@ fn box_hull(from: f64, to: f64) -> Hull {
 }
 
 fn tree(pieces: &[Polytope], hull: Hull) -> Result<HullTree, HullTreeError> {
-    let pieces = Pieces::polytopes(pieces).unwrap();
+    let pieces = Pieces::from_polytopes(pieces).unwrap();
     let nodes = [
         HullNode::Inner([1, 2], hull),
         HullNode::Leaf(0),
@@ -70,14 +70,14 @@ fn fault(pieces: &[Polytope], hull: Hull) -> HullFault {
 
 #[test]
 fn facets_are_a_childs_or_tiled_or_bridges() {
-    use FacetClass::{Free, Original};
+    use FacetClass::{Free, OnMesh};
     // The boxes are end to end: the sides are tiled, though the corners between them are hidden.
     let whole = tree(
         &[box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)],
         box_hull(0.0, 3.0),
     )
     .unwrap();
-    assert_eq!(whole.facet_classes(0), [Original; 6]);
+    assert_eq!(whole.facet_classes(0), [OnMesh; 6]);
     let root = whole.hulls().get(0);
     let origins = [FacetOrigin::Face(0), FacetOrigin::Face(7)];
     assert_eq!(root.facets.origins()[..2], origins);
@@ -99,9 +99,9 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     .unwrap();
     assert_eq!(
         gap.facet_classes(0),
-        [Original, Original, Free, Free, Free, Free]
+        [OnMesh, OnMesh, Free, Free, Free, Free]
     );
-    assert_eq!(gap.facet_classes(2), [Original; 6]);
+    assert_eq!(gap.facet_classes(2), [OnMesh; 6]);
 }
 
 #[test]
@@ -109,8 +109,8 @@ fn virtual_facets_stay_contained() {
     let mut left = box_between(0.0, 1.0, 0);
     left.facets[5].origin = FacetOrigin::Virtual;
     let whole = tree(&[left, box_between(1.0, 3.0, 6)], box_hull(0.0, 3.0)).unwrap();
-    assert_eq!(whole.facet_classes(1)[5], FacetClass::Contained);
-    assert_eq!(whole.facet_classes(0)[5], FacetClass::Contained);
+    assert_eq!(whole.facet_classes(1)[5], FacetClass::InsideSolid);
+    assert_eq!(whole.facet_classes(0)[5], FacetClass::InsideSolid);
     assert_eq!(
         whole.hulls().get(0).facets.origins()[5],
         FacetOrigin::Virtual
@@ -129,18 +129,18 @@ fn features_take_the_best_class_of_their_facets() {
         support.iter().for_each(|&v| point.push(v, 1.0));
         gap.facet_class_at(node, &point)
     };
-    use FacetClass::{Contained, Free, Original};
+    use FacetClass::{Free, InsideSolid, OnMesh};
     assert_eq!(class(0, &[]), Free);
-    assert_eq!(class(0, &[5]), Original);
+    assert_eq!(class(0, &[5]), OnMesh);
     // The points are along the end, across the end, along the bridge, and across the inside.
-    assert_eq!(class(0, &[0, 2]), Original);
-    assert_eq!(class(0, &[0, 6]), Original);
-    assert_eq!(class(0, &[0, 4, 6]), Original);
+    assert_eq!(class(0, &[0, 2]), OnMesh);
+    assert_eq!(class(0, &[0, 6]), OnMesh);
+    assert_eq!(class(0, &[0, 4, 6]), OnMesh);
     assert_eq!(class(0, &[4, 5]), Free);
     assert_eq!(class(0, &[4, 5, 7]), Free);
     assert_eq!(class(0, &[0, 7]), Free);
     // A point inside a piece belongs to the piece.
-    assert_eq!(class(1, &[0, 7]), Contained);
+    assert_eq!(class(1, &[0, 7]), InsideSolid);
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn thick_and_thin_pieces_are_bridged_everywhere() {
         whole.facet_class_at(0, &ConvexCombination::point(0)),
         FacetClass::Free
     );
-    assert_eq!(whole.facet_classes(2), [FacetClass::Original; 6]);
+    assert_eq!(whole.facet_classes(2), [FacetClass::OnMesh; 6]);
 }
 
 fn polytope_without_facets(points: &[DVec3]) -> Polytope {
@@ -182,7 +182,7 @@ fn triangles_segments_and_points_join() {
         ]
     };
     let whole = HullTree::new(&pieces, &nodes(square)).unwrap();
-    assert_eq!(whole.facet_classes(0), [FacetClass::Original; 2]);
+    assert_eq!(whole.facet_classes(0), [FacetClass::OnMesh; 2]);
     let inside = ConvexCombination::segment([1, 3], 0.25);
     assert_eq!(whole.hulls().feature(0, &inside), Feature::Face(8));
 
@@ -324,7 +324,8 @@ fn invalid_hulls_are_refused() {
 
 #[test]
 fn nodes_that_are_no_hierarchy_are_refused() {
-    let pieces = Pieces::polytopes(&[box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)]).unwrap();
+    let pieces =
+        Pieces::from_polytopes(&[box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)]).unwrap();
     let refused = |nodes: &[HullNode]| HullTree::new(&pieces, nodes).unwrap_err();
     let root = |children| HullNode::Inner(children, box_hull(0.0, 3.0));
     let missing = refused(&[HullNode::Leaf(0)]);
@@ -344,7 +345,7 @@ fn bodies_take_the_trees_of_their_pieces_only() {
         HullNode::Leaf(0),
         HullNode::Leaf(1),
     ];
-    let pieces = Pieces::polytopes(&polytopes).unwrap();
+    let pieces = Pieces::from_polytopes(&polytopes).unwrap();
     let tree = HullTree::new(&pieces, &nodes).unwrap();
     let body = Body::new(&pieces, Volume::Surface).unwrap();
     let body = body.with_hull_tree(tree.clone()).unwrap();
@@ -356,12 +357,12 @@ fn bodies_take_the_trees_of_their_pieces_only() {
             assert_eq!(piece.points, kept.hulls().get(at).points);
         }
     }
-    let others = Pieces::polytopes(&[polytopes[0].clone(), box_between(0.0, 2.0, 6)]).unwrap();
+    let others = Pieces::from_polytopes(&[polytopes[0].clone(), box_between(0.0, 2.0, 6)]).unwrap();
     let other = Body::new(&others, Volume::Surface).unwrap();
     let refused = other.with_hull_tree(tree.clone()).unwrap_err();
     assert_eq!(refused, HullFault::NotAPiece.at_node(2));
     let single = Body::new(
-        &Pieces::polytopes(&polytopes[..1]).unwrap(),
+        &Pieces::from_polytopes(&polytopes[..1]).unwrap(),
         Volume::Surface,
     );
     let refused = single.unwrap().with_hull_tree(tree).unwrap_err();
@@ -372,7 +373,7 @@ fn bodies_take_the_trees_of_their_pieces_only() {
 fn values_are_made_ahead_for_pieces_and_hulls_once() {
     struct PointCount(usize);
     let polytopes = [box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)];
-    let pieces = Pieces::polytopes(&polytopes).unwrap();
+    let pieces = Pieces::from_polytopes(&polytopes).unwrap();
     let body = Body::new(&pieces, Volume::Surface).unwrap();
     let tree = tree(&polytopes, box_hull(0.0, 3.0)).unwrap();
     let body = body.with_hull_tree(tree).unwrap();
@@ -381,22 +382,23 @@ fn values_are_made_ahead_for_pieces_and_hulls_once() {
         made.fetch_add(1, Ordering::Relaxed);
         PointCount(piece.points.len())
     };
-    body.precompute(make);
+    body.precompute_cached_values(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
-    body.precompute(make);
+    body.precompute_cached_values(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
     let never = |_: &Piece<'_>| -> PointCount { panic!("it is there") };
     for list in [body.pieces(), body.hull_tree().unwrap().hulls()] {
         assert!(list.iter().all(|p| p.cached_value(never).unwrap().0 == 8));
     }
     // A copy has its own pieces, and shares the hulls.
-    body.clone().precompute(make);
+    body.clone().precompute_cached_values(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3 + 2);
 }
 
 #[test]
 fn nodes_are_given_back() {
-    let pieces = Pieces::polytopes(&[box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)]).unwrap();
+    let pieces =
+        Pieces::from_polytopes(&[box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)]).unwrap();
     let nodes = vec![
         HullNode::Inner([2, 1], box_hull(0.0, 3.0)),
         HullNode::Leaf(1),

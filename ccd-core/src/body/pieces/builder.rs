@@ -35,7 +35,7 @@ impl Pieces {
     /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
     /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`], [`InputError::NoPieces`],
     /// [`InputError::TooManyPieces`].
-    pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
+    pub fn from_polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
         let mut builder = PiecesBuilder::default();
         for polytope in polytopes {
             let facets = polytope.facets.iter();
@@ -84,7 +84,7 @@ impl PiecesBuilder {
     /// Checks the pieces, and returns the finished list.
     ///
     /// # Errors
-    /// The errors of [`Pieces::polytopes`].
+    /// The errors of [`Pieces::from_polytopes`].
     pub(crate) fn into_pieces(self) -> Result<Pieces, InputError> {
         self.into_unchecked_pieces().into_validated()
     }

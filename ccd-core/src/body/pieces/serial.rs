@@ -37,7 +37,7 @@ impl TryFrom<StoredPieces> for Pieces {
 
     fn try_from(stored: StoredPieces) -> Result<Self, InputError> {
         let (points, vertex_ids, face_ids) = match stored {
-            StoredPieces::Polytopes(polytopes) => return Pieces::polytopes(&polytopes),
+            StoredPieces::Polytopes(polytopes) => return Pieces::from_polytopes(&polytopes),
             StoredPieces::Triangles {
                 corners,
                 vertex_ids,
@@ -49,7 +49,7 @@ impl TryFrom<StoredPieces> for Pieces {
         if points.len() % 3 != 0 || points.len() / 3 != triangles {
             return Err(InputError::FaceIdCountMismatch {
                 faces: points.len() / 3,
-                ids: triangles,
+                id_count: triangles,
             });
         }
         if vertex_ids.len() != points.len() {

@@ -43,7 +43,7 @@ fn invalid_points_are_refused_by_piece_and_point() {
             let made = Pieces::triangles(&points, &[[0, 1, 2], [2, 3, 0]], &[0, 1]);
             let expected = InputError::BadPoint { piece: 1, point: 1 };
             assert_eq!(made.err(), Some(expected.clone()), "{bad}");
-            let made = Pieces::polytopes(&[
+            let made = Pieces::from_polytopes(&[
                 ball(0.0),
                 Polytope {
                     points: points[2..].to_vec(),
@@ -61,7 +61,7 @@ fn invalid_points_are_refused_by_piece_and_point() {
 
 #[test]
 fn invalid_polytopes_are_refused() {
-    let refused = |polytope: Polytope| Pieces::polytopes(&[ball(1.0), polytope]).err();
+    let refused = |polytope: Polytope| Pieces::from_polytopes(&[ball(1.0), polytope]).err();
     for bad in [-1.0, -f64::MIN_POSITIVE, f64::NAN, f64::INFINITY, 1.1e12] {
         let radius = match refused(ball(bad)) {
             Some(InputError::BadRadius { piece: 1, radius }) => radius,
@@ -71,7 +71,10 @@ fn invalid_polytopes_are_refused() {
     }
     let empty = InputError::EmptyPiece { piece: 1 };
     assert_eq!(refused(Polytope::default()), Some(empty));
-    assert_eq!(Pieces::polytopes(&[]).err(), Some(InputError::NoPieces));
+    assert_eq!(
+        Pieces::from_polytopes(&[]).err(),
+        Some(InputError::NoPieces)
+    );
     for corners in [vec![0, 1], vec![0, 1, 4], vec![]] {
         let facet = |corners: Vec<u32>| Facet {
             origin: FacetOrigin::Face(0),
@@ -163,7 +166,7 @@ proptest! {
                 radius: k as f64,
             })
             .collect();
-        let pieces = Pieces::polytopes(&polytopes).unwrap();
+        let pieces = Pieces::from_polytopes(&polytopes).unwrap();
         let mut order: Vec<u32> = (0..count as u32).collect();
         order.shuffle(&mut rng(seed));
         let other = pieces.with_piece_order(&order);
@@ -217,7 +220,7 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
         ],
         ..Polytope::default()
     };
-    let pieces = Pieces::polytopes(&[polytope]).unwrap();
+    let pieces = Pieces::from_polytopes(&[polytope]).unwrap();
     let weighted = |terms: &[(u32, f64)]| {
         let mut point = ConvexCombination::EMPTY;
         terms
@@ -246,7 +249,7 @@ fn a_polytope_of_virtual_facets_has_no_names() {
         facets: facets.to_vec(),
         ..Polytope::default()
     };
-    let pieces = Pieces::polytopes(&[ball(1.0), hull]).unwrap();
+    let pieces = Pieces::from_polytopes(&[ball(1.0), hull]).unwrap();
     for corners in [&[2][..], &[0, 1], &[0, 1, 2]] {
         assert_eq!(pieces.feature(1, &mean(corners)), Feature::Piece(1));
     }

@@ -4,7 +4,7 @@ use super::{PieceShapes, Pieces};
 use crate::body::polytope::{Face, Facet, Polytope};
 
 impl Pieces {
-    /// Converts a piece to a polytope, which is an input of [`Pieces::polytopes`]; a triangle lists its mesh face.
+    /// Converts a piece to a polytope, which is an input of [`Pieces::from_polytopes`]; a triangle lists its mesh face.
     ///
     /// # Panics
     /// When `index` is not below [`Pieces::len`].

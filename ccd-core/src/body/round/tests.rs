@@ -68,7 +68,7 @@ fn enclosures_hold_their_shapes_exactly() {
 #[test]
 fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
     for radius in [1.0, 0.03, 2e7] {
-        for share in [2.0, 0.3, DEFAULT_EXCESS_SHARE, 1e-6] {
+        for share in [2.0, 0.3, DEFAULT_RADIUS_EXCESS_SHARE, 1e-6] {
             for round in cylinder_and_cone(radius, 1.0) {
                 let about = round.enclose(share * radius).expect("it can be had");
                 assert!(about.excess() <= share * radius, "{round:?} {share}");

@@ -106,7 +106,7 @@ fn numbers_of_any_kind_give_the_same_parts() {
                     ..polytope
                 })
                 .collect();
-            let pieces = Pieces::polytopes(&polytopes).unwrap();
+            let pieces = Pieces::from_polytopes(&polytopes).unwrap();
             assert_eq!(
                 part_extreme_points(&pieces),
                 part_extreme_points_by_brute_force(&pieces)

@@ -41,7 +41,7 @@ pub(super) fn table_directions() -> impl Iterator<Item = DVec3> {
 /// Returns the number of the fixed direction that is nearest to a vector of any length in latitude and in longitude.
 /// The number is arbitrary if the vector is not finite.
 #[inline]
-pub(super) fn nearest_direction_number(v: DVec3) -> usize {
+pub(super) fn nearest_direction_index(v: DVec3) -> usize {
     let square = v.length_squared();
     let from_pole = count_true(LATITUDE_BORDER_SQUARED_COSINES.map(|c| v.z * v.z < c * square));
     let from_axis = count_true(MERIDIAN_BORDER_TANGENTS.map(|t| v.y.abs() > t * v.x.abs()));

@@ -58,7 +58,7 @@ impl SupportTable {
     #[inline]
     pub fn extremal_point(&self, direction: DVec3) -> u32 {
         self.hill_climb(
-            self.start_corners[directions::nearest_direction_number(direction)],
+            self.start_corners[directions::nearest_direction_index(direction)],
             direction,
         )
     }

@@ -20,7 +20,7 @@ fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
         facets: facets.into_iter().map(facet).collect(),
         ..Polytope::default()
     };
-    Pieces::polytopes(&[polytope]).unwrap()
+    Pieces::from_polytopes(&[polytope]).unwrap()
 }
 
 /// Creates a polytope of a square grid that is lifted to a paraboloid, closed by four side facets and a lid.
@@ -156,7 +156,7 @@ fn directions_are_their_own_nearest_and_none_is_far() {
     for (number, direction) in all.iter().enumerate() {
         for scale in [1e-150, 1.0, 1e150] {
             assert_eq!(
-                directions::nearest_direction_number(*direction * scale),
+                directions::nearest_direction_index(*direction * scale),
                 number
             );
         }
@@ -164,7 +164,7 @@ fn directions_are_their_own_nearest_and_none_is_far() {
     let mut rng = rng(14);
     for _ in 0..10_000 {
         let look = random_direction(&mut rng);
-        let angle = look.angle_between(all[directions::nearest_direction_number(look)]);
+        let angle = look.angle_between(all[directions::nearest_direction_index(look)]);
         // The limit is half a step of latitude, and half a step of longitude on the equator.
         assert!(angle <= 16f64.to_radians(), "{}", angle.to_degrees());
     }

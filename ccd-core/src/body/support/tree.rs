@@ -46,7 +46,7 @@ struct DiscGroup {
     half_thickness: [f32; LANES],
     /// The rounding error by which the bound of each disc is raised. In lanes without a disc it is −∞, so that these
     /// lanes are never visited.
-    rounding: [f32; LANES],
+    rounding_error_bounds: [f32; LANES],
 }
 
 impl SupportTree {
@@ -193,7 +193,7 @@ impl DiscGroup {
     /// Builds the discs around at most eight consecutive runs of `width` points each.
     fn new(points: &[DVec3], width: usize) -> Self {
         let mut discs = DiscGroup {
-            rounding: [f32::NEG_INFINITY; LANES],
+            rounding_error_bounds: [f32::NEG_INFINITY; LANES],
             ..DiscGroup::default()
         };
         for (lane, points) in points.chunks(width).enumerate() {
@@ -204,7 +204,7 @@ impl DiscGroup {
             }
             discs.radius[lane] = disc.radius;
             discs.half_thickness[lane] = disc.half_thickness;
-            discs.rounding[lane] = DISC_HEIGHT_ERROR_F32;
+            discs.rounding_error_bounds[lane] = DISC_HEIGHT_ERROR_F32;
         }
         discs
     }
@@ -221,7 +221,7 @@ impl DiscGroup {
             let across = if across > 0.0 { across } else { 0.0 }.sqrt();
             let centre = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
             let reach = self.radius[k] * across + self.half_thickness[k] * along.abs();
-            bounds[k] = centre + reach + self.rounding[k];
+            bounds[k] = centre + reach + self.rounding_error_bounds[k];
         }
         bounds
     }

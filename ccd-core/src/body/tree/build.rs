@@ -1,6 +1,6 @@
 //! Builds the tree with eight children per node from a binary hierarchy.
 
-use super::fit::{NodePoints, PointSample, fit};
+use super::fit::{NodePoints, PointSample, fit_node};
 use super::group::longest_length;
 use super::{
     BodyBox, BoxGroup, LANES, Node, NodeChildren, NodeId, Slab, StoredTriangleGroup, Tree,
@@ -159,7 +159,7 @@ impl TreeLayout {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         parallel_for_each(&mut nodes, &PointSample::EMPTY, |sample, k, node| {
             let layout = &self.nodes[k];
-            *node = fit(&layout.node_points(pieces), layout.children, sample);
+            *node = fit_node(&layout.node_points(pieces), layout.children, sample);
         });
         let mut boxes = vec![BoxGroup::default(); self.node_groups.len()];
         parallel_for_each(&mut boxes, &(), |(), k, group| {
@@ -186,7 +186,7 @@ impl TreeLayout {
             nodes,
             box_groups: boxes,
             triangle_groups: triangles,
-            reach_from_origin: max_distance_from_origin(pieces),
+            max_distance_from_origin: max_distance_from_origin(pieces),
         }
     }
 

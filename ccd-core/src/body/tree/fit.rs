@@ -21,7 +21,7 @@ pub(crate) struct NodePoints<'a> {
 
 /// The sines and cosines of the angles by which trial frames are turned about the mean normal: 0 to 75 degrees in steps
 /// of 15.
-const TRIAL_ROTATIONS: [(f64, f64); 6] = [
+const TRIAL_ROTATION_SINES_COSINES: [(f64, f64); 6] = [
     (0.0, 1.0),
     (0.258_819_045_102_520_74, 0.965_925_826_289_068_3),
     (0.5, 0.866_025_403_784_438_6),
@@ -39,7 +39,7 @@ const TRIAL_ROTATIONS: [(f64, f64); 6] = [
 ///
 /// # Guarantee
 /// The box and the ball contain all points: the sample only chooses the frame.
-pub(crate) fn fit(
+pub(crate) fn fit_node(
     node_points: &NodePoints<'_>,
     children: NodeChildren,
     sample: &mut PointSample,
@@ -100,7 +100,7 @@ pub(super) fn best_frame(sample: &PointSample, of_triangles: bool) -> DMat3 {
     }));
     if let Some(normal) = unit(triangles().map(across).sum()) {
         let (x, y) = normal.any_orthonormal_pair();
-        for (sin, cos) in TRIAL_ROTATIONS {
+        for (sin, cos) in TRIAL_ROTATION_SINES_COSINES {
             let turned = [x * cos + y * sin, y * cos - x * sin];
             consider(DMat3::from_cols(turned[0], turned[1], normal));
         }

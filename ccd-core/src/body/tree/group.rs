@@ -3,7 +3,7 @@
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
 use crate::rounding::{
-    FLAT_THICKNESS_F32, RAY_BOX_WIDENING_F64, SQUARED_LENGTH_RANGE, UNIT_ROUNDOFF_F64,
+    MAX_THICKNESS_RATIO_F32, RAY_BOX_WIDENING_F64, SQUARED_LENGTH_RANGE, UNIT_ROUNDOFF_F64,
 };
 use glam::{DVec3, Vec3};
 
@@ -56,7 +56,7 @@ pub(crate) struct GroupHeader {
     /// The origin of the group's coordinates, in the body's frame.
     pub(crate) origin: DVec3,
     /// An upper bound of the distances of the children's points from the origin.
-    pub(crate) reach: f32,
+    pub(crate) max_distance_from_origin: f32,
     /// The id of the first child; the ids of the others follow it.
     pub(crate) first_child: u32,
     pub(crate) count: u32,
@@ -75,7 +75,7 @@ impl BoxGroup {
         let mut group = BoxGroup {
             header: GroupHeader {
                 origin,
-                reach: 0.0,
+                max_distance_from_origin: 0.0,
                 first_child: first,
                 count: nodes.len() as u32,
             },
@@ -97,7 +97,8 @@ impl BoxGroup {
             group.rounding_radius[lane] = node.rounding_radius;
             group.radius[lane] = (node.radius + off).next_up();
             let reach = round_up_to_f32(length(way) + f64::from(node.radius));
-            group.header.reach = greater(group.header.reach, reach);
+            group.header.max_distance_from_origin =
+                greater(group.header.max_distance_from_origin, reach);
             if matches!(node.children, NodeChildren::Piece(_)) {
                 group.leaf_mask |= 1 << lane;
             }
@@ -112,7 +113,7 @@ impl StoredTriangleGroup {
         let mut row = StoredTriangleGroup {
             header: GroupHeader {
                 origin,
-                reach: 0.0,
+                max_distance_from_origin: 0.0,
                 first_child: first,
                 count: triangles.len() as u32,
             },
@@ -126,7 +127,8 @@ impl StoredTriangleGroup {
             ));
         }
         let corners = triangles.as_flattened().iter();
-        row.header.reach = round_up_to_f32(longest_length(corners.map(|&p| p - origin)));
+        row.header.max_distance_from_origin =
+            round_up_to_f32(longest_length(corners.map(|&p| p - origin)));
         row
     }
 }
@@ -228,12 +230,12 @@ impl Node {
 
     /// Returns whether the box is thin enough for the node to count as flat.
     pub(crate) fn is_thin(&self) -> bool {
-        self.half_extents[2] <= FLAT_THICKNESS_F32 * self.radius
+        self.half_extents[2] <= MAX_THICKNESS_RATIO_F32 * self.radius
     }
 
     /// Returns half the extent of the box along one of its axes, rounding radius included, widened for the rounding of
     /// the axes.
-    pub(super) fn half_extent(&self, axis: usize) -> f64 {
+    pub(super) fn widened_half_extent(&self, axis: usize) -> f64 {
         f64::from(self.half_extents[axis])
             + f64::from(self.rounding_radius)
             + RAY_BOX_WIDENING_F64 * f64::from(self.radius)
@@ -243,7 +245,8 @@ impl Node {
     pub(super) fn is_near(&self, point: DVec3, reach: f64) -> bool {
         let way = point - self.centre;
         let reach = reach + 8.0 * UNIT_ROUNDOFF_F64 * way.abs().element_sum();
-        (0..3)
-            .all(|k| way.dot(self.axes[k].as_dvec3()).abs() <= self.half_extent(k) + 1.001 * reach)
+        (0..3).all(|k| {
+            way.dot(self.axes[k].as_dvec3()).abs() <= self.widened_half_extent(k) + 1.001 * reach
+        })
     }
 }

@@ -58,11 +58,11 @@ impl Leaf {
 
 /// Returns the leaves whose boxes are within about `reach` of a point.
 fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Leaf> {
-    leaves_in(tree, move |node| node.is_near(point, reach))
+    leaves_in_region(tree, move |node| node.is_near(point, reach))
 }
 
 /// Returns the leaves that a search meets which looks only below nodes in a region.
-pub(super) fn leaves_in(
+pub(super) fn leaves_in_region(
     tree: &Tree,
     meets_region: impl Fn(&Node) -> bool,
 ) -> impl Iterator<Item = Leaf> {

@@ -1,6 +1,6 @@
 //! Computes the winding number of a body's surface about a point by counting the crossings of a ray.
 
-use super::point_query::leaves_in;
+use super::point_query::leaves_in_region;
 use super::{Node, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
@@ -18,7 +18,7 @@ pub(crate) struct RayCrossingSums {
     /// The sum of the crossings that coincide with the start up to rounding.
     pub(crate) sum_at_start: i32,
     /// The number of triangles that contain the start, up to rounding.
-    pub(crate) triangles_at_start: u32,
+    pub(crate) triangle_count_at_start: u32,
     /// The direction of the ray in the body's frame, of unit length.
     pub(crate) direction: DVec3,
 }
@@ -65,11 +65,11 @@ fn sum_signed_crossings_along(
     let mut found = RayCrossingSums {
         sum_ahead: 0,
         sum_at_start: 0,
-        triangles_at_start: 0,
+        triangle_count_at_start: 0,
         direction: along,
     };
     let mut add = |triangle| found.add(triangle, start).is_some();
-    leaves_in(tree, |node| may_hit(node, start.from, along))
+    leaves_in_region(tree, |node| may_hit(node, start.from, along))
         .all(|leaf| leaf.all_triangles_satisfy(pieces, &mut add))
         .then_some(found)
 }
@@ -81,7 +81,7 @@ fn may_hit(node: &Node, from: DVec3, along: DVec3) -> bool {
     for k in 0..3 {
         let axis = node.axes[k].as_dvec3();
         // Positions along the ray are off by the rounding of the distance to the box.
-        let half = node.half_extent(k) + 32.0 * UNIT_ROUNDOFF_F64 * way.abs().element_sum();
+        let half = node.widened_half_extent(k) + 32.0 * UNIT_ROUNDOFF_F64 * way.abs().element_sum();
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
         // A ray parallel to a slab, within it, gives an infinity on either side. NaN counts as met.
@@ -147,7 +147,7 @@ impl RayCrossingSums {
             Sign::Unclear
         } else {
             match Sign::of_number(height, size(a) * size(b) * size(c)) {
-                Sign::Unclear => triangle_side_of_ray_start(triangle, corners, sign),
+                Sign::Unclear => triangle_sign_along_ray(triangle, corners, sign),
                 clear => clear,
             }
         };
@@ -156,7 +156,7 @@ impl RayCrossingSums {
             Sign::Negative => {}
             Sign::Unclear => {
                 self.sum_at_start += sign;
-                self.triangles_at_start += 1;
+                self.triangle_count_at_start += 1;
             }
         }
         Some(())
@@ -165,7 +165,7 @@ impl RayCrossingSums {
 
 /// Returns whether a triangle is ahead of a ray's start or behind it, computed from the triangle's edges. The edges may
 /// be far shorter than the vectors to the corners.
-fn triangle_side_of_ray_start(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+fn triangle_sign_along_ray(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);

@@ -9,7 +9,7 @@ use crate::math::vector::length;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, body, random_direction, random_point_in_ball, random_power_of_ten,
-    rng, soup,
+    random_triangle_soup, rng,
 };
 use glam::{DVec3, Vec3};
 
@@ -134,7 +134,7 @@ fn assert_lane_bounds_pieces(group: &BoxGroup, lane: usize, pieces: &Pieces, bel
                 assert!(reach <= half + slack);
             }
             let from_origin = (point - group.header.origin).length() + piece.radius;
-            assert!(from_origin <= f64::from(group.header.reach) + slack);
+            assert!(from_origin <= f64::from(group.header.max_distance_from_origin) + slack);
         }
     }
 }
@@ -151,7 +151,7 @@ fn assert_lane_holds_triangle(group: &TriangleGroup, lane: usize, triangle: Tria
             assert!((rounded - exact[axis]).abs() <= allowed + f64::from(f32::MIN_POSITIVE));
         }
         assert!((corner - mean).length() <= f64::from(group.radius[lane]) + slack);
-        assert!(exact.length() <= f64::from(group.header.reach) + slack);
+        assert!(exact.length() <= f64::from(group.header.max_distance_from_origin) + slack);
     }
 }
 
@@ -160,7 +160,7 @@ fn random_soup(rng: &mut Pcg64, count: usize) -> Vec<Triangle> {
     let size = random_power_of_ten(rng, -6.0, 6.0);
     let offset = size * random_power_of_ten(rng, -3.0, 6.0);
     let middle = random_direction(rng) * offset;
-    let triangles = soup(rng, look, count, size);
+    let triangles = random_triangle_soup(rng, look, count, size);
     triangles.iter().map(|t| t.map(|p| p + middle)).collect()
 }
 
@@ -194,10 +194,11 @@ fn coordinates_up_to_the_largest_and_down_to_the_least() {
     let mut rng = rng(2);
     for scale in [1e-300, 1e-30, 1e-12, 1e6, 9e11] {
         for count in [1, 7, 100] {
-            let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::MixedSizes, count, 0.5)
-                .iter()
-                .map(|t| t.map(|p| p * scale))
-                .collect();
+            let triangles: Vec<Triangle> =
+                random_triangle_soup(&mut rng, SoupKind::MixedSizes, count, 0.5)
+                    .iter()
+                    .map(|t| t.map(|p| p * scale))
+                    .collect();
             assert_tree_bounds_pieces(&body(&triangles));
         }
     }
@@ -211,14 +212,15 @@ fn components_whose_squares_are_no_numbers() {
     for _ in 0..3_000 {
         let count = rng.random_range(1..30);
         let tiny = random_power_of_ten(&mut rng, -170.0, -150.0);
-        let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::WellShaped, count, 1.0)
-            .iter()
-            .map(|t| {
-                let mut kept = |_| [1.0, tiny, 0.0][rng.random_range(0..3)];
-                let scale = [0, 1, 2].map(|_| DVec3::from_array([0, 1, 2].map(&mut kept)));
-                [0, 1, 2].map(|k| t[k] * scale[k])
-            })
-            .collect();
+        let triangles: Vec<Triangle> =
+            random_triangle_soup(&mut rng, SoupKind::WellShaped, count, 1.0)
+                .iter()
+                .map(|t| {
+                    let mut kept = |_| [1.0, tiny, 0.0][rng.random_range(0..3)];
+                    let scale = [0, 1, 2].map(|_| DVec3::from_array([0, 1, 2].map(&mut kept)));
+                    [0, 1, 2].map(|k| t[k] * scale[k])
+                })
+                .collect();
         assert_tree_bounds_pieces(&body(&triangles));
     }
     // Frames computed from such normals had lengths off by up to a third.
@@ -246,7 +248,7 @@ fn polytopes_balls_and_capsules_are_held_with_their_radii() {
                 }
             })
             .collect();
-        let pieces = Pieces::polytopes(&polytopes).unwrap();
+        let pieces = Pieces::from_polytopes(&polytopes).unwrap();
         assert_tree_bounds_pieces(&Body::new(&pieces, Volume::Surface).unwrap());
     }
 }

@@ -49,7 +49,7 @@ impl NearSurface<'_> {
             let name = self.body.pieces().feature(index as usize, &inside);
             (
                 name,
-                corners.map(|k| (point(k), self.mesh_number_of_point(index, k))),
+                corners.map(|k| (point(k), self.mesh_vertex_of_point(index, k))),
             )
         };
         let facets = piece.facets.iter().flat_map(fan_triangles);
@@ -75,7 +75,7 @@ impl NearSurface<'_> {
         let own = points.map(|k| {
             (
                 piece.points[k as usize],
-                self.mesh_number_of_point(index, k),
+                self.mesh_vertex_of_point(index, k),
             )
         });
         // If several points are at one place, the first counts.
@@ -93,7 +93,7 @@ impl NearSurface<'_> {
 
     /// Returns the mesh's number of the vertex at a corner; `None` if no piece there has one. If the corner's own piece
     /// does not have the number, this is the least number among pieces with a point at the same position.
-    pub(super) fn mesh_number(&self, corner: u32) -> Option<u32> {
+    pub(super) fn mesh_vertex_number(&self, corner: u32) -> Option<u32> {
         let corner = &self.corners[corner as usize];
         corner.id.or_else(|| {
             let place = corner.position_bits;
@@ -101,14 +101,14 @@ impl NearSurface<'_> {
             let numbers = there.filter_map(|piece| {
                 let mut points = self.body.pieces().get(piece as usize).points.iter();
                 let point = points.position(|&point| position_bits(point) == place)?;
-                self.mesh_number_of_point(piece, point as u32)
+                self.mesh_vertex_of_point(piece, point as u32)
             });
             numbers.min()
         })
     }
 
     /// Returns the mesh's number of a point of a piece; `None` if the point has none.
-    fn mesh_number_of_point(&self, piece: u32, point: u32) -> Option<u32> {
+    fn mesh_vertex_of_point(&self, piece: u32, point: u32) -> Option<u32> {
         let pieces = self.body.pieces();
         match pieces.feature(piece as usize, &ConvexCombination::point(point)) {
             Feature::Vertex(id) => Some(id),

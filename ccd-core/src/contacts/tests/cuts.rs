@@ -151,7 +151,7 @@ fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
     let point = Body::sphere(0.0).unwrap();
     for radii in [[0.1, 0.5], [0.5, 0.1]] {
         let limbs = [limb(-1.0, 1, radii[0]), limb(1.0, 2, radii[1])];
-        let pieces = Pieces::polytopes(&limbs).unwrap();
+        let pieces = Pieces::from_polytopes(&limbs).unwrap();
         let body = Body::new(&pieces, Volume::Surface).unwrap();
         let pairs = contacts(&point, &body, pose_at(0.0, 0.0, 1.0), 0.6);
         assert_eq!(feature_names(&pairs), ["v0 v0"], "{radii:?}");

@@ -157,7 +157,7 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
         for v in used {
             for face in 0..other.faces.len() {
                 let pair = |part| order.map(|k| [Feature::Vertex(v), part][k]);
-                offers.add_vertex_and_face(one.points[v as usize], other, face, pair);
+                offers.add_vertex_face_pair(one.points[v as usize], other, face, pair);
             }
         }
     }
@@ -198,7 +198,7 @@ impl CollectedPairs {
 
     /// Adds the pair of a vertex and the corner, edge or inside of a face that is nearest to it. The pair is clear if
     /// no smaller part is equally near.
-    fn add_vertex_and_face(
+    fn add_vertex_face_pair(
         &mut self,
         v: DVec3,
         mesh: &Mesh,

@@ -10,9 +10,11 @@ const SLACK: f64 = 1e-13;
 fn common_normals(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
     let mut normals = CommonNormals::default();
     normals.reset(SLACK);
-    a.iter().for_each(|&offset| normals.add_offset_of_a(offset));
-    b.iter().for_each(|&offset| normals.add_offset_of_b(offset));
-    normals.sort_offsets();
+    a.iter()
+        .for_each(|&offset| normals.add_constraint_of_a(offset));
+    b.iter()
+        .for_each(|&offset| normals.add_constraint_of_b(offset));
+    normals.sort_constraints();
     normals
 }
 
@@ -26,7 +28,7 @@ fn rotated_offsets(turn: DQuat, offsets: &[DVec3]) -> Vec<DVec3> {
 }
 
 /// Returns vectors from a point of the plane z = 0 to points around it in that plane.
-fn level_offsets() -> Vec<DVec3> {
+fn offsets_in_xy_plane() -> Vec<DVec3> {
     vec![DVec3::X, -DVec3::X, 0.1 * DVec3::Y, -3.0 * DVec3::Y]
 }
 
@@ -45,12 +47,12 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
             assert!(found.distance(expected) < 1e-14, "{found} {expected}");
         }
         assert_eq!(
-            normals.nearest_normal_if_along(expected, 1e-12 * random_direction(rng)),
+            normals.nearest_normal_if_parallel(expected, 1e-12 * random_direction(rng)),
             None
         );
         assert!(
             normals
-                .nearest_normal_if_along(expected, 1e-12 * expected)
+                .nearest_normal_if_parallel(expected, 1e-12 * expected)
                 .is_some()
         );
     }
@@ -74,7 +76,7 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
         let [a, b] = [-DVec3::Z, DVec3::Z].map(|about| random_cone_vectors(rng, about));
         let normals = common_normals(&a, &b);
         let towards = random_direction(rng);
-        let offsets = normals.offsets.clone();
+        let offsets = normals.constraint_vectors.clone();
         let flat = |offset: DVec3| towards.reject_from(offset);
         let line = |one: DVec3, other: DVec3| towards.project_onto(one.cross(other));
         let lines = offsets
@@ -113,7 +115,7 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
 
 #[test]
 fn surfaces_that_enclose_each_other_have_no_common_normal() {
-    let normals = common_normals(&level_offsets(), &[DVec3::Z, -DVec3::Z]);
+    let normals = common_normals(&offsets_in_xy_plane(), &[DVec3::Z, -DVec3::Z]);
     assert_eq!(normals.nearest_normal(DVec3::Z), None);
     assert_eq!(
         common_normals(&[DVec3::NAN], &[]).nearest_normal(DVec3::X),

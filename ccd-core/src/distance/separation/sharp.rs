@@ -37,9 +37,9 @@ pub(crate) fn improve_axis(
 fn axes(pair: &PiecePair<'_>, checked: &CheckedClaim) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
     let axis_in_b = pair.b_to_a.inverse_transform_vector(checked.axis);
-    let on_a = Feature::at_combination(&pair.a, &checked.claim.a, checked.axis);
-    let on_b =
-        Feature::at_combination(&pair.b, &checked.claim.b, axis_in_b).rotated(pair.b_to_a.rotation);
+    let on_a = Feature::from_combination(&pair.a, &checked.claim.a, checked.axis);
+    let on_b = Feature::from_combination(&pair.b, &checked.claim.b, axis_in_b)
+        .rotated(pair.b_to_a.rotation);
     let edges = match (on_a.edge, on_b.edge) {
         (Some(e), Some(f)) => vector_perpendicular_to_both(e, f),
         (Some(e), None) | (None, Some(e)) => {
@@ -60,7 +60,7 @@ struct Feature {
 
 impl Feature {
     /// Returns the feature whose corners a combination names, in the piece's frame.
-    fn at_combination(piece: &Piece<'_>, combination: &ConvexCombination, axis: DVec3) -> Self {
+    fn from_combination(piece: &Piece<'_>, combination: &ConvexCombination, axis: DVec3) -> Self {
         let points = piece.points;
         let way = |from: u32, to: u32| points[to as usize] - points[from as usize];
         let support = combination.point_indices();

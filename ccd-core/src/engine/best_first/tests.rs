@@ -181,7 +181,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
                 Outcome::Contact { time, .. } => time,
                 _ => 1.0,
             };
-            (time, answer.stats.iterations, answer.stats.work())
+            (time, answer.stats.iterations, answer.stats.budgeted_work())
         };
         let mut last = 0.0;
         for budget in 0..visits.min(60) {

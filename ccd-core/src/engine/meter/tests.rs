@@ -38,7 +38,7 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
     assert_eq!(meter.count_visit_and_check_limits(&problem), Ok(()));
     meter.stats.point_evaluations += 3 * EVALUATIONS_WORTH_A_VISIT;
     assert_eq!(meter.count_visit_and_check_limits(&problem), Ok(()));
-    assert_eq!(meter.stats.work(), 5);
+    assert_eq!(meter.stats.budgeted_work(), 5);
     assert_eq!(
         meter.count_visit_and_check_limits(&problem),
         Err(Limit::Budget)

@@ -24,7 +24,7 @@ pub(crate) fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(
     offset: Vec3x8<L>,
 ) -> AxesX8<L> {
     let level = offset.simd_level();
-    let between = children.offset_from_nearest(other.offset_to_nearest(offset));
+    let between = children.offset_from_nearest_point(other.offset_to_nearest_point(offset));
     let between = axis_along(children, other, offset, between);
     let own = oriented_towards(children.likely_separating_axis(level), offset);
     let own = AxesX8::new(

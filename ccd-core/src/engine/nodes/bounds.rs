@@ -9,7 +9,7 @@ use super::shape::{Children, OtherNode};
 use crate::body::tree::LANES;
 use crate::math::order::lesser;
 use crate::math::simd::splat;
-use crate::tuning::{ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_SWEEP, REVISIT_DISTANCE};
+use crate::tuning::{ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_DISTANCE_RATIO, MIN_REVISIT_SWEEP};
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 /// The free times of eight pairs of nodes, and the choices for the next step of each pair.
@@ -41,10 +41,11 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
 ) -> EightPairBounds {
     let pairs = EightPairs::new(level, children, other, motion);
     let widest = axis::widest_gap_axis(children, other, pairs.offset);
-    let travel = pairs.velocity * splat(level, motion.horizon);
+    let travel = pairs.velocity * splat(level, motion.remaining_time);
     let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
-    let revisit = widest.gap - motion.slack - (radius + other.radius()) * REVISIT_DISTANCE;
+    let revisit =
+        widest.gap - motion.slack - (radius + other.radius()) * MIN_REVISIT_DISTANCE_RATIO;
     let split_child = (widest.child_extent + radius * ADDED_THICKNESS_PER_RADIUS)
         - (widest.other_extent + ADDED_THICKNESS_PER_RADIUS * other.radius());
     let mut free = pairs
@@ -79,13 +80,13 @@ struct PassingPairs<L: Simd> {
     turning_plane_time: f32x8<L>,
     /// The angular speed of the large node's body.
     spin: f32,
-    arm_length: f32x8<L>,
+    small_node_arm_length: f32x8<L>,
     /// The radius of the large node.
     large_radius: f32x8<L>,
     small_radius: f32x8<L>,
     /// Set if the large node is a single piece. Then only the size of the small node decides whether the pair is far
     /// apart.
-    large_is_piece: mask32x8<L>,
+    large_piece_mask: mask32x8<L>,
 }
 
 impl<L: Simd> PassingPairs<L> {
@@ -106,23 +107,23 @@ impl<L: Simd> PassingPairs<L> {
             LargerBody::SplitBody => Some(PassingPairs {
                 turning_plane_time: pairs.free_times_turning_with_split_body(axis),
                 spin: motion.split_rotation.rate,
-                arm_length: splat(
+                small_node_arm_length: splat(
                     level,
                     motion.split_rotation.distance_from_centre(other.centre()),
                 ),
                 large_radius: children.radius(level),
                 small_radius: splat(level, other.radius()),
-                large_is_piece: children.pieces(level),
+                large_piece_mask: children.pieces(level),
             }),
             LargerBody::OtherBody => Some(PassingPairs {
                 turning_plane_time: pairs.free_times_turning_with_other_body(axis),
                 spin: motion.other_rotation.rate,
-                arm_length: motion
+                small_node_arm_length: motion
                     .other_rotation
                     .distances_from_centre(children.centre(level)),
                 large_radius: splat(level, other.radius()),
                 small_radius: children.radius(level),
-                large_is_piece: mask32x8::splat(level, other.is_piece()),
+                large_piece_mask: mask32x8::splat(level, other.is_piece()),
             }),
         }
     }
@@ -130,9 +131,10 @@ impl<L: Simd> PassingPairs<L> {
     /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
     fn revisit_mask(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
-        let swept = free * self.spin * self.arm_length - self.large_radius * MIN_REVISIT_SWEEP;
-        let clear = apart - self.small_radius * REVISIT_DISTANCE;
-        swept.simd_gt(0.0) | self.large_is_piece & clear.simd_gt(0.0)
+        let swept =
+            free * self.spin * self.small_node_arm_length - self.large_radius * MIN_REVISIT_SWEEP;
+        let clear = apart - self.small_radius * MIN_REVISIT_DISTANCE_RATIO;
+        swept.simd_gt(0.0) | self.large_piece_mask & clear.simd_gt(0.0)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::motion::relative::RelativePath;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{ARM_INCREASE_PER_DISTANCE, LEAST_GAP_F32, RATE_ERROR_F32};
 use crate::shortcuts::Shortcut;
-use crate::tuning::{CLOSED_GAP_THRESHOLD, MIN_TURNING_PLANE_RADIUS_RATIO};
+use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, MIN_TURNING_PLANE_RADIUS_RATIO};
 use glam::Vec3;
 use std::cell::OnceCell;
 
@@ -79,7 +79,7 @@ impl<'p> NodeContext<'p> {
             rate_allowance: RATE_ERROR_F32 * round_up_to_f32(speed_bound(&problem.a, &problem.b)),
             closed_gap_threshold: greater(
                 LEAST_GAP_F32,
-                (CLOSED_GAP_THRESHOLD * problem.tolerance) as f32,
+                (CLOSED_GAP_TOLERANCE_SHARE * problem.tolerance) as f32,
             ),
             much_larger_ratio: if problem.uses_shortcut(Shortcut::TurningNodes) {
                 MIN_TURNING_PLANE_RADIUS_RATIO

@@ -21,7 +21,7 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) split_rotation: BodyRotation,
     pub(crate) other_rotation: BodyRotation,
     /// The time left to the end of the duration.
-    pub(crate) horizon: f32,
+    pub(crate) remaining_time: f32,
     /// The gap to keep, plus a bound of the rounding error of a computed gap.
     pub(crate) slack: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.

@@ -106,12 +106,12 @@ fn bound_children_at_level<L: Simd>(
         NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
             let members = &group.header;
-            (motion.bound(group, members), members.first_child)
+            (motion.bound_group(group, members), members.first_child)
         }
         NodeChildren::Triangles(group) => {
             let group = &tree.triangle_group(group, body.pieces());
             let members = &group.header;
-            (motion.bound(group, members), members.first_child)
+            (motion.bound_group(group, members), members.first_child)
         }
         NodeChildren::Piece(_) => unreachable!("a single piece has no children"),
     };
@@ -162,7 +162,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 
     /// Computes the free times of the children in a group against the other body's node.
     #[inline(always)]
-    fn bound<C: Children>(&self, group: &C, members: &GroupHeader) -> EightPairBounds {
+    fn bound_group<C: Children>(&self, group: &C, members: &GroupHeader) -> EightPairBounds {
         let RelativeState {
             rotation, offset, ..
         } = self.relative_state;
@@ -296,7 +296,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_rotation(), self.other_rotation());
-        let reach = self.header.reach;
+        let reach = self.header.max_distance_from_origin;
         let common = self.motion.node_context;
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
@@ -310,7 +310,7 @@ impl<L: Simd> GroupMotion<'_, L> {
                 .map(|change| change.as_vec3()),
             split_rotation: split,
             other_rotation: other,
-            horizon: self.motion.horizon,
+            remaining_time: self.motion.horizon,
             slack,
             closed_gap_threshold: common.closed_gap_threshold,
             rate_allowance: common.rate_allowance,
@@ -332,7 +332,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             acceleration: None,
             split_rotation: BodyRotation::NONE,
             other_rotation: BodyRotation::NONE,
-            horizon: 0.0,
+            remaining_time: 0.0,
             slack: self.rounding(centre, radius),
             closed_gap_threshold: 0.0,
             rate_allowance: 1.0,
@@ -345,7 +345,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
         let [x, y, z] = centre.abs().to_array();
         let rounding = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
-            + GAP_ERROR_PER_RADIUS_F32 * (radius + self.header.reach);
+            + GAP_ERROR_PER_RADIUS_F32 * (radius + self.header.max_distance_from_origin);
         (rounding + self.motion.node_context.rounding).next_up()
     }
 }

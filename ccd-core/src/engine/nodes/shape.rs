@@ -21,7 +21,7 @@ pub(crate) trait Children {
     }
     /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
     /// from the children's centres to the target.
-    fn offset_from_nearest<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
+    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children are single pieces, and cannot be split.
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
@@ -42,7 +42,7 @@ pub(crate) trait OtherNode {
     }
     /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads
     /// from the given points to the node's centre.
-    fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
+    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;
 }
@@ -77,7 +77,7 @@ impl Children for BoxGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn offset_from_nearest<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         to
     }
     #[inline(always)]
@@ -125,7 +125,7 @@ impl Children for TriangleGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn offset_from_nearest<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         let level = to.simd_level();
         let to = self.centre(level) + to;
         to - nearest_on_edges(self.corners(level), to)
@@ -181,7 +181,7 @@ impl OtherNode for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
         let [u, v, w] = splat_vectors(offset.simd_level(), self.axes);
         let x = offset
             .dot(u)
@@ -241,7 +241,7 @@ impl OtherNode for OtherTriangle {
         self.radius
     }
     #[inline(always)]
-    fn offset_to_nearest<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
         let level = offset.simd_level();
         let from = Vec3x8::splat(level, Vec3::ZERO) - offset;
         offset + nearest_on_edges(splat_vectors(level, self.corners), from)

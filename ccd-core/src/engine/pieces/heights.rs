@@ -4,7 +4,7 @@ use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
-use crate::motion::track::{AngleSinCos, MotionAlongAxis, RotatingVector, Track};
+use crate::motion::track::{AngleSinCos, HeightFunction, MotionAlongAxis, RotatingVector};
 use crate::problem::BodyWithPath;
 use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use glam::DVec3;
@@ -50,7 +50,7 @@ const MAX_TRACKED_POINTS: usize = 3;
 
 /// The tracks of up to three points; unused entries repeat the last.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PointTracks([(Track, f64); MAX_TRACKED_POINTS]);
+pub(crate) struct PointTracks([(HeightFunction, f64); MAX_TRACKED_POINTS]);
 
 impl PointTracks {
     /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
@@ -90,7 +90,7 @@ impl<'a> Heights<'a> {
             speed_bound: length(velocity) + length(path.acceleration),
             acceleration: length(path.acceleration),
             least_height: f64::INFINITY,
-            point_tracks: PointTracks([(Track::default(), 0.0); MAX_TRACKED_POINTS]),
+            point_tracks: PointTracks([(HeightFunction::default(), 0.0); MAX_TRACKED_POINTS]),
             second_derivative: 0.0,
             support_error_bound: 0.0,
         };
@@ -201,13 +201,17 @@ impl<'a> Heights<'a> {
     }
 
     /// Returns a lower bound of the second derivative of the points' heights without rotation.
-    pub(crate) fn least_linear_acceleration(&self) -> f64 {
+    pub(crate) fn linear_acceleration_lower_bound(&self) -> f64 {
         self.motion_along_axis.linear_acceleration() - RATE_ERROR_F64 * self.acceleration
     }
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
-    pub(crate) fn least_point_value(&self, tau: f64, of: impl Fn(&PointHeight) -> f64) -> f64 {
+    pub(crate) fn point_value_lower_bound(
+        &self,
+        tau: f64,
+        of: impl Fn(&PointHeight) -> f64,
+    ) -> f64 {
         match self.piece.bounding_ball() {
             Some(_) => of(&self.bound_all_points(tau)),
             None => self
@@ -247,7 +251,7 @@ impl<'a> Heights<'a> {
     }
 
     /// Returns the track of the point that is lowest along a direction, in the body's current pose.
-    fn lowest_track(&self, direction: DVec3) -> Track {
+    fn lowest_track(&self, direction: DVec3) -> HeightFunction {
         let index = self
             .piece
             .extremal_point(self.frame.inverse_transform_vector(-direction));
@@ -255,14 +259,18 @@ impl<'a> Heights<'a> {
     }
 
     /// Returns for each point its track and its arm from the centre of rotation.
-    fn tracks_and_arms(&self) -> impl Iterator<Item = (Track, DVec3)> {
+    fn tracks_and_arms(&self) -> impl Iterator<Item = (HeightFunction, DVec3)> {
         self.piece.points.iter().map(|&x| self.track_and_arm(x))
     }
 
     #[inline]
-    fn track_and_arm(&self, point: DVec3) -> (Track, DVec3) {
+    fn track_and_arm(&self, point: DVec3) -> (HeightFunction, DVec3) {
         let arm = self.frame.rotation * (point - self.centre);
-        (self.motion_along_axis.track(self.normal.dot(arm), arm), arm)
+        (
+            self.motion_along_axis
+                .height_function_of_point(self.normal.dot(arm), arm),
+            arm,
+        )
     }
 }
 
@@ -291,11 +299,11 @@ pub(crate) fn least_free_time_of_many_points(
 ) -> f64 {
     let of_below = || {
         let bound = above.bound_all_points(tau);
-        below.least_point_value(tau, |x| free(&bound, x))
+        below.point_value_lower_bound(tau, |x| free(&bound, x))
     };
     let of_above = || {
         let bound = below.bound_all_points(tau);
-        above.least_point_value(tau, |y| free(y, &bound))
+        above.point_value_lower_bound(tau, |y| free(y, &bound))
     };
     match (above.is_nonrotating(), below.is_nonrotating()) {
         (true, _) => of_below(),

@@ -6,9 +6,9 @@ use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
 use crate::problem::{Problem, WhichBody};
-use crate::rounding::MIN_APPROACH;
+use crate::rounding::MIN_APPROACH_PER_ROUNDING;
 use crate::touching_plane::TouchingPlane;
-use crate::tuning::MIN_RESTING_SLACK;
+use crate::tuning::RESTING_SLACK_PER_ROUNDING;
 use glam::DVec3;
 
 /// The state of a [`TouchingPlane`] that keeps two pieces apart: the body with which it moves, and the least gap.
@@ -32,7 +32,7 @@ impl TouchingPlane {
         let from =
             frame_a.inverse_transform_point(problem.to_problem_point(contact.separation.witness_a));
         let gap = snapshot.gap_along_normal(normal, from);
-        let resting = MIN_APPROACH * problem.rounding;
+        let resting = MIN_APPROACH_PER_ROUNDING * problem.rounding;
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
             normals: [frame_a, frame_b].map(|frame| frame.inverse_transform_vector(normal)),
@@ -53,7 +53,7 @@ impl Snapshot<'_> {
         ids: [u32; 2],
         from: DVec3,
     ) -> Option<TouchingPlaneState> {
-        let resting = MIN_APPROACH * self.problem.rounding;
+        let resting = MIN_APPROACH_PER_ROUNDING * self.problem.rounding;
         let of = |plane_body: WhichBody| {
             let normal = self.plane_normal(plane_body)?;
             let gap = self.gap_along_normal(normal, from);
@@ -88,7 +88,7 @@ impl Snapshot<'_> {
         };
         let slack = self.gap_along_normal(normal, from) - level.min_gap;
         // Written so that NaN counts as no slack.
-        if slack > MIN_RESTING_SLACK * self.problem.rounding {
+        if slack > RESTING_SLACK_PER_ROUNDING * self.problem.rounding {
             self.plane_free_time(&SeparatingPlane { normal, slack })
         } else {
             Some(0.0)
@@ -113,8 +113,8 @@ impl Snapshot<'_> {
     /// Returns whether the plane with this normal has the solids of the two pieces on different sides. Two pieces that
     /// both lie in the plane are apart on either side of it, wherever the solids are.
     fn is_plane_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
-        let in_one_plane =
-            self.gap_along_normal(-normal, from) >= -2.0 * MIN_APPROACH * self.problem.rounding;
+        let in_one_plane = self.gap_along_normal(-normal, from)
+            >= -2.0 * MIN_APPROACH_PER_ROUNDING * self.problem.rounding;
         if !in_one_plane {
             return true;
         }

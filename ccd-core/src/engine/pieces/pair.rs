@@ -11,7 +11,7 @@ use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::MIN_APPROACH;
+use crate::rounding::MIN_APPROACH_PER_ROUNDING;
 use crate::settings::StartPolicy;
 use glam::DVec3;
 
@@ -34,7 +34,7 @@ enum ContactRule {
     /// The pair counts as in contact once it is within the query's tolerance. The clock proves half of the tolerance.
     Apart,
     /// Like `Apart`, for a pair that was in contact at the start and has separated since.
-    Separated,
+    SeparatedAfterStart,
     /// The pair was in contact at the start, up to rounding. It is in contact again once its gap cannot be proven to be
     /// above `floor`.
     InContactAtStart { floor: f64 },
@@ -80,7 +80,7 @@ impl<C: Default + Clone> Pair<C> {
     ) -> PairStep {
         let snapshot = Snapshot::new(problem, self.a, self.b, s);
         let known = std::mem::replace(&mut self.was_advanced, true);
-        self.advance_with(&snapshot, oracle, meter, |snapshot, checked, kept| {
+        self.advance_with_free_time(&snapshot, oracle, meter, |snapshot, checked, kept| {
             if known {
                 snapshot.free_time(checked, kept)
             } else {
@@ -91,7 +91,7 @@ impl<C: Default + Clone> Pair<C> {
 
     /// Like [`Pair::advance`], with a given snapshot and another function for the free time. Pairs in contact at the
     /// start use the usual free time.
-    pub(crate) fn advance_with<O: DistanceOracle<Cache = C>>(
+    pub(crate) fn advance_with_free_time<O: DistanceOracle<Cache = C>>(
         &mut self,
         snapshot: &Snapshot<'_>,
         oracle: &mut O,
@@ -131,7 +131,7 @@ impl<C: Default + Clone> Pair<C> {
                 ContactRule::Apart => self
                     .rule_ignoring_start_contact(problem, oracle, meter)
                     .or_else(level),
-                ContactRule::Separated => level(),
+                ContactRule::SeparatedAfterStart => level(),
                 ContactRule::InContactAtStart { .. } | ContactRule::TouchingPlane(_) => {
                     Some(self.contact_rule)
                 }
@@ -141,10 +141,10 @@ impl<C: Default + Clone> Pair<C> {
                 None => return in_contact(&checked),
             }
         } else if checked.lower > apart && self.contact_rule != ContactRule::Apart {
-            self.contact_rule = ContactRule::Separated;
+            self.contact_rule = ContactRule::SeparatedAfterStart;
         }
         let (kept, is_resting) = match self.contact_rule {
-            ContactRule::Apart | ContactRule::Separated => (problem.gap(), false),
+            ContactRule::Apart | ContactRule::SeparatedAfterStart => (problem.gap(), false),
             ContactRule::InContactAtStart { floor } => (floor, true),
             ContactRule::TouchingPlane(level) => {
                 let free = snapshot.touching_plane_free_time(&level, checked.witness_a);
@@ -202,12 +202,12 @@ impl<C: Default + Clone> Pair<C> {
         let start = improve_axis(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting = start.upper <= problem.contact_distance()
-            && start.lower >= -MIN_APPROACH * problem.rounding;
+            && start.lower >= -MIN_APPROACH_PER_ROUNDING * problem.rounding;
         if !resting {
             return None;
         }
         Some(ContactRule::InContactAtStart {
-            floor: start.lower - MIN_APPROACH * problem.rounding,
+            floor: start.lower - MIN_APPROACH_PER_ROUNDING * problem.rounding,
         })
     }
 }

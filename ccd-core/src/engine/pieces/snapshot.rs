@@ -12,11 +12,11 @@ use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::{MIN_APPROACH, RATE_ERROR_F64};
+use crate::rounding::{MIN_APPROACH_PER_ROUNDING, RATE_ERROR_F64};
 use crate::shortcuts::Shortcut;
 use crate::shortcuts::turning_pieces::{MovingPiece, PiecePastTurningPlane};
 use crate::tuning::{
-    ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_RESTING_SLACK, MIN_ROTATION_GAP_SHARE,
+    ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_ROTATION_GAP_SHARE, RESTING_SLACK_PER_ROUNDING,
     SUFFICIENT_FIRST_FREE_TIME,
 };
 use glam::DVec3;
@@ -31,7 +31,7 @@ pub(crate) struct Snapshot<'p> {
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
     /// The number of heights of points that this snapshot has evaluated.
-    evaluations: Cell<u64>,
+    height_evaluation_count: Cell<u64>,
 }
 
 impl<'p> Snapshot<'p> {
@@ -53,7 +53,7 @@ impl<'p> Snapshot<'p> {
             frames,
             pieces: PiecePair { a, b, b_to_a },
             clock,
-            evaluations: Cell::new(0),
+            height_evaluation_count: Cell::new(0),
         }
     }
 
@@ -65,7 +65,7 @@ impl<'p> Snapshot<'p> {
                 b,
                 ..self.pieces
             },
-            evaluations: Cell::new(0),
+            height_evaluation_count: Cell::new(0),
             ..*self
         }
     }
@@ -204,7 +204,7 @@ impl<'p> Snapshot<'p> {
         let rounding = self.problem.rounding;
         let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
         // Written so that NaN counts as no slack.
-        let is_left = |slack: f64| slack > MIN_RESTING_SLACK * rounding;
+        let is_left = |slack: f64| slack > RESTING_SLACK_PER_ROUNDING * rounding;
         let anyhow = || {
             if is_left(checked.lower - kept) {
                 self.free_time(checked, kept)
@@ -213,7 +213,7 @@ impl<'p> Snapshot<'p> {
             }
         };
         // This includes pieces that have passed the plane by the rounding of resting.
-        let in_one_plane = slack(-checked.axis) >= -MIN_APPROACH * rounding;
+        let in_one_plane = slack(-checked.axis) >= -MIN_APPROACH_PER_ROUNDING * rounding;
         if !in_one_plane {
             return anyhow();
         }
@@ -229,7 +229,7 @@ impl<'p> Snapshot<'p> {
             (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
             (Facing::OutwardNormal(n), Facing::OutwardNormal(m)) => match -(turn * m) {
                 // The solids are on the same side of the plane: their faces slide, and cannot meet.
-                into_b if n.dot(into_b) < 0.0 => longer_time(along(n), along(into_b)),
+                into_b if n.dot(into_b) < 0.0 => greater_free_time(along(n), along(into_b)),
                 _ => along(n),
             },
             (Facing::OutwardNormal(n), Facing::NoOutwardSide) => along(n),
@@ -298,8 +298,8 @@ impl<'p> Snapshot<'p> {
             |relative_speed: f64| relative_speed * free > MIN_ROTATION_GAP_SHARE * plane.slack;
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
-            if uses_up(holder.relative_speed_bound)
-                && uses_up(holder.relative_speed_bound_along(normal))
+            if uses_up(holder.rotational_speed_bound)
+                && uses_up(holder.rotational_speed_bound_along(normal))
             {
                 let sweep =
                     PiecePastTurningPlane::new(holder, other, normal, self.problem.rounding);
@@ -323,11 +323,12 @@ impl<'p> Snapshot<'p> {
 
     /// Returns the number of heights of points that this snapshot has evaluated.
     pub(crate) fn evaluations(&self) -> u64 {
-        self.evaluations.get()
+        self.height_evaluation_count.get()
     }
 
     fn record_evaluations(&self, points: u64) {
-        self.evaluations.set(self.evaluations.get() + points);
+        self.height_evaluation_count
+            .set(self.height_evaluation_count.get() + points);
     }
 
     fn time_left(&self) -> f64 {
@@ -338,7 +339,7 @@ impl<'p> Snapshot<'p> {
     /// always does. `slack` is the present excess over the required gap.
     ///
     /// Every point's height along the axis is known exactly
-    /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
+    /// ([`HeightFunction`](crate::motion::track::HeightFunction)). Newton's method follows the least gap between any
     /// two points, with a bound on its curvature.
     pub(crate) fn fixed_plane_free_time(&self, normal: DVec3, slack: f64) -> Option<f64> {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
@@ -347,7 +348,8 @@ impl<'p> Snapshot<'p> {
         let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal, clock);
         let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
         let rounding = RATE_ERROR_F64 * (a.speed_bound() + b.speed_bound());
-        let linear_acceleration = a.least_linear_acceleration() + b.least_linear_acceleration();
+        let linear_acceleration =
+            a.linear_acceleration_lower_bound() + b.linear_acceleration_lower_bound();
         let rounds = if a.is_nonrotating() && b.is_nonrotating() {
             1
         } else {
@@ -435,7 +437,7 @@ fn least_linear_displacement(rate: f64, linear_acceleration: f64, horizon: f64) 
 }
 
 /// Returns the longer of two free times; `None` stands for an unbounded time.
-fn longer_time(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+fn greater_free_time(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
 }
 

@@ -9,9 +9,9 @@ use proptest::prelude::*;
 /// Removes all items from a queue, and returns them in the order of removal.
 fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
     let mut out = Vec::new();
-    while let Some((_, item)) = queue.next() {
+    while let Some((_, item)) = queue.peek_next() {
         out.push(*item);
-        queue.remove();
+        queue.remove_next();
     }
     out
 }
@@ -33,8 +33,8 @@ fn least_clock_first_then_piece_pairs_then_the_newest() {
     }
     assert_eq!(drain(&mut queue), [0, 1, 2, 3, 4, 5, 6]);
     assert_eq!(queue.peak_length(), 7);
-    assert!(queue.next().is_none());
-    queue.remove();
+    assert!(queue.peek_next().is_none());
+    queue.remove_next();
 }
 
 #[test]
@@ -53,8 +53,8 @@ fn clocks_keep_all_their_bits() {
         queue.push(clock, Rank::Siblings, item as u32).unwrap();
     }
     for &clock in &clocks {
-        assert_eq!(queue.next().unwrap().0, clock);
-        queue.remove();
+        assert_eq!(queue.peek_next().unwrap().0, clock);
+        queue.remove_next();
     }
 }
 
@@ -72,8 +72,8 @@ fn places_are_used_again() {
     assert_eq!(queue.peak_length(), 10);
     queue.clear();
     assert_eq!(queue.peak_length(), 0);
-    assert!(queue.next().is_none());
-    queue.remove();
+    assert!(queue.peek_next().is_none());
+    queue.remove_next();
 }
 
 #[test]
@@ -82,9 +82,9 @@ fn postponed_items_wait_in_order() {
     for (clock, item) in [(0.1, 0), (0.2, 1), (0.3, 2)] {
         queue.push(clock, Rank::Siblings, item).unwrap();
     }
-    *queue.next().unwrap().1 = 7;
+    *queue.peek_next().unwrap().1 = 7;
     queue.postpone(0.25);
-    assert_eq!(*queue.next().unwrap().1, 1);
+    assert_eq!(*queue.peek_next().unwrap().1, 1);
     assert_eq!(drain(&mut queue), [1, 7, 2]);
 }
 
@@ -102,7 +102,7 @@ proptest! {
             list.sort_by(|x, y| x.partial_cmp(y).unwrap());
             let rank = [Rank::PiecePair, Rank::Siblings][rng.random_range(0..2)];
             let new = (clock, rank as u8, -step, step as u32);
-            let least = queue.next().map(|(clock, item)| (clock, *item));
+            let least = queue.peek_next().map(|(clock, item)| (clock, *item));
             prop_assert_eq!(least, list.first().map(|first| (first.0, first.3)));
             match (rng.random_range(0..6), list.first_mut()) {
                 (0, Some(first)) => {
@@ -115,13 +115,13 @@ proptest! {
                 }
                 (2, Some(first)) => {
                     *first = new;
-                    queue.replace(clock, rank, step as u32);
+                    queue.replace_next(clock, rank, step as u32);
                 }
                 (3, first) => {
                     if first.is_some() {
                         list.remove(0);
                     }
-                    queue.remove();
+                    queue.remove_next();
                 }
                 _ => {
                     queue.push(clock, rank, step as u32).unwrap();

@@ -97,7 +97,7 @@ fn a_start_within_any_margin_costs_one_distance() {
         let separation = contact.separation;
         assert!(separation.lower <= 0.4 && separation.upper >= 0.4);
         assert!(separation.upper - separation.lower < 2.0 * SKIPPED_PAIR_ALLOWANCE);
-        visits.push(answer.stats.work());
+        visits.push(answer.stats.budgeted_work());
     }
     assert!(visits.iter().all(|&visits| visits < 1_000), "{visits:?}");
 }
@@ -158,7 +158,7 @@ fn bounds_hold_the_distance_and_no_budget_makes_another_answer() {
             assert_eq!(outcome, ending, "{number}: {budget} of {visits}");
             ended += 1;
         }
-        scene.settings.budget = full.stats.work();
+        scene.settings.budget = full.stats.budgeted_work();
         assert_eq!(solve(&scene.problem()).outcome, full.outcome, "{number}");
     }
     assert!(touching > 100 && ended > 1_000, "{touching} {ended}");

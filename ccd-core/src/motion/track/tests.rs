@@ -2,7 +2,7 @@
 
 mod sin_cos;
 
-use super::{AngleSinCos, MotionAlongAxis, Track};
+use super::{AngleSinCos, HeightFunction, MotionAlongAxis};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{Velocities, published_bound, sound_bound};
@@ -16,12 +16,12 @@ use crate::tests::worst::{WorstCaseSearch, error_share};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
-impl Track {
+impl HeightFunction {
     /// Creates the track along `n` of a point that starts at `height`, with the vector `arm` from the motion's centre.
     fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
         let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
         MotionAlongAxis::new(motion.linear_velocity, axis, length(motion.spin), n)
-            .track(height, arm)
+            .height_function_of_point(height, arm)
     }
 
     /// Returns the height after `tau`.
@@ -62,7 +62,7 @@ fn a_track_is_the_height_of_a_turning_point() {
     let mut rng = rng(1);
     for _ in 0..10_000 {
         let (motion, n, arm) = random_motion_axis_and_arm(&mut rng);
-        let track = Track::new(&motion, n, 0.3, arm);
+        let track = HeightFunction::new(&motion, n, 0.3, arm);
         let tau = rng.random_range(0.0..1.0);
         let size = 2.0 + motion.linear_velocity.length() + motion.spin.length();
         let off = track.height_after(tau) - height(&motion, n, 0.3, arm, tau);
@@ -71,7 +71,7 @@ fn a_track_is_the_height_of_a_turning_point() {
 }
 
 /// Returns the highest point of a track over `[0, tau]`, from dense samples refined by golden section search.
-fn sampled_max_height(track: &Track, turns: f64, tau: f64) -> f64 {
+fn sampled_max_height(track: &HeightFunction, turns: f64, tau: f64) -> f64 {
     let samples = 64 + (64.0 * turns) as usize;
     let at = |k: usize| tau * k as f64 / samples as f64;
     let best = (0..=samples).max_by(|&i, &j| {
@@ -96,7 +96,7 @@ fn sampled_max_height(track: &Track, turns: f64, tau: f64) -> f64 {
 }
 
 /// Returns the time within a duration of 1 at which a track may reach a limit; `None` if it stays below.
-fn possible_crossing_time(track: &Track, limit: f64) -> Option<f64> {
+fn possible_crossing_time(track: &HeightFunction, limit: f64) -> Option<f64> {
     first_possible_crossing(1.0, 64, |tau| {
         let angle = AngleSinCos::new(track.angular_speed * tau);
         Gap {
@@ -114,7 +114,7 @@ fn the_first_crossing_is_never_late_and_near() {
     let (mut crossings, mut near) = (0, 0);
     for _ in 0..10_000 {
         let (motion, n, arm) = random_motion_axis_and_arm(&mut rng);
-        let track = Track::new(&motion, n, 0.0, arm);
+        let track = HeightFunction::new(&motion, n, 0.0, arm);
         let limit = random_power_of_ten(&mut rng, -6.0, 0.3);
         let samples = 64 + (64.0 * motion.spin.length()) as usize;
         let at = |k: usize| k as f64 / samples as f64;
@@ -251,7 +251,7 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     assert!(contact < 0.7);
     let step = gap / sound_bound(&motion, DVec3::Y, reach);
     assert!(step < contact);
-    let tracks = tips.map(|tip| Track::new(&motion, DVec3::Y, tip.y, tip));
+    let tracks = tips.map(|tip| HeightFunction::new(&motion, DVec3::Y, tip.y, tip));
     let turns = motion.spin.length() * step;
     assert!(
         tracks
@@ -275,7 +275,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
     for _ in 0..20_000 {
         let (mut motion, n, arm) = random_motion_axis_and_arm(&mut rng);
         motion.linear_velocity = DVec3::ZERO;
-        let track = Track::new(&motion, n, 0.3, arm);
+        let track = HeightFunction::new(&motion, n, 0.3, arm);
         let horizon = rng.random_range(0.0..1.0);
         let least =
             track.least_rotational_height(horizon, AngleSinCos::new(track.angular_speed * horizon));
@@ -308,7 +308,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
 #[test]
 fn worst_least_until() {
     let found = WorstCaseSearch::new("RATE_F64, least heights of points", 40_000).search(|tape| {
-        let track = Track {
+        let track = HeightFunction {
             height: 0.0,
             linear_rate: 0.0,
             linear_acceleration: 0.0,
@@ -349,7 +349,7 @@ fn worst_least_until() {
 #[test]
 fn worst_bend() {
     let found = WorstCaseSearch::new("RATE_F64, bends of points", 40_000).search(|tape| {
-        let track = Track {
+        let track = HeightFunction {
             height: 0.0,
             linear_rate: 0.0,
             linear_acceleration: 0.0,

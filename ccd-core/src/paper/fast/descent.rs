@@ -173,7 +173,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             .max_axis_distances(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
-        let step = pair.advance_with(
+        let step = pair.advance_with_free_time(
             &snapshot,
             self.oracle,
             self.meter,
@@ -212,7 +212,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             let far = [first, first + 1].into_iter().all(|child| {
                 self.traversal_tree.node(child).lower >= JOIN_DISTANCE_RATIO * distance
             });
-            if !far || self.traversal_tree.node(at).join_distance <= distance {
+            if !far || self.traversal_tree.node(at).max_join_distance <= distance {
                 continue;
             }
             self.measure_pair(snapshot, at, found)?;
@@ -220,7 +220,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             if node.lower >= distance && node.clock >= next {
                 self.traversal_tree.join_children(at);
             } else {
-                node.join_distance = distance / JOIN_DISTANCE_RATIO;
+                node.max_join_distance = distance / JOIN_DISTANCE_RATIO;
             }
         }
         ControlFlow::Continue(())

@@ -62,7 +62,7 @@ fn random_ball_row(rng: &mut Pcg64, count: usize) -> Body {
         let middle = first + (end - first) / 2;
         stack.extend([(left, first, middle), (left + 1, middle, end)]);
     }
-    let pieces = Pieces::polytopes(&balls).unwrap();
+    let pieces = Pieces::from_polytopes(&balls).unwrap();
     let tree = HullTree::new(&pieces, &nodes).unwrap();
     let body = Body::new(&pieces, Volume::Surface).unwrap();
     body.with_hull_tree(tree).unwrap()

@@ -33,7 +33,7 @@ pub(super) struct Node<C> {
     /// Whether pieces or bridges own the pair's nearest features.
     pub(super) feature_owners: FeatureOwners,
     /// The children are joined only while the bodies are nearer than this; each attempt that fails lowers it.
-    pub(super) join_distance: f64,
+    pub(super) max_join_distance: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -161,7 +161,7 @@ impl<C: Default + Clone> Node<C> {
             lower: f64::NEG_INFINITY,
             clock: 0.0,
             feature_owners: FeatureOwners::BothBridges,
-            join_distance: f64::INFINITY,
+            max_join_distance: f64::INFINITY,
         }
     }
 }

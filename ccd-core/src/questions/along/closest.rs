@@ -14,10 +14,10 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::query::span::Span;
 use crate::questions::closest::required::RequiredClearance;
-use crate::questions::closest::{FartherThanCutoff, meet_after_start};
+use crate::questions::closest::{FartherThanCutoff, is_contact_after_start};
 use crate::questions::depth_first::DepthFirst;
 use crate::tuning::{MAX_DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
-use found::{LeastDistanceSoFar, StretchDistance};
+use found::{LeastDistanceBounds, StretchDistanceBounds};
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
@@ -43,7 +43,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let mut closest = ClosestApproachSearch {
             schedule: self,
-            least_distance_so_far: LeastDistanceSoFar::new(query),
+            least_distance_so_far: LeastDistanceBounds::new(query),
         };
         search_stretches(&mut closest, query, oracle)
     }
@@ -72,7 +72,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
 struct ClosestApproachSearch<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
-    least_distance_so_far: LeastDistanceSoFar,
+    least_distance_so_far: LeastDistanceBounds,
 }
 
 impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
@@ -87,7 +87,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         oracle: &mut O,
     ) -> Result<(), InputError> {
         let found = &mut self.least_distance_so_far;
-        let work = stretches.stats.work();
+        let work = stretches.stats.budgeted_work();
         let (Some(rung), Ok(left)) = (
             found
                 .lower_bound_attempts
@@ -121,7 +121,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
     ) -> Result<Option<f64>, InputError> {
         let measured = self.measure_at_time(stretches, oracle, time)?;
         let increasing = measured.filter(|seen| seen.distance_increases_from_end(motions, time));
-        Ok(increasing.map(|seen| seen.stretch_length(motions)))
+        Ok(increasing.map(|seen| seen.suitable_stretch_length(motions)))
     }
 
     fn search_stretch(
@@ -140,7 +140,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
             .search_least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.result {
-            Err(FartherThanCutoff { lower }) => StretchDistance::for_distant_motions(lower),
+            Err(FartherThanCutoff { lower }) => StretchDistanceBounds::for_distant_motions(lower),
             Ok(Outcome::Overlapping { .. }) if stretches.schedule_start_examination(motions)? => {
                 return Ok(ControlFlow::Continue(()));
             }
@@ -149,7 +149,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
             {
                 return Ok(ControlFlow::Break(found.answer(stretches, outcome)));
             }
-            Ok(outcome) => match found.record(motions, &outcome) {
+            Ok(outcome) => match found.record_stretch_outcome(motions, &outcome) {
                 Ok(seen) => seen,
                 Err(limit) => {
                     let stopped = found.unresolved(stretches, motions.span, limit);
@@ -192,9 +192,9 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let nearest = self.least_distance_so_far.nearest_answer(stretches);
-        if meet_after_start(&nearest.outcome, nearest.tolerance) {
-            self.check_start_overlap(stretches, oracle, nearest)
+        let nearest = self.least_distance_so_far.least_distance_answer(stretches);
+        if is_contact_after_start(&nearest.outcome, nearest.tolerance) {
+            self.overlap_or_nearest_answer(stretches, oracle, nearest)
         } else {
             Ok(nearest)
         }
@@ -203,7 +203,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
 
 impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
     /// Returns `nearest`, or the answer that the bodies overlap if they overlap at the start.
-    fn check_start_overlap(
+    fn overlap_or_nearest_answer(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
@@ -233,7 +233,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
         motions: &StretchMotions,
-        seen: &StretchDistance,
+        seen: &StretchDistanceBounds,
     ) -> Result<bool, InputError> {
         let time = motions.query_time(seen.time);
         let query = stretches.query();
@@ -251,10 +251,12 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         }
         let length = match self.measure_at_time(stretches, oracle, time)? {
             Some(distance_at_time) => greater(
-                distance_at_time.stretch_length(motions),
-                motions.length_for_rate(distance_at_time.rate.abs()),
+                distance_at_time.suitable_stretch_length(motions),
+                motions.stretch_length_for_rate(distance_at_time.rate.abs()),
             ),
-            None => motions.length_for_deviation(MAX_DEVIATION_SHARE * query.settings.tolerance),
+            None => {
+                motions.stretch_length_for_deviation(MAX_DEVIATION_SHARE * query.settings.tolerance)
+            }
         };
         Ok(stretches.cut_out_around(motions.span, time, length))
     }
@@ -299,8 +301,8 @@ struct DeviationLimitAndRate {
 }
 
 impl DeviationLimitAndRate {
-    fn stretch_length(&self, motions: &StretchMotions) -> f64 {
-        motions.length_for_deviation(MAX_DEVIATION_SHARE * self.deviation_limit)
+    fn suitable_stretch_length(&self, motions: &StretchMotions) -> f64 {
+        motions.stretch_length_for_deviation(MAX_DEVIATION_SHARE * self.deviation_limit)
     }
 
     /// Returns whether the distance increases from the given end of the stretch towards its middle.

@@ -1,7 +1,7 @@
 //! Searches for the first or any contact along trajectories, one stretch of time after the other.
 
 use super::drive::{Question, search_stretches};
-use super::lengths::{choose_next_length, suitable_length_by_measurement};
+use super::lengths::{choose_next_stretch_length, suitable_length_by_measurement};
 use super::motions::StretchMotions;
 use super::stretches::WaitingStretches;
 use crate::answer::{Answer, Contact, Limit, Outcome};
@@ -111,9 +111,9 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
         }
         let (span, time) = (motions.span, motions.query_time(seen.0));
         let scratch = self.schedule.scratch();
-        let length = choose_next_length(stretches, motions, seen, oracle, scratch)?;
+        let length = choose_next_stretch_length(stretches, motions, seen, oracle, scratch)?;
         let is_cut = match self.wanted_contact {
-            WantedContact::First => cut_after(stretches, span, time, length),
+            WantedContact::First => queue_rest_after(stretches, span, time, length),
             WantedContact::Any => stretches.cut_out_around(span, time, 2.0 * length),
         };
         Ok(if is_cut {
@@ -152,7 +152,12 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
 
 /// Lets the part of a stretch after a time wait, in two if it is long. Returns false if that is the whole stretch and
 /// it cannot be cut.
-fn cut_after(stretches: &mut WaitingStretches<'_, '_>, span: Span, time: f64, length: f64) -> bool {
+fn queue_rest_after(
+    stretches: &mut WaitingStretches<'_, '_>,
+    span: Span,
+    time: f64,
+    length: f64,
+) -> bool {
     let rest = Span { from: time, ..span };
     // A much shorter stretch also has much smaller deviations.
     let is_short = rest.length() <= lesser(length, 0.5 * span.length());

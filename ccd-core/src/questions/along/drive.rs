@@ -72,21 +72,15 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
     query: &Query<'_>,
     oracle: &mut O,
 ) -> Result<Answer, InputError> {
-    let spare = &mut question
-        .scratch()
-        .get_or_insert_default()
-        .spare_stretch_lists;
+    let spare = &mut question.scratch().get_or_insert_default().spare_span_lists;
     let mut stretches = WaitingStretches::new(query, spare.pop().unwrap_or_default());
-    let answer = search_waiting(question, &mut stretches, oracle);
-    let spare = &mut question
-        .scratch()
-        .get_or_insert_default()
-        .spare_stretch_lists;
-    spare.push(stretches.into_memory());
+    let answer = search_waiting_stretches(question, &mut stretches, oracle);
+    let spare = &mut question.scratch().get_or_insert_default().spare_span_lists;
+    spare.push(stretches.into_stretch_lists());
     answer
 }
 
-fn search_waiting<O: DistanceOracle, Q: Question<O>>(
+fn search_waiting_stretches<O: DistanceOracle, Q: Question<O>>(
     question: &mut Q,
     stretches: &mut WaitingStretches<'_, '_>,
     oracle: &mut O,

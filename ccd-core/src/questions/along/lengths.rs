@@ -21,7 +21,7 @@ pub(super) fn suitable_length_by_measurement<O: DistanceOracle>(
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<Option<f64>, InputError> {
-    let seen = stretches.measure(time, oracle, scratch)?;
+    let seen = stretches.measure_distance_at(time, oracle, scratch)?;
     Ok(seen.map(|(contact, approach)| {
         // Rates have the opposite sign backwards in time.
         let approach = if time > motions.span.from {
@@ -29,12 +29,12 @@ pub(super) fn suitable_length_by_measurement<O: DistanceOracle>(
         } else {
             approach
         };
-        length_from_distance(stretches.query(), motions, (contact, approach))
+        stretch_length_from_distance(stretches.query(), motions, (contact, approach))
     }))
 }
 
 /// Chooses the length of the next stretch to search, after the motions of a stretch were found in contact.
-pub(super) fn choose_next_length<O: DistanceOracle>(
+pub(super) fn choose_next_stretch_length<O: DistanceOracle>(
     stretches: &mut WaitingStretches<'_, '_>,
     motions: &StretchMotions,
     (time, seen): (f64, Option<Contact>),
@@ -49,11 +49,13 @@ pub(super) fn choose_next_length<O: DistanceOracle>(
         return Ok(f64::INFINITY);
     } else {
         // The motions begin beside the bodies. They do not show the distance of the bodies, which is measured.
-        stretches.measure(motions.span.from, oracle, scratch)?
+        stretches.measure_distance_at(motions.span.from, oracle, scratch)?
     };
     Ok(match seen {
-        Some(seen) => length_from_distance(query, motions, seen),
-        None => motions.length_for_deviation(MAX_DEVIATION_SHARE * query.settings.tolerance),
+        Some(seen) => stretch_length_from_distance(query, motions, seen),
+        None => {
+            motions.stretch_length_for_deviation(MAX_DEVIATION_SHARE * query.settings.tolerance)
+        }
     })
 }
 
@@ -63,7 +65,7 @@ pub(super) fn choose_next_length<O: DistanceOracle>(
 ///
 /// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
 /// and pass each other closely, they are nearest after about `2 d/r`.
-fn length_from_distance(
+fn stretch_length_from_distance(
     query: &Query<'_>,
     motions: &StretchMotions,
     (contact, approach): (Contact, f64),
@@ -76,10 +78,10 @@ fn length_from_distance(
     // Written so that NaN is no time.
     if nearest > 0.0 {
         lesser(
-            motions.length_for_deviation(MAX_DEVIATION_SHARE * gap),
+            motions.stretch_length_for_deviation(MAX_DEVIATION_SHARE * gap),
             nearest,
         )
     } else {
-        motions.length_for_deviation((1.0 - MAX_DEVIATION_SHARE) * gap)
+        motions.stretch_length_for_deviation((1.0 - MAX_DEVIATION_SHARE) * gap)
     }
 }

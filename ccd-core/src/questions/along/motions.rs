@@ -56,7 +56,7 @@ impl StretchMotions {
 
     /// Returns whether the deviations and the displacements by acceleration are at most the largest coordinate minus
     /// the margin.
-    pub(super) fn is_in_range(&self, query: &Query<'_>) -> bool {
+    pub(super) fn is_in_coordinate_range(&self, query: &Query<'_>) -> bool {
         let time = self.span.length();
         let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
         let [a, b] = &self.stretches;
@@ -69,14 +69,14 @@ impl StretchMotions {
     }
 
     /// Estimates how long a stretch of time may be for its motions to deviate so far from the trajectories. Deviations shrink with a power of the length.
-    pub(super) fn length_for_deviation(&self, stray: f64) -> f64 {
+    pub(super) fn stretch_length_for_deviation(&self, stray: f64) -> f64 {
         self.span.length()
             * (stray / self.total_deviation_bound).powf(1.0 / self.deviation_exponent())
     }
 
     /// Estimates the length of the stretch whose deviation is `MAX_DEVIATION_SHARE` times its change of distance, if the
     /// distance changes at `rate`.
-    pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
+    pub(super) fn stretch_length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole
             * (MAX_DEVIATION_SHARE * rate * whole / self.total_deviation_bound)

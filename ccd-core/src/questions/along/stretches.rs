@@ -4,7 +4,7 @@ use super::motions::StretchMotions;
 use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::run_metered;
-use crate::engine::scratch::{Scratch, StretchLists};
+use crate::engine::scratch::{Scratch, SpanLists};
 use crate::engine::start::search_contact_at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
@@ -23,7 +23,7 @@ pub(super) struct WaitingStretches<'j, 'a> {
     query: &'j Query<'a>,
     waiting_spans: Vec<Span>,
     pub(super) stats: Stats,
-    spent_work: WorkByPart,
+    spent_work_by_part: WorkByPart,
     was_start_examined: bool,
     /// The stretch that was proven last, with its deviation.
     last_proven_stretch: Option<(Span, f64)>,
@@ -33,8 +33,8 @@ pub(super) struct WaitingStretches<'j, 'a> {
 
 impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// Creates the stack with the whole duration of the query as the only stretch, in memory of an earlier query.
-    pub(super) fn new(query: &'j Query<'a>, memory: StretchLists) -> Self {
-        let StretchLists {
+    pub(super) fn new(query: &'j Query<'a>, memory: SpanLists) -> Self {
+        let SpanLists {
             mut waiting_spans,
             mut work_by_part,
         } = memory;
@@ -50,7 +50,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
             query,
             waiting_spans,
             stats: Stats::default(),
-            spent_work: WorkByPart {
+            spent_work_by_part: WorkByPart {
                 work_by_part,
                 current_part_index: 0,
                 work_at_part_start: 0,
@@ -62,10 +62,10 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     }
 
     /// Returns the memory for a later query.
-    pub(super) fn into_memory(self) -> StretchLists {
-        StretchLists {
+    pub(super) fn into_stretch_lists(self) -> SpanLists {
+        SpanLists {
             waiting_spans: self.waiting_spans,
-            work_by_part: self.spent_work.work_by_part,
+            work_by_part: self.spent_work_by_part.work_by_part,
         }
     }
 
@@ -96,8 +96,8 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
             return Err(Limit::Stopped);
         }
         let spent = self
-            .spent_work
-            .work_spent_on_current_part(self.stats.work());
+            .spent_work_by_part
+            .work_spent_on_current_part(self.stats.budgeted_work());
         let budget = terms.budget.checked_sub(spent);
         let left = |(deadline, begun): (Duration, Instant)| {
             let left = deadline.checked_sub(begun.elapsed());
@@ -121,7 +121,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// Adds work on the whole query to the total, without counting it towards the budget of any part.
     pub(super) fn add_uncharged_work(&mut self, stats: &Stats) {
         self.stats.add(stats);
-        self.spent_work.work_at_part_start += stats.work();
+        self.spent_work_by_part.work_at_part_start += stats.budgeted_work();
     }
 
     /// Returns the approximate motions in a stretch and the remaining settings, or the limit that is reached. The
@@ -133,8 +133,8 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
         loop {
             // All later work counts towards the budget of the part that contains the stretch.
-            self.spent_work
-                .switch_to_part(span.part_index, self.stats.work());
+            self.spent_work_by_part
+                .switch_to_part(span.part_index, self.stats.budgeted_work());
             let terms = match self.remaining_settings() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
@@ -145,7 +145,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
             } else {
                 motions.without_accelerations()
             };
-            if motions.is_in_range(self.query) || !self.cut(span, 0.5 * span.length()) {
+            if motions.is_in_coordinate_range(self.query) || !self.cut(span, 0.5 * span.length()) {
                 return Ok(Ok((motions, terms)));
             }
             self.stats.iterations += 1;
@@ -227,14 +227,14 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         let span = Span {
             from: time,
             end: time,
-            part_index: self.spent_work.current_part_index,
+            part_index: self.spent_work_by_part.current_part_index,
         };
         Ok(Ok((StretchMotions::new(self.query, span)?, terms)))
     }
 
     /// Measures the distance of the bodies at a time, up to rounding. Returns the nearest points and the rate at which
     /// the bodies approach; `None` if they overlap, or a limit is reached.
-    pub(super) fn measure<O: DistanceOracle>(
+    pub(super) fn measure_distance_at<O: DistanceOracle>(
         &mut self,
         time: f64,
         oracle: &mut O,
@@ -326,8 +326,8 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         let at = Some(corner.unwrap_or(span.from + length)).filter(is_within)?;
         let (mut before, mut after) = (Span { end: at, ..span }, Span { from: at, ..span });
         if corner.is_some() {
-            before.part_index = self.spent_work.add_part(span.part_index);
-            after.part_index = self.spent_work.add_part(span.part_index);
+            before.part_index = self.spent_work_by_part.add_part(span.part_index);
+            after.part_index = self.spent_work_by_part.add_part(span.part_index);
         }
         Some([before, after])
     }

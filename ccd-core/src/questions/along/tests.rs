@@ -18,7 +18,7 @@ use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{
-    Pcg64, RngExt, SceneKind, SoupKind, body, random_power_of_ten, rng, scene, soup,
+    Pcg64, RngExt, SceneKind, SoupKind, body, random_power_of_ten, random_triangle_soup, rng, scene,
 };
 use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
@@ -35,7 +35,7 @@ impl SwingingBodies {
     fn draw(rng: &mut Pcg64) -> Self {
         let soups = [(); 2].map(|()| {
             let count = rng.random_range(1..6);
-            soup(rng, SoupKind::WellShaped, count, 1.0)
+            random_triangle_soup(rng, SoupKind::WellShaped, count, 1.0)
         });
         let mut swings = [(); 2].map(|()| SwingingTrajectory::draw(rng, 0.7));
         swings[0].place += 1.2 * DVec3::X;

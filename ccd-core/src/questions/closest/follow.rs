@@ -7,7 +7,7 @@ use crate::engine::pieces::pair;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::lesser;
 use crate::problem::Problem;
-use crate::tuning::{FOLLOW_ACCURACY, MAX_FOLLOW_MEASUREMENTS, MAX_FOLLOW_ROTATION};
+use crate::tuning::{FOLLOW_TOLERANCE_SHARE, MAX_FOLLOW_MEASUREMENTS, MAX_FOLLOW_ROTATION};
 
 /// Follows the pieces of a contact to a nearby local minimum of their distance over time. Returns the nearest
 /// measurement.
@@ -24,7 +24,7 @@ pub(crate) fn follow_to_minimum<O: DistanceOracle>(
         cache: O::Cache::default(),
         nearest_pair: seen,
     };
-    if let Some([falling, other]) = descent.bracket(seen.clock) {
+    if let Some([falling, other]) = descent.bracket_minimum(seen.clock) {
         descent.narrow(falling, other);
     }
     descent.nearest_pair
@@ -77,7 +77,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
     /// Steps from a clock in the direction of time in which the distance decreases, until the distance grows again.
     /// Returns two clocks with a local minimum of the distance between them; the distance decreases from the first one
     /// on.
-    fn bracket(&mut self, from: f64) -> Option<[DistanceAndRate; 2]> {
+    fn bracket_minimum(&mut self, from: f64) -> Option<[DistanceAndRate; 2]> {
         let mut here = self.measure(from)?;
         let forward = here.rate < 0.0;
         let end = if forward { 1.0 } else { 0.0 };
@@ -119,7 +119,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         for look in 0..MAX_FOLLOW_MEASUREMENTS {
             let width = other.clock - falling.clock;
             // Written so that NaN is narrow enough.
-            if !((width * falling.rate).abs() > FOLLOW_ACCURACY * self.problem.tolerance) {
+            if !((width * falling.rate).abs() > FOLLOW_TOLERANCE_SHARE * self.problem.tolerance) {
                 return;
             }
             // The step goes to the zero of a straight line through both rates. Every other step halves the interval,

@@ -10,7 +10,7 @@ use crate::engine::start::overlap_outcome;
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::shortcuts::bounding_volumes::{clock_of_nearest_balls, least_distance};
-use crate::tuning::{FOLLOW_ACCURACY, MAX_INITIAL_MEASUREMENTS};
+use crate::tuning::{FOLLOW_TOLERANCE_SHARE, MAX_INITIAL_MEASUREMENTS};
 use std::ops::ControlFlow;
 
 /// Measures the bodies at the time at which their bounding balls are nearest, and follows the nearest pieces to a local
@@ -28,7 +28,7 @@ pub(crate) fn estimate_nearest_pair<O: DistanceOracle>(
     for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
         let found = search_nearest_pieces_at(problem, clock, upper, oracle, meter);
-        let Some(found) = found.map_break(|stop| outcome_of_stop(problem, best, stop))? else {
+        let Some(found) = found.map_break(|stop| early_end_outcome(problem, best, stop))? else {
             break;
         };
         let followed = follow_to_minimum(problem, oracle, meter, found);
@@ -36,7 +36,7 @@ pub(crate) fn estimate_nearest_pair<O: DistanceOracle>(
         best = Some(followed);
         clock = followed.clock;
         // Written so that NaN is no fall.
-        if !(fell > FOLLOW_ACCURACY * problem.tolerance) {
+        if !(fell > FOLLOW_TOLERANCE_SHARE * problem.tolerance) {
             break;
         }
     }
@@ -79,7 +79,7 @@ pub(crate) fn search_nearest_pieces_at<O: DistanceOracle>(
 
 /// Returns the outcome for a measurement that was stopped, because the bodies overlap at the start or a limit is
 /// reached.
-fn outcome_of_stop(
+fn early_end_outcome(
     problem: &Problem<'_>,
     best: Option<NearestPair>,
     stop: EarlyEndReason,

@@ -9,7 +9,7 @@ use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
 use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
-use crate::engine::search::{AdvanceResult, Question, Search};
+use crate::engine::search::{AdvanceResult, Search, SearchHandler};
 use crate::engine::start::overlap_outcome;
 use crate::math::order::lesser;
 use crate::problem::Problem;
@@ -68,7 +68,7 @@ impl LeastDistanceSearch {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
-        let work = meter.stats.work();
+        let work = meter.stats.budgeted_work();
         let budget = problem.budget.min(work.saturating_add(rung.budget));
         let lower = MarginQuery { budget, ..rung }.problem(problem);
         let mut below = LeastDistanceSearch {
@@ -122,7 +122,7 @@ impl LeastDistanceSearch {
             _ => return found,
         };
         for _ in 0..MAX_FINAL_ATTEMPTS {
-            let left = problem.budget.saturating_sub(meter.stats.work());
+            let left = problem.budget.saturating_sub(meter.stats.budgeted_work());
             let Some(rung) = self
                 .lower_bound_attempts
                 .next_attempt(self.upper(), left / 2)
@@ -137,7 +137,7 @@ impl LeastDistanceSearch {
     }
 }
 
-impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
+impl<O: DistanceOracle> SearchHandler<O> for LeastDistanceSearch {
     type Conclusion = Result<Outcome, FartherThanCutoff>;
 
     fn on_advance(

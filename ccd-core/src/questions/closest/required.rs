@@ -111,8 +111,10 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
     }
 
     /// Returns the budget less the work of the queries so far.
-    fn remaining_work(&self) -> u64 {
-        self.clearance.budget.saturating_sub(self.stats.work())
+    fn remaining_budget(&self) -> u64 {
+        self.clearance
+            .budget
+            .saturating_sub(self.stats.budgeted_work())
     }
 
     /// Runs the second query, which asks whether the bodies come nearer than the distance by more than the excess.
@@ -130,7 +132,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
             } else {
                 lesser(query_tolerance, 0.5 * distance)
             },
-            budget: self.remaining_work(),
+            budget: self.remaining_budget(),
         };
         let found = self.run_query(rung)?.outcome;
         Ok(match (found, self.clearance.clearance_outcome(found)) {
@@ -152,7 +154,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         }
         for _ in 0..MAX_FINAL_ATTEMPTS {
             let Some(rung) =
-                ladder.next_attempt(self.clearance.distance, self.remaining_work() / 2)
+                ladder.next_attempt(self.clearance.distance, self.remaining_budget() / 2)
             else {
                 break;
             };

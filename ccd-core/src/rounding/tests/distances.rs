@@ -75,7 +75,7 @@ impl Scene {
     }
 
     /// Returns the exact position of a body's point after the share `s` of the duration.
-    fn place(&self, body: usize, s: f64, point: DVec3) -> DoubleDouble3 {
+    fn exact_position(&self, body: usize, s: f64, point: DVec3) -> DoubleDouble3 {
         let time = DoubleDouble::from(self.duration) * DoubleDouble::from(s);
         let fall = DoubleDouble3::from(self.accelerations[body])
             .scale(time * time * DoubleDouble::from(0.5));
@@ -195,7 +195,7 @@ fn worst_places_of_accelerating_bodies() {
         let k = tape.index_below(2);
         let frame = [&problem.a, &problem.b][k].path.frame(s);
         let off = |p: &DVec3| {
-            let exact = scene.place(k, s, *p) - origin;
+            let exact = scene.exact_position(k, s, *p) - origin;
             (DoubleDouble3::from(frame.transform_point(*p)) - exact)
                 .length()
                 .get()
@@ -230,7 +230,7 @@ fn worst_views() {
         });
         let found = DoubleDouble3::from(found)
             - (DoubleDouble3::from(x) - DoubleDouble3::from(from.path.centre));
-        let exact = scene.place(1 - own, s, y) - scene.place(own, s, x);
+        let exact = scene.exact_position(1 - own, s, y) - scene.exact_position(own, s, x);
         let off = (found.length() - exact.length()).get().abs();
         Some(error_share(off, problem.rounding))
     });

@@ -4,8 +4,9 @@ use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
 use crate::rounding::{
-    DETERMINANT_ERROR_F64, FRAME_ERROR_F64, HEIGHT_ERROR_F64, LEAST_ROUNDING, SQUARED_LENGTH_RANGE,
-    TURN_COUNT_WIDENING, UNIT_ROUNDOFF_F64, distance_rounding, height_rounding,
+    DETERMINANT_ERROR_F64, FRAME_ERROR_F64, HEIGHT_ERROR_F64, SQUARED_LENGTH_RANGE,
+    TURN_COUNT_WIDENING, UNDERFLOW_ERROR_BOUND, UNIT_ROUNDOFF_F64, distance_rounding,
+    height_rounding,
 };
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::rational::{Exact3, error_of};
@@ -197,7 +198,9 @@ fn least_rounding() {
     let found = WorstCaseSearch::new("LEAST_ROUNDING", 10_000).search(|tape| {
         let v = DVec3::from(tape.vector(-1074..=-1000));
         let bound = distance_rounding([length(v), 0.0], [0.0; 2], 0.0);
-        assert!(bound >= LEAST_ROUNDING && length(v).powi(2) < *SQUARED_LENGTH_RANGE.start());
+        assert!(
+            bound >= UNDERFLOW_ERROR_BOUND && length(v).powi(2) < *SQUARED_LENGTH_RANGE.start()
+        );
         // A third of a vector occurs in a mean of corners.
         let third = v / 3.0;
         let exact = Exact3::from_coordinates(v);

@@ -9,7 +9,7 @@ use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::tests::scene::{
     MotionThroughPose, RngExt, SoupKind, body, distance, random_direction, random_point_in_ball,
-    random_power_of_ten, random_rotation, rng, soup,
+    random_power_of_ten, random_rotation, random_triangle_soup, rng,
 };
 use glam::DVec3;
 
@@ -31,7 +31,14 @@ fn assert_bodies_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
             rng.random_range(1..6),
             random_power_of_ten(&mut rng, -2.0, 1.0),
         );
-        let bodies = [0, 1].map(|_| body(&soup(&mut rng, SoupKind::WellShaped, count, size)));
+        let bodies = [0, 1].map(|_| {
+            body(&random_triangle_soup(
+                &mut rng,
+                SoupKind::WellShaped,
+                count,
+                size,
+            ))
+        });
         let turn = random_power_of_ten(&mut rng, -3.0, 1.5);
         let motions = [0, 1].map(|_| {
             let passage = MotionThroughPose {

@@ -13,18 +13,18 @@ use glam::{DVec2, DVec3};
 
 /// The projection of a triangle along a screw motion to the plane of `r` and `ζ`.
 #[derive(Debug)]
-pub(crate) struct Outline {
+pub(crate) struct HelicalProjection {
     /// The corners as (`r`, `ζ`), distance from the axis and height along the screw. Their triangle reaches at least as far out
     /// as the triangle itself.
-    outer_corners: [DVec2; 3],
+    max_radius_corners: [DVec2; 3],
     /// The projected corners with a lower bound of the distance from the axis as `r`; the bound is a linear function
     /// over the triangle.
-    inner_corners: [DVec2; 3],
+    min_radius_corners: [DVec2; 3],
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
     zeta_nonlinearity_bound: f64,
     /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
     /// to them.
-    rounding_lengths: [f64; 2],
+    centre_distance_and_radius: [f64; 2],
     helix_slope: f64,
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct ZetaApproximation {
     /// A point on the axis, and the direction of the axis.
     pub(crate) axis_point_and_direction: [DVec3; 2],
     /// The value of `ζ` at the node's centre.
-    pub(crate) zeta: f64,
+    pub(crate) centre_zeta: f64,
     /// The gradient of `ζ` at the node's centre.
     pub(crate) zeta_gradient: DVec3,
     pub(crate) zeta_nonlinearity_bound: f64,
@@ -41,7 +41,7 @@ pub(crate) struct ZetaApproximation {
     pub(crate) helix_slope: f64,
 }
 
-impl Outline {
+impl HelicalProjection {
     /// Projects a triangle along the screw; `None` if the node is not a single triangle.
     pub(crate) fn new(node: &PlacedNode, linear: &ZetaApproximation) -> Option<Self> {
         let corners = node.corners()?;
@@ -59,12 +59,13 @@ impl Outline {
             .into_iter()
             .min_by(|[a, b], [c, d]| a.dot(*b).total_cmp(&c.dot(*d)))?;
         let facing = unit(x + y)?;
-        let zeta = |w: DVec3| linear.zeta + w.dot(linear.zeta_gradient);
-        Some(Outline {
-            outer_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
-            inner_corners: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
+        let zeta = |w: DVec3| linear.centre_zeta + w.dot(linear.zeta_gradient);
+        Some(HelicalProjection {
+            max_radius_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
+            min_radius_corners: [0, 1, 2]
+                .map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
             zeta_nonlinearity_bound: linear.zeta_nonlinearity_bound,
-            rounding_lengths: linear.rounding_lengths,
+            centre_distance_and_radius: linear.rounding_lengths,
             helix_slope: linear.helix_slope,
         })
     }
@@ -72,12 +73,16 @@ impl Outline {
     /// Returns an interval that contains all values of `n.x r + n.y ζ` over the triangle.
     pub(crate) fn interval(&self, n: DVec2) -> [f64; 2] {
         let (least, most) = if n.x < 0.0 {
-            (&self.outer_corners, &self.inner_corners)
+            (&self.max_radius_corners, &self.min_radius_corners)
         } else {
-            (&self.inner_corners, &self.outer_corners)
+            (&self.min_radius_corners, &self.max_radius_corners)
         };
         let slack = n.y.abs() * self.zeta_nonlinearity_bound
-            + profile_rounding(n.abs().to_array(), self.rounding_lengths, self.helix_slope);
+            + profile_rounding(
+                n.abs().to_array(),
+                self.centre_distance_and_radius,
+                self.helix_slope,
+            );
         let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
         let high = most
             .iter()
@@ -88,7 +93,7 @@ impl Outline {
 
     /// Returns the surfaces `a r + b ζ = const` along the triangle's edges, as unit vectors (`a`, `b`) with `b ≥ 0`.
     pub(crate) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
-        let [a, b, c] = self.outer_corners;
+        let [a, b, c] = self.max_radius_corners;
         let edges = [b - a, c - b, a - c];
         let across = edges.map(|edge| edge.perp() / edge.length());
         // An edge along the turn has no direction here. Written so that NaN gives none.

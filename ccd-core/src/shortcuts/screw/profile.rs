@@ -7,7 +7,7 @@
 //! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
 
 use super::super::placed::PlacedNode;
-use super::outline::{Outline, ZetaApproximation};
+use super::outline::{HelicalProjection, ZetaApproximation};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::track::sin_cos;
@@ -19,7 +19,7 @@ use std::f64::consts::{PI, TAU};
 /// The number of families of helical surfaces `a r + b ζ = const` that are tried to separate nodes; the directions (a,
 /// b) are spread evenly over half a turn. Eleven degrees between neighbouring surfaces cost at most a tenth of a node's
 /// width, for the flanks of a thread at any slope.
-const SURFACE_COUNT: usize = 16;
+const SURFACE_FAMILY_COUNT: usize = 16;
 
 /// The axis of a screw motion at the start, with the surfaces about it that may separate nodes.
 #[derive(Debug)]
@@ -29,7 +29,7 @@ pub(crate) struct ScrewAxis {
     /// The advance along the axis per radian of rotation.
     advance: f64,
     /// The coefficients (a, b) of each family of surfaces `a r + b ζ = const`.
-    surfaces: [DVec2; SURFACE_COUNT],
+    surfaces: [DVec2; SURFACE_FAMILY_COUNT],
     /// The unit vectors of azimuth 0 and of azimuth π/2, perpendicular to the axis.
     azimuth_axes: [DVec3; 2],
 }
@@ -38,25 +38,25 @@ pub(crate) struct ScrewAxis {
 /// the node, and how fast `f` changes nearby.
 #[derive(Debug)]
 pub(crate) struct Profile {
-    low: [f64; SURFACE_COUNT],
-    high: [f64; SURFACE_COUNT],
+    low: [f64; SURFACE_FAMILY_COUNT],
+    high: [f64; SURFACE_FAMILY_COUNT],
     /// The azimuth of the node's centre.
     azimuth: f64,
     azimuth_half_width: f64,
     /// Half of a lower bound of the node's distance from the axis: a path from the node of at most this length stays at
     /// least this length away from the axis.
-    safe_length: f64,
-    /// The greatest change of any `f` per unit of length, on paths from the node of at most `safe_length`.
-    steepest_change: f64,
+    half_min_axis_distance: f64,
+    /// The greatest change of any `f` per unit of length, on paths from the node of at most `half_min_axis_distance`.
+    max_gradient: f64,
     /// The projection of a node that is a single triangle, which gives intervals for any surface; `None` for other
     /// nodes.
-    outline: Option<Outline>,
+    triangle_projection: Option<HelicalProjection>,
 }
 
 impl ScrewAxis {
     pub(crate) fn new(origin: DVec3, unit: DVec3, advance: f64) -> Self {
         let surfaces = std::array::from_fn(|k| {
-            let (sin, cos) = sin_cos(PI * k as f64 / SURFACE_COUNT as f64);
+            let (sin, cos) = sin_cos(PI * k as f64 / SURFACE_FAMILY_COUNT as f64);
             DVec2::new(cos, sin)
         });
         let (x, y) = unit.any_orthonormal_pair();
@@ -84,16 +84,17 @@ impl Profile {
     ) -> Option<Self> {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
-            all.outline = None;
+            all.triangle_projection = None;
             let part = Profile::with_azimuth_near(&part, axis, Some(all.azimuth))?;
-            for k in 0..SURFACE_COUNT {
+            for k in 0..SURFACE_FAMILY_COUNT {
                 all.low[k] = lesser(all.low[k], part.low[k]);
                 all.high[k] = greater(all.high[k], part.high[k]);
             }
             let off = (part.azimuth - all.azimuth).abs();
             all.azimuth_half_width = greater(all.azimuth_half_width, off + part.azimuth_half_width);
-            all.safe_length = lesser(all.safe_length, part.safe_length);
-            all.steepest_change = greater(all.steepest_change, part.steepest_change);
+            all.half_min_axis_distance =
+                lesser(all.half_min_axis_distance, part.half_min_axis_distance);
+            all.max_gradient = greater(all.max_gradient, part.max_gradient);
         }
         Some(all)
     }
@@ -122,13 +123,13 @@ impl Profile {
         let (arm, steep) = (length(way), axis.advance / (0.5 * inner));
         let aside = greater(node.extent_along(onward), node.extent_along(-onward));
         let mut profile = Profile {
-            low: [0.0; SURFACE_COUNT],
-            high: [0.0; SURFACE_COUNT],
+            low: [0.0; SURFACE_FAMILY_COUNT],
+            high: [0.0; SURFACE_FAMILY_COUNT],
             azimuth,
             azimuth_half_width: aside / inner,
-            safe_length: 0.5 * inner,
-            steepest_change: (1.0 + steep * steep).sqrt() * (1.0 + RATE_ERROR_F64),
-            outline: None,
+            half_min_axis_distance: 0.5 * inner,
+            max_gradient: (1.0 + steep * steep).sqrt() * (1.0 + RATE_ERROR_F64),
+            triangle_projection: None,
         };
         let bulge = 0.5 * aside * aside / inner;
         let twist = 0.5 * axis.advance.abs() * (node.radius / inner) * (node.radius / inner);
@@ -146,14 +147,14 @@ impl Profile {
         }
         let linear = ZetaApproximation {
             axis_point_and_direction: [axis.origin, axis.direction],
-            zeta,
+            centre_zeta: zeta,
             zeta_gradient: ahead,
             zeta_nonlinearity_bound: twist,
             rounding_lengths: [arm, node.radius],
             helix_slope: axis.advance / distance,
         };
-        profile.outline = Outline::new(node, &linear);
-        if let Some(outline) = &profile.outline {
+        profile.triangle_projection = HelicalProjection::new(node, &linear);
+        if let Some(outline) = &profile.triangle_projection {
             for (k, &n) in axis.surfaces.iter().enumerate() {
                 let [low, high] = outline.interval(n);
                 profile.low[k] = greater(profile.low[k], low);
@@ -165,7 +166,12 @@ impl Profile {
 
     /// Returns an interval of shifts of the other node's `ζ`: for shifts outside of it, a surface separates the nodes
     /// by more than the needed gap. The interval is empty if some surface separates them for any shift.
-    fn unseparated_shifts(&self, other: &Profile, axis: &ScrewAxis, needed_gap: f64) -> [f64; 2] {
+    fn unseparated_shift_range(
+        &self,
+        other: &Profile,
+        axis: &ScrewAxis,
+        needed_gap: f64,
+    ) -> [f64; 2] {
         let common = axis.surfaces.iter().enumerate();
         let common = common.map(|(k, &n)| {
             (
@@ -175,7 +181,10 @@ impl Profile {
             )
         });
         // The surfaces along the edges of two triangles.
-        let outlines = self.outline.iter().zip(&other.outline);
+        let outlines = self
+            .triangle_projection
+            .iter()
+            .zip(&other.triangle_projection);
         let own = outlines.flat_map(|(own, others)| {
             let surfaces = own.surfaces().chain(others.surfaces());
             surfaces.map(move |n| (n, own.interval(n), others.interval(n)))
@@ -203,8 +212,8 @@ impl Profile {
         let ahead = still.azimuth - self.azimuth;
         let width = self.azimuth_half_width
             + still.azimuth_half_width
-            + way.needed_gap / greater(self.safe_length, still.safe_length);
-        let [from, to] = way.angles;
+            + way.needed_gap / greater(self.half_min_axis_distance, still.half_min_axis_distance);
+        let [from, to] = way.angle_range;
         whole_numbers_in([from - width - ahead, to + width - ahead].map(|angle| angle / TAU))
     }
 }
@@ -227,7 +236,7 @@ pub(crate) struct ScrewPath {
     pub(crate) pitch: f64,
     /// The rotation angles of the turning body at the start and the end of the part, measured from the start of the
     /// query.
-    pub(crate) angles: [f64; 2],
+    pub(crate) angle_range: [f64; 2],
     pub(crate) needed_gap: f64,
 }
 
@@ -243,17 +252,17 @@ pub(crate) fn profiles_keep_apart(
     axis: &ScrewAxis,
     way: &ScrewPath,
 ) -> bool {
-    let near = if still.safe_length > turning.safe_length {
+    let near = if still.half_min_axis_distance > turning.half_min_axis_distance {
         still
     } else {
         turning
     };
     // Written so that NaN proves nothing.
-    if !(near.safe_length > way.needed_gap) {
+    if !(near.half_min_axis_distance > way.needed_gap) {
         return false;
     }
     let [least, most] =
-        turning.unseparated_shifts(still, axis, way.needed_gap * near.steepest_change);
+        turning.unseparated_shift_range(still, axis, way.needed_gap * near.max_gradient);
     if least > most {
         return true;
     }

@@ -31,7 +31,7 @@ struct CaseCounts {
     /// The number of free times that are nearly as long as possible: at their end most of the slack is used up.
     exhausted_slack_count: usize,
     /// The number of samples in which both bodies turn.
-    samples_with_both_turning: usize,
+    both_turning_sample_count: usize,
     fast_body_count: usize,
     many_point_piece_count: usize,
 }
@@ -55,7 +55,7 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
         "{seen:?}"
     );
     assert!(
-        seen.samples_with_both_turning > 3_000 && seen.fast_body_count > 1_000,
+        seen.both_turning_sample_count > 3_000 && seen.fast_body_count > 1_000,
         "{seen:?}"
     );
     assert!(seen.many_point_piece_count > 3_000, "{seen:?}");
@@ -99,7 +99,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     let snapshot = Snapshot::new(problem, 0, 0, clock);
     let members = snapshot.moving_pieces();
     let (own, other) = (&members[holder], &members[1 - holder]);
-    if !own.side.path.is_turning() {
+    if !own.body_with_path.path.is_turning() {
         return;
     }
     // The axis is constant in its body's frame.
@@ -134,7 +134,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
             "{found:e} < {least:e} at {s} of {until} from {clock}"
         );
     }
-    let turns = own.side.path.rate + other.side.path.rate;
+    let turns = own.body_with_path.path.rate + other.body_with_path.path.rate;
     match free {
         None => seen.unbounded_time_count += 1,
         Some(free) if free > 0.0 => {
@@ -143,7 +143,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
         }
         Some(_) => {}
     }
-    seen.samples_with_both_turning += usize::from(other.side.path.is_turning());
+    seen.both_turning_sample_count += usize::from(other.body_with_path.path.is_turning());
     seen.fast_body_count += usize::from(turns > 50.0);
     seen.many_point_piece_count += usize::from(other.piece.points.len() > 3);
 }
@@ -166,7 +166,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
         let members = snapshot.moving_pieces();
         for holder in [0, 1] {
             let (own, other) = (&members[holder], &members[1 - holder]);
-            if !own.side.path.is_turning() {
+            if !own.body_with_path.path.is_turning() {
                 continue;
             }
             let normal = random_direction(&mut rng);

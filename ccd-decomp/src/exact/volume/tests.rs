@@ -68,10 +68,10 @@ fn worst_volume() {
             truth += p.minus(&near).dot(&q.minus(&p).cross(&r.minus(&p)));
         }
         // The last sum is rounded as well.
-        let error = error_of(volume.sum + volume.addition_errors, &truth);
+        let error = error_of(volume.sum + volume.addition_error_sum, &truth);
         Some(error_share(
             error,
-            volume_rounding(volume.term_bound_sum, volume.term_count),
+            volume_rounding_bound(volume.term_bound_sum, volume.term_count),
         ))
     });
     found.assert_tight_bound(40.0);

@@ -43,7 +43,7 @@ fn facets_are_polygons_that_name_their_own_group_s_vertices() {
             }
         })
         .collect();
-    let text = obj_text(&Pieces::polytopes(&polytopes).unwrap());
+    let text = obj_text(&Pieces::from_polytopes(&polytopes).unwrap());
     let (first, second) = text.split_once("g piece_1\n").unwrap();
     let faces = |group: &str| group.lines().filter(|line| line.starts_with('f')).count();
     assert_eq!((faces(first), faces(second)), (6, 6));
@@ -63,7 +63,7 @@ fn pieces_without_facets_are_a_segment_or_points() {
         points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         ..Polytope::default()
     };
-    let text = obj_text(&Pieces::polytopes(&[segment, cloud]).unwrap());
+    let text = obj_text(&Pieces::from_polytopes(&[segment, cloud]).unwrap());
     assert!(text.contains("l 1 2\n"), "{text}");
     assert!(text.ends_with("p 3 4 5 6\n"), "{text}");
 }

@@ -49,11 +49,11 @@ struct HullBuilder<'a> {
     facets: Vec<Facet>,
     /// For each point, one facet that the point sees. It is a removed facet or [`NONE`] if the point is inside the
     /// hull.
-    visible_facet: Vec<u32>,
+    visible_facet_by_point: Vec<u32>,
     /// For each point, the last facet that the point was tested against.
-    last_tested_facet: Vec<u32>,
+    last_facet_by_point: Vec<u32>,
     /// For each point, the new facet at the horizon edge that starts at the point.
-    facet_at_horizon_start: Vec<u32>,
+    horizon_facet_by_start: Vec<u32>,
 }
 
 /// An edge between a facet that the inserted point sees and a facet that it does not see.
@@ -80,9 +80,9 @@ impl<'a> HullBuilder<'a> {
             points: LocalPoints::new(points),
             spare_lists: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
-            visible_facet: vec![NONE; points.len()],
-            last_tested_facet: vec![NONE; points.len()],
-            facet_at_horizon_start: vec![NONE; points.len()],
+            visible_facet_by_point: vec![NONE; points.len()],
+            last_facet_by_point: vec![NONE; points.len()],
+            horizon_facet_by_start: vec![NONE; points.len()],
         };
         hull.push([a, b, c], [1, 2, 3], order);
         hull.push([b, a, d], [0, 3, 2], order);
@@ -98,9 +98,9 @@ impl<'a> HullBuilder<'a> {
         let mut seen_by = self.spare_lists.pop().unwrap_or_default();
         for &v in candidates {
             let is_new =
-                std::mem::replace(&mut self.last_tested_facet[v as usize], number) != number;
+                std::mem::replace(&mut self.last_facet_by_point[v as usize], number) != number;
             if is_new && self.points.is_in_front(&plane, corners, v) {
-                self.visible_facet[v as usize] = number;
+                self.visible_facet_by_point[v as usize] = number;
                 seen_by.push(v);
             }
         }
@@ -119,7 +119,7 @@ impl<'a> HullBuilder<'a> {
     }
 
     fn insert_point(&mut self, v: u32) {
-        let first = self.visible_facet[v as usize];
+        let first = self.visible_facet_by_point[v as usize];
         // A point that sees a new facet also saw one of the two facets at its rim edge, so that no conflict is lost.
         if first == NONE || !self.facets[first as usize].is_on_hull {
             return;
@@ -127,7 +127,7 @@ impl<'a> HullBuilder<'a> {
         let (removed, rim) = self.remove_visible_facets(first, v);
         let base = self.facets.len() as u32;
         for (k, edge) in (base..).zip(&rim) {
-            self.facet_at_horizon_start[edge.ends[0] as usize] = k;
+            self.horizon_facet_by_start[edge.ends[0] as usize] = k;
         }
         let mut candidates = Vec::new();
         for (k, edge) in (base..).zip(&rim) {
@@ -139,7 +139,7 @@ impl<'a> HullBuilder<'a> {
             // The previous facet is set once all are added.
             let adjacent = [
                 edge.unseen_facet,
-                self.facet_at_horizon_start[b as usize],
+                self.horizon_facet_by_start[b as usize],
                 NONE,
             ];
             self.push([a, b, v], adjacent, &candidates);

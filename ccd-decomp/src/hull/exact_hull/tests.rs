@@ -62,7 +62,7 @@ proptest! {
                 let gained = hull.facets().iter().filter(|f| !before.contains(f));
                 prop_assert!(lost.clone().count() > 0 && gained.clone().count() >= 3);
                 let mut corners = lost.chain(gained).flatten().map(|&v| points[v as usize]);
-                prop_assert!(corners.all(|p| changed.meets(&Bounds::enclosing([p]))));
+                prop_assert!(corners.all(|p| changed.meets(&BoundingBox::enclosing([p]))));
                 check(&points, &hull)?;
                 prop_assert!(hull.corners().contains(&last));
             }

@@ -9,7 +9,7 @@ use crate::tolerance::{
 /// The budget of vertices and face corners that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExpansionBudget {
-    remaining_cost: u64,
+    remaining_budget: u64,
     limit: u64,
 }
 
@@ -30,16 +30,16 @@ impl ExpansionBudget {
             BASE_EXPANSION_LIMIT.saturating_add(bytes.saturating_mul(EXPANSION_LIMIT_PER_BYTE));
         let limit = once.saturating_add(repeated.min(MAX_EXPANSION_LIMIT));
         ExpansionBudget {
-            remaining_cost: limit,
+            remaining_budget: limit,
             limit,
         }
     }
 
     /// Spends a cost from the budget; returns an error if too little is left.
     pub(crate) fn spend(&mut self, cost: u64) -> Result<(), MeshFault> {
-        let left = self.remaining_cost.checked_sub(cost);
+        let left = self.remaining_budget.checked_sub(cost);
         let limit = self.limit;
-        self.remaining_cost = left.ok_or(MeshFault::TooManyRepeats { limit })?;
+        self.remaining_budget = left.ok_or(MeshFault::TooManyRepeats { limit })?;
         Ok(())
     }
 }

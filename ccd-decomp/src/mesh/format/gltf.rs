@@ -49,7 +49,7 @@ pub(super) fn file_references(bytes: &[u8]) -> Result<FileReferences, MeshFault>
     let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
     let root = Root::read(Container::read(unmarked)?.json)?;
     for (k, buffer) in root.buffers.iter().enumerate() {
-        let name = buffers::linked_file_name(buffer)
+        let name = buffers::linked_file_path(buffer)
             .map_err(|fault| fault.at_element(element_name("buffer", k, None)))?;
         if let Some(name) = name {
             let most = references.entry(name).or_default();

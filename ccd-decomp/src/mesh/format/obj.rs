@@ -69,7 +69,7 @@ struct ObjReader {
     groups: NamedGroups,
     /// The first face corner whose vertex number is 0 or counts back beyond the first vertex: its face, and that
     /// number.
-    first_invalid_corner: Option<(usize, i64)>,
+    first_invalid_vertex_reference: Option<(usize, i64)>,
 }
 
 impl ObjReader {
@@ -116,7 +116,7 @@ impl ObjReader {
                 vertex - 1
             };
             if place < 0 {
-                self.first_invalid_corner
+                self.first_invalid_vertex_reference
                     .get_or_insert((polygons.corner_ends.len(), vertex));
             }
             polygons.corners.push(place);
@@ -137,7 +137,10 @@ impl ObjReader {
             let face = polygons.corner_ends.partition_point(|&end| end <= at);
             (face, polygons.corners[at] + 1)
         });
-        let missing = self.first_invalid_corner.into_iter().chain(beyond);
+        let missing = self
+            .first_invalid_vertex_reference
+            .into_iter()
+            .chain(beyond);
         match missing.min_by_key(|&(face, _)| face) {
             _ if vertices == 0 => return Err(MeshFault::NoVertices),
             None => {}
@@ -184,7 +187,7 @@ struct NamedGroups {
     /// For each face, the number of its group.
     group_of_face: Vec<u32>,
     /// The number of each group, by its name.
-    numbers: HashMap<Option<String>, u32>,
+    number_by_name: HashMap<Option<String>, u32>,
     current_name: Option<String>,
 }
 
@@ -194,12 +197,13 @@ impl NamedGroups {
     }
 
     fn add_face(&mut self) {
-        let number = match self.numbers.get(&self.current_name) {
+        let number = match self.number_by_name.get(&self.current_name) {
             Some(&number) => number,
             None => {
                 let number = self.names.len() as u32;
                 self.names.push(self.current_name.clone());
-                self.numbers.insert(self.current_name.clone(), number);
+                self.number_by_name
+                    .insert(self.current_name.clone(), number);
                 number
             }
         };
@@ -240,10 +244,16 @@ fn remark_on_skipped_statement(
 ) -> Result<(), MeshFault> {
     match keyword {
         "surf" | "bsp" | "bzp" | "cdp" => {
-            return Err(MeshFault::unsupported("a free-form surface", "polygons"));
+            return Err(MeshFault::unsupported_content(
+                "a free-form surface",
+                "polygons",
+            ));
         }
         "call" | "csh" => {
-            return Err(MeshFault::unsupported("a call of another file", "one file"));
+            return Err(MeshFault::unsupported_content(
+                "a call of another file",
+                "one file",
+            ));
         }
         "l" => remarks.add("lines passed over", 1, Some(line)),
         "p" => remarks.add("points passed over", 1, Some(line)),

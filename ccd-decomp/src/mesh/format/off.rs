@@ -58,7 +58,7 @@ fn read_counts<'a>(
         // (4) or a dimension (n) would change the meaning of the position.
         let known = ["", "ST", "C", "N", "STC", "STN", "CN", "STCN", "NC"];
         if !known.contains(&prefix) {
-            return Err(MeshFault::unsupported(
+            return Err(MeshFault::unsupported_content(
                 format!("{keyword:?}"),
                 "OFF in three dimensions",
             ));
@@ -66,7 +66,7 @@ fn read_counts<'a>(
         line.words.next();
         match line.words.clone().next() {
             Some(word) if word.eq_ignore_ascii_case("binary") => {
-                return Err(MeshFault::unsupported("binary OFF", "text"));
+                return Err(MeshFault::unsupported_content("binary OFF", "text"));
             }
             Some(_) => {}
             None => line = next_line(lines, || "the numbers of vertices and faces".into())?,

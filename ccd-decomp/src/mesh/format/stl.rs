@@ -23,7 +23,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if has_announced_length(bytes) {
         return parse_binary(bytes);
     }
-    let plain = text::utf8_cr_to_lf(bytes);
+    let plain = text::to_utf8_with_lf(bytes);
     if is_text(&plain) {
         parse_text(&String::from_utf8_lossy(&plain).to_ascii_lowercase())
     } else {

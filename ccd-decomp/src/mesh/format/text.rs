@@ -5,7 +5,7 @@ use std::borrow::Cow;
 /// Converts a text to UTF-8 with line feeds, without a byte order mark.
 ///
 /// UTF-16 is recognised by its mark. Invalid UTF-8 is kept: names, comments and binary formats may hold it.
-pub(super) fn utf8_cr_to_lf(bytes: &[u8]) -> Cow<'_, [u8]> {
+pub(super) fn to_utf8_with_lf(bytes: &[u8]) -> Cow<'_, [u8]> {
     lone_cr_to_lf(to_utf8(bytes))
 }
 

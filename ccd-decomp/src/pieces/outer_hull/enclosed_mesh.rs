@@ -1,12 +1,12 @@
 //! The solid or surface that the hull encloses, with queries for the location and distance of a point.
 
-use crate::bounds::{Bounds, to_parry_vector};
+use crate::bounds::{BoundingBox, to_parry_vector};
 use crate::exact::predicates::{side_of_line_along, side_of_plane};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
 use crate::solid::topology::Topology;
-use crate::tolerance::{MAX_NEEDLE_RATIO, excess_rounding};
+use crate::tolerance::{MAX_NEEDLE_RATIO, excess_rounding_bound};
 use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -55,7 +55,7 @@ impl<'a> EnclosedMesh<'a> {
             orientation_sign: if topology.is_inside_out() { -1.0 } else { 1.0 },
             bounds,
             half_diagonal,
-            slack: excess_rounding(half_diagonal, farthest),
+            slack: excess_rounding_bound(half_diagonal, farthest),
         }
     }
 
@@ -71,12 +71,12 @@ impl<'a> EnclosedMesh<'a> {
         work: &WorkBudget,
     ) -> Option<Vec<[DVec3; 3]>> {
         let mut found = Vec::new();
-        let all = self
-            .search
-            .all_triangles_meeting_box_satisfy(&Bounds { lo, hi }, work, |face| {
-                found.push(self.mesh.triangle(face));
-                found.len() <= most
-            });
+        let all =
+            self.search
+                .all_triangles_meeting_box_satisfy(&BoundingBox { lo, hi }, work, |face| {
+                    found.push(self.mesh.triangle(face));
+                    found.len() <= most
+                });
         all.then_some(found)
     }
 

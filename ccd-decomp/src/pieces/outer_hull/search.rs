@@ -25,7 +25,7 @@ pub(super) fn excess_bound(target: &EnclosedMesh<'_>, hull: &Hull) -> f64 {
         enclosed_mesh: target,
         hull: FacetPlanes::new(hull, target),
         steps_spent: 0,
-        largest_distance: 0.0,
+        largest_found_distance: 0.0,
         waiting_boxes: BTreeMap::new(),
         examined_box_count: 0,
     };
@@ -33,7 +33,7 @@ pub(super) fn excess_bound(target: &EnclosedMesh<'_>, hull: &Hull) -> f64 {
     while search.split_worst_boxes(floor) {}
     let open = search.waiting_boxes.last_key_value();
     let open = open.map_or(0.0, |(_, cell)| cell.bound);
-    greater(open, search.largest_distance)
+    greater(open, search.largest_found_distance)
 }
 
 /// The maximum number of boxes that are split at the same time, in parallel.
@@ -45,7 +45,7 @@ struct Search<'a> {
     /// The number of steps of the work budget that the search has spent.
     steps_spent: u64,
     /// The largest distance found so far from the solid to a point of the hull.
-    largest_distance: f64,
+    largest_found_distance: f64,
     /// The boxes that may still be split, sorted by bound, then by the order in which they were examined. Bounds are
     /// positive: their bits are in the order of their values.
     waiting_boxes: BTreeMap<(u64, u64), BoundedBox>,
@@ -67,7 +67,7 @@ struct BoxExamination {
     /// The distance from the solid to the box's centre; 0 if the centre is in the solid or outside the hull.
     centre_distance_bound: f64,
     /// The box with its bound; `None` if no point of the hull in the box is farther from the solid than
-    /// `largest_distance`.
+    /// `largest_found_distance`.
     bounded_box: Option<BoundedBox>,
     steps_spent: u64,
 }
@@ -79,7 +79,7 @@ impl Search<'_> {
             bounds: self.enclosed_mesh.bounds,
             planes: (0..self.hull.planes.len() as u32).collect(),
         };
-        let examined = self.examine(&whole, whole.bounds);
+        let examined = self.examine_box(&whole, whole.bounds);
         self.record(examined);
     }
 
@@ -87,8 +87,8 @@ impl Search<'_> {
     /// near the largest distance found, the work is spent, or too many boxes wait.
     fn split_worst_boxes(&mut self, floor: f64) -> bool {
         let target = greater(
-            SUFFICIENT_EXCESS_RATIO * self.largest_distance,
-            self.largest_distance + floor,
+            SUFFICIENT_EXCESS_RATIO * self.largest_found_distance,
+            self.largest_found_distance + floor,
         );
         let worst: Vec<BoundedBox> = (0..BOXES_PER_BATCH)
             .map_while(|_| {
@@ -100,7 +100,7 @@ impl Search<'_> {
             .iter()
             .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
             .collect();
-        let examine = |&(cell, bounds): &(&BoundedBox, _)| self.examine(cell, bounds);
+        let examine = |&(cell, bounds): &(&BoundedBox, _)| self.examine_box(cell, bounds);
         let examined: Vec<BoxExamination> = octants.par_iter().map(examine).collect();
         for examined in examined {
             self.record(examined);
@@ -112,7 +112,8 @@ impl Search<'_> {
 
     fn record(&mut self, examined: BoxExamination) {
         self.steps_spent += examined.steps_spent;
-        self.largest_distance = greater(self.largest_distance, examined.centre_distance_bound);
+        self.largest_found_distance =
+            greater(self.largest_found_distance, examined.centre_distance_bound);
         self.examined_box_count += 1;
         let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined_box_count);
         self.waiting_boxes
@@ -120,7 +121,7 @@ impl Search<'_> {
     }
 
     /// Bounds the distance from the solid to the hull in the box `bounds`, a part of the examined box `within`.
-    fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
+    fn examine_box(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
         let planes = &within.planes;
         let (target, hull, work) = (self.enclosed_mesh, &self.hull, &WorkBudget::unbounded());
         let [lo, hi] = bounds;
@@ -143,7 +144,7 @@ impl Search<'_> {
             let planes = meeting.planes;
             let above = planes.iter().map(|&k| hull.planes[k as usize]);
             let under = || under::excess_bound_above_surface(target, above, [centre, half], work);
-            let is_known = |bound: f64| bound <= self.largest_distance;
+            let is_known = |bound: f64| bound <= self.largest_found_distance;
             let mut bound = lesser(near, within.bound);
             if !is_known(bound) {
                 bound = under().map_or(bound, |under| lesser(under, bound));

@@ -38,7 +38,7 @@ pub(super) fn excess_bound_above_surface(
     }
     let sinks = greater(
         0.0,
-        height_bound(planes, up, [centre, half], target.slack) - lowest,
+        hull_height_bound(planes, up, [centre, half], target.slack) - lowest,
     );
     let stays = (sinks * up.abs()).cmple(2.0 * half).all();
     stays.then_some(sinks + target.slack)
@@ -46,7 +46,7 @@ pub(super) fn excess_bound_above_surface(
 
 /// Returns an upper bound of the height of the hull within a box, along `up` from the box's centre. The hull is behind
 /// each plane: the upward direction is split into a multiple of the plane's normal and a rest.
-fn height_bound(
+fn hull_height_bound(
     planes: impl Iterator<Item = Plane>,
     up: DVec3,
     [centre, half]: [DVec3; 2],

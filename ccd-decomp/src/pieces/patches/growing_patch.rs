@@ -1,7 +1,7 @@
 //! A convex patch under construction, which grows polygon by polygon.
 
 use super::obstacle::HullInteriorTest;
-use crate::bounds::Bounds;
+use crate::bounds::BoundingBox;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::merged_polygons;
@@ -149,9 +149,9 @@ impl GrowingPatch {
 
     /// Returns the hull extended by the points `new`, with the bounding box of what changed. The box is `None` if the
     /// hull is unchanged.
-    fn extended_hull(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
+    fn extended_hull(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<BoundingBox>) {
         let mut hull = self.hull.clone();
-        let mut changed: Option<Bounds> = None;
+        let mut changed: Option<BoundingBox> = None;
         for &v in new {
             if let Some(more) = hull.insert(points, v) {
                 changed = Some(changed.map_or(more, |bounds| bounds.union(more)));

@@ -1,7 +1,7 @@
 //! Tests exactly whether triangles enter the interior of a hull.
 
 use crate::exact::predicates::side_of;
-use crate::half_edges::{EdgeUse, Edges};
+use crate::half_edges::{EdgeUse, SortedHalfEdges};
 use crate::hull::exact_hull::ExactHull;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
@@ -13,7 +13,7 @@ pub(super) struct HullInteriorTest<'a> {
     hull: &'a ExactHull,
     edges: OnceCell<Vec<Edge>>,
     /// Pairs of a corner and an adjacent facet, sorted by corner.
-    corner_facets: OnceCell<Vec<(u32, u32)>>,
+    corner_facet_pairs: OnceCell<Vec<(u32, u32)>>,
 }
 
 /// An edge of a hull: its ends, and the facets on both sides.
@@ -26,7 +26,7 @@ impl<'a> HullInteriorTest<'a> {
             points,
             hull,
             edges: OnceCell::new(),
-            corner_facets: OnceCell::new(),
+            corner_facet_pairs: OnceCell::new(),
         }
     }
 
@@ -49,7 +49,7 @@ impl<'a> HullInteriorTest<'a> {
 
     /// Returns whether the triangle is on or in front of a facet of the hull that has the vertex `corner`.
     fn is_in_front_at_corner(&self, corner: u32, triangle: [u32; 3]) -> bool {
-        let meeting = self.corner_facets.get_or_init(|| {
+        let meeting = self.corner_facet_pairs.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());
             let corners = facets.flat_map(|(k, facet)| facet.map(|v| (v, k)));
             let mut meeting: Vec<(u32, u32)> = corners.collect();
@@ -102,7 +102,7 @@ impl<'a> HullInteriorTest<'a> {
 
     fn edges(&self) -> &[Edge] {
         self.edges.get_or_init(|| {
-            let edges = Edges::new(self.hull.facets());
+            let edges = SortedHalfEdges::new(self.hull.facets());
             let edge = |(ends, uses): ([u32; 2], &[EdgeUse])| match *uses {
                 [one, other] => Some((ends, [one.face(), other.face()])),
                 _ => None,

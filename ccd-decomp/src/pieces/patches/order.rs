@@ -24,7 +24,7 @@ pub(super) fn seed_order(
 ) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == PatchOrder::Cresting {
-        let height = steps_to_reflex_edge(manifold, flats);
+        let height = reflex_distance_by_polygon(manifold, flats);
         seeds.sort_by_key(|&flat| std::cmp::Reverse(height[flat as usize]));
     }
     seeds
@@ -32,7 +32,7 @@ pub(super) fn seed_order(
 
 /// Returns for each polygon the number of steps over adjacent polygons to the nearest polygon with a reflex edge;
 /// `u32::MAX` without reflex edges.
-fn steps_to_reflex_edge(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> {
+fn reflex_distance_by_polygon(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();
     for flat in 0..flats.len() as u32 {

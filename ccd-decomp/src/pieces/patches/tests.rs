@@ -3,7 +3,7 @@ use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
     block_cells, cubes, merged_meshes, mesh_with_reversed_faces, prism, prism_under_prism,
-    scaled_and_moved, star_bipyramid, tetrahedron, toothed_disc_outline,
+    scaled_and_moved, star_bipyramid, tetrahedron, toothed_quadrant_outline,
 };
 use ccd_core::FacetOrigin;
 use ccd_core::glam::DVec3;
@@ -131,7 +131,7 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
 #[rstest]
 #[case::prism_under_prism(prism_under_prism(12), 2)]
 #[case::star(star_bipyramid(9, 0.4), 4)]
-#[case::teeth(prism(&toothed_disc_outline(7)), 7)]
+#[case::teeth(prism(&toothed_quadrant_outline(7)), 7)]
 #[case::stairs(cubes(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [2, 1, 1]]), 4)]
 #[case::ring(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]]), 4)]
 #[case::wide_and_narrow(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [1, 0, 1], [2, 0, 1], [2, 0, 2], [2, 1, 2]]), 3)]
@@ -220,7 +220,7 @@ fn patches_of_slivers_take_linear_work() {
 fn steps_per_face_stay_bounded() {
     for count in [50, 500, 5_000] {
         for mesh in [
-            prism(&toothed_disc_outline(count)),
+            prism(&toothed_quadrant_outline(count)),
             prism_under_prism(count),
         ] {
             let manifold =

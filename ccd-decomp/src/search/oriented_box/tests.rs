@@ -3,7 +3,7 @@
 use super::OrientedBox;
 use crate::rational::{Exact3, exact_fraction};
 use crate::search::element::Element;
-use crate::tolerance::box_rounding;
+use crate::tolerance::box_rounding_bound;
 use crate::worst::{RandomCase, WorstCaseSearch, error_share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -33,7 +33,7 @@ fn worst_beside() {
             .dot(&Exact3::from_coordinates(point).minus(&Exact3::from_coordinates(of.centre)));
         let error = (exact_fraction(way) - truth).to_f64().value();
         let reach = greater(of.max_abs_coordinate, point.abs().max_element());
-        Some(error_share(error.abs(), box_rounding(axis, reach)))
+        Some(error_share(error.abs(), box_rounding_bound(axis, reach)))
     });
     found.assert_tight_bound(120.0);
 }

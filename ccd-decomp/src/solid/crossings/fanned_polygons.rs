@@ -1,6 +1,6 @@
 //! Convex polygons of many slivers, such as fans of triangles. Their triangles are tested only if another face enters the polygon.
 
-use crate::bounds::{Bounds, BoundsTree};
+use crate::bounds::{BoundingBox, BoundingBoxTree};
 use crate::exact::predicates::{Projection, side_of_plane};
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
@@ -21,7 +21,7 @@ pub(super) struct FannedPolygons<'a, 'm> {
     /// For each face, the number of its polygon; [`NO_POLYGON`] for a face outside all polygons.
     polygon_of_face: Vec<u32>,
     /// The axis-aligned boxes of the polygons.
-    bounds: BoundsTree,
+    bounds: BoundingBoxTree,
     /// The faces outside all polygons.
     faces_outside_polygons: FaceGroup,
 }
@@ -35,7 +35,7 @@ struct FannedPolygon {
     projection: Projection,
     /// The boundary vertices, in ascending order, each with its neighbours on the boundary.
     rim: Vec<RimVertex>,
-    bounds: Bounds,
+    bounds: BoundingBox,
     /// The search trees over the polygon's triangles, created on demand.
     group: OnceCell<FaceGroup>,
 }
@@ -89,7 +89,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         let rest = FaceGroup::new(manifold, rest.map(|(face, _)| face).collect());
         Some(FannedPolygons {
             manifold,
-            bounds: BoundsTree::new(polygons.iter().map(|polygon| polygon.bounds).collect()),
+            bounds: BoundingBoxTree::new(polygons.iter().map(|polygon| polygon.bounds).collect()),
             polygons,
             polygon_of_face: polygon_of,
             faces_outside_polygons: rest,
@@ -168,7 +168,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         };
         let mut level_corners = level().map(|k| polygon.rim_vertex(corners[k]));
         // The bounds of no points meet no bounds.
-        !Bounds::enclosing(level().map(|k| points[k])).meets(&polygon.bounds)
+        !BoundingBox::enclosing(level().map(|k| points[k])).meets(&polygon.bounds)
             || level_corners.any(|rim_vertex| {
                 rim_vertex.is_some_and(|p| {
                     beyond(p.previous_vertex, p.vertex) || beyond(p.vertex, p.next_vertex)
@@ -210,7 +210,7 @@ impl FannedPolygon {
         rim.sort_unstable_by_key(|rim_vertex| rim_vertex.vertex);
         Some(FannedPolygon {
             projection: Projection::new(plane)?,
-            bounds: Bounds::enclosing(starts().map(|v| manifold.point(v))),
+            bounds: BoundingBox::enclosing(starts().map(|v| manifold.point(v))),
             faces: flat.faces.clone(),
             plane,
             rim,

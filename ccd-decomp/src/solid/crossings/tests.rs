@@ -6,7 +6,7 @@ use crate::solid::topology::Topology;
 use crate::solid::{check_solid, solid_surface};
 use crate::test_meshes::{
     comb, cubes, merged_meshes, mesh, prism, prism_under_prism, scaled_and_moved, tetrahedron,
-    toothed_disc_outline,
+    toothed_quadrant_outline,
 };
 use crate::tolerance::MAX_CROSSINGS;
 use crate::work::WorkBudget;
@@ -136,7 +136,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
-        let leaning = steps_per_face(&prism(&toothed_disc_outline(count)));
+        let leaning = steps_per_face(&prism(&toothed_quadrant_outline(count)));
         let step = steps_per_face(&prism_under_prism(count));
         let upright = steps_per_face(&comb(&vec![5.0; count as usize]));
         let steps = [leaning, step, upright];

@@ -1,8 +1,8 @@
 //! Splits a closed mesh into shells, its smallest closed parts.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::exact::predicates::{Projection, first_point_below_exact_range, side_of_plane};
-use crate::half_edges::{EdgeUse, Edges};
+use crate::exact::predicates::{Projection, first_inexact_point_index, side_of_plane};
+use crate::half_edges::{EdgeUse, SortedHalfEdges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 ///
 /// Parts are connected over edges of two faces. At an edge of more faces, open parts are connected across the material
 /// between them, so that solids that share a face stay separate.
-pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
+pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &SortedHalfEdges) -> Vec<u32> {
     let mut parts = DisjointSets::new(mesh.faces().len());
     let mut is_manifold = true;
     for (_, uses) in edges.iter() {
@@ -28,7 +28,7 @@ pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32
             }
         }
     }
-    parts.set_numbers()
+    parts.set_index_by_element()
 }
 
 /// Returns those half-edges of an edge that belong to parts that are open at the edge. An open part has more half-edges
@@ -79,8 +79,8 @@ fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Op
     let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
     let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
     let first = *apexes.first()?;
-    let is_too_fine = first_point_below_exact_range(&[v, w])
-        .or(first_point_below_exact_range(&apexes))
+    let is_too_fine = first_inexact_point_index(&[v, w])
+        .or(first_inexact_point_index(&apexes))
         .is_some();
     let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
     if is_too_fine || apexes.iter().any(flat) {

@@ -28,7 +28,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
         } else {
             NEIGHBOUR_SEARCH_DISTANCE
         };
-        let best = best_neighbours(&row, reach);
+        let best = best_neighbour_indices(&row, reach);
         let mut next = Vec::with_capacity(row.len());
         for (index, &node) in row.iter().enumerate() {
             let other = best[index];
@@ -51,7 +51,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
 
 /// Finds the best neighbour of every node in a row: the neighbour with the smallest joint box, or the last of several
 /// such neighbours.
-fn best_neighbours(row: &[Node], reach: usize) -> Vec<usize> {
+fn best_neighbour_indices(row: &[Node], reach: usize) -> Vec<usize> {
     let mut best = Vec::with_capacity(row.len());
     // The costs of pairing a node with later ones.
     let mut prices = vec![[0.0; NEIGHBOUR_SEARCH_DISTANCE]; row.len()];
@@ -80,7 +80,7 @@ fn sorted_along_morton_curve(leaves: &[Node]) -> Vec<Node> {
     let all = leaves
         .iter()
         .fold(AabbF32::EMPTY, |all, leaf| all.union(leaf.cuboid));
-    let code = |leaf: &Node| morton_code(all.relative_position(leaf.cuboid));
+    let code = |leaf: &Node| morton_code(all.relative_centre(leaf.cuboid));
     let mut order: Vec<(u64, u64)> = leaves.iter().map(code).zip(0..).collect();
     order.sort_unstable_by_key(|&(code, _)| code);
     order

@@ -45,7 +45,7 @@ impl AabbF32 {
     }
 
     /// Returns the position of the centre of the box `inner` in this box, from 0 to 1 along every axis.
-    pub(super) fn relative_position(self, inner: Self) -> DVec3 {
+    pub(super) fn relative_centre(self, inner: Self) -> DVec3 {
         let scale = self.extent().as_dvec3().recip();
         inner.centre().as_dvec3() * scale - self.lo.as_dvec3() * scale
     }

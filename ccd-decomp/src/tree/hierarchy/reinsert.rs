@@ -24,13 +24,13 @@ struct Tree<'a> {
     nodes: &'a mut [Node],
     parents: Vec<u32>,
     /// For each node, whether it was changed in this round.
-    is_changed: Vec<bool>,
+    is_node_changed: Vec<bool>,
 }
 
 /// A possible move: the subtree, its new sibling, and the reduction of the total area.
 struct Reinsertion {
-    subtree: u32,
-    new_sibling: u32,
+    subtree_root_index: u32,
+    new_sibling_index: u32,
     area_reduction: f32,
 }
 
@@ -43,7 +43,7 @@ impl<'a> Tree<'a> {
             }
         }
         Tree {
-            is_changed: vec![false; nodes.len()],
+            is_node_changed: vec![false; nodes.len()],
             nodes,
             parents,
         }
@@ -69,14 +69,14 @@ impl<'a> Tree<'a> {
             .flatten_iter()
             .collect();
         moves.sort_unstable_by(|a, b| b.area_reduction.total_cmp(&a.area_reduction));
-        self.is_changed.fill(false);
+        self.is_node_changed.fill(false);
         for best in moves {
-            let (from, to) = (best.subtree, best.new_sibling);
+            let (from, to) = (best.subtree_root_index, best.new_sibling_index);
             let [old, new] = [from, to].map(|node| self.parents[node as usize]);
             let changed = [to, from, sibling(from), new, old].map(|node| node as usize);
-            if !changed.iter().any(|&node| self.is_changed[node]) {
+            if !changed.iter().any(|&node| self.is_node_changed[node]) {
                 for node in changed {
-                    self.is_changed[node] = true;
+                    self.is_node_changed[node] = true;
                 }
                 self.move_beside(from, to);
             }
@@ -91,8 +91,8 @@ impl<'a> Tree<'a> {
         let area = cuboid.half_area();
         let parent = self.parents[from as usize];
         let mut best = Reinsertion {
-            subtree: from,
-            new_sibling: 0,
+            subtree_root_index: from,
+            new_sibling_index: 0,
             area_reduction: 0.0,
         };
         // The boxes above the old place shrink.
@@ -109,7 +109,7 @@ impl<'a> Tree<'a> {
                 let gain = gain - old.union(cuboid).half_area();
                 if gain > best.area_reduction {
                     best = Reinsertion {
-                        new_sibling: node,
+                        new_sibling_index: node,
                         area_reduction: gain,
                         ..best
                     };
@@ -143,8 +143,8 @@ impl<'a> Tree<'a> {
         self.set_node(raised, parent);
         self.parents[beside as usize] = to;
         self.parents[from as usize] = to;
-        self.refit(to);
-        self.refit(parent);
+        self.refit_ancestors(to);
+        self.refit_ancestors(parent);
     }
 
     fn set_node(&mut self, node: Node, index: u32) {
@@ -155,7 +155,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Recomputes the boxes from a node up to the root.
-    fn refit(&mut self, mut node: u32) {
+    fn refit_ancestors(&mut self, mut node: u32) {
         loop {
             if let NodeContent::Children(first) = self.nodes[node as usize].content {
                 let [left, right] = [first, first + 1].map(|child| self.nodes[child as usize]);

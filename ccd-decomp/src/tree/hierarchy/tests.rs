@@ -75,7 +75,7 @@ fn rounded_pieces_count_with_their_radius() {
             ..Polytope::default()
         })
         .collect();
-    check_hierarchy_and_measure_depth(&Pieces::polytopes(&balls).unwrap());
+    check_hierarchy_and_measure_depth(&Pieces::from_polytopes(&balls).unwrap());
 }
 
 #[test]

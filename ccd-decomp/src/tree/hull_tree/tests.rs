@@ -102,7 +102,7 @@ proptest! {
     #[test]
     fn every_hull_is_exactly_that_of_the_points_below(pieces in prop::collection::vec(piece(), 1..24)) {
         let count = pieces.len();
-        let tree = build_hull_tree(&Pieces::polytopes(&pieces).unwrap()).unwrap();
+        let tree = build_hull_tree(&Pieces::from_polytopes(&pieces).unwrap()).unwrap();
         prop_assert_eq!(tree.hierarchy().nodes().len(), 2 * count - 1);
         for at in 0..tree.hulls().len() {
             let hull = tree.hulls().get(at);
@@ -123,7 +123,7 @@ proptest! {
         pieces in prop::collection::vec(piece(), 2..16),
         weights in [0.01..1.0f64, 0.01..1.0, 0.01..1.0],
     ) {
-        let tree = build_hull_tree(&Pieces::polytopes(&pieces).unwrap()).unwrap();
+        let tree = build_hull_tree(&Pieces::from_polytopes(&pieces).unwrap()).unwrap();
         for at in 0..tree.hulls().len() {
             let hull = tree.hulls().get(at);
             let below = leaf_indices_below(&tree, at);
@@ -169,12 +169,12 @@ fn block_grid(gap: f64) -> Vec<Polytope> {
 #[test]
 fn blocks_side_by_side_leave_no_bridge_and_blocks_apart_do() {
     let classes = |gap| {
-        let tree = build_hull_tree(&Pieces::polytopes(&block_grid(gap)).unwrap()).unwrap();
+        let tree = build_hull_tree(&Pieces::from_polytopes(&block_grid(gap)).unwrap()).unwrap();
         assert_eq!(tree.hulls().get(0).facets.len(), 6);
         let all = (0..15).flat_map(|node| tree.facet_classes(node).to_vec());
         all.collect::<Vec<_>>()
     };
-    assert_eq!(classes(0.0), [FacetClass::Contained; 90]);
+    assert_eq!(classes(0.0), [FacetClass::InsideSolid; 90]);
     let apart = classes(0.25);
     let free = apart.iter().filter(|&&class| class == FacetClass::Free);
     // Four facets of every node along the wall: the root, its halves, and no others.
@@ -188,7 +188,7 @@ fn a_row_splits_in_the_middle_along_itself() {
         ..Polytope::default()
     };
     let row: Vec<Polytope> = (0..16).map(|k| bead(f64::from(k))).collect();
-    let tree = build_hull_tree(&Pieces::polytopes(&row).unwrap()).unwrap();
+    let tree = build_hull_tree(&Pieces::from_polytopes(&row).unwrap()).unwrap();
     let HierarchyNode::Inner(left, _) = tree.hierarchy().nodes()[0] else {
         panic!("16 pieces in one leaf");
     };
@@ -221,7 +221,7 @@ fn the_depth_is_bounded_wherever_pieces_are() {
     };
     for place in [far as fn(i32) -> DVec3, same] {
         let beads: Vec<Polytope> = (0..200).map(|k| bead(place(k))).collect();
-        let tree = build_hull_tree(&Pieces::polytopes(&beads).unwrap()).unwrap();
+        let tree = build_hull_tree(&Pieces::from_polytopes(&beads).unwrap()).unwrap();
         let most = (200f64.ln() / (8f64 / 7.0).ln()).ceil() as usize;
         assert!(depth(&tree, 0) <= most, "{} > {most}", depth(&tree, 0));
     }
@@ -233,10 +233,13 @@ fn coordinates_too_fine_are_an_error() {
         points: vec![DVec3::new(x, 0.0, 0.0)],
         ..Polytope::default()
     };
-    let pieces = Pieces::polytopes(&[bead(1.0), bead(1e-300)]).unwrap();
+    let pieces = Pieces::from_polytopes(&[bead(1.0), bead(1e-300)]).unwrap();
     let error = build_hull_tree(&pieces).unwrap_err();
-    assert_eq!(error, BuildError::OutOfRange(DVec3::new(1e-300, 0.0, 0.0)));
-    let alone = Pieces::polytopes(&[bead(1e-300)]).unwrap();
+    assert_eq!(
+        error,
+        HullTreeBuildError::OutOfRange(DVec3::new(1e-300, 0.0, 0.0))
+    );
+    let alone = Pieces::from_polytopes(&[bead(1e-300)]).unwrap();
     let error = build_hull_tree(&alone).unwrap_err();
     let fault = HullFault::CoordinateTooSmall { point: 0 };
     assert_eq!(error, HullTreeError::Node { node: 0, fault }.into());
@@ -252,7 +255,7 @@ fn the_same_pieces_give_the_same_tree() {
         polytope(&lumps.collect::<Vec<_>>())
     };
     let cubes: Vec<Polytope> = (0..125).map(cube).collect();
-    let pieces = Pieces::polytopes(&cubes).unwrap();
+    let pieces = Pieces::from_polytopes(&cubes).unwrap();
     let tree = build_hull_tree(&pieces).unwrap();
     assert_eq!(
         tree.to_nodes(),

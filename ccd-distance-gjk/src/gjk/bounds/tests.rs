@@ -45,7 +45,7 @@ fn bounds_contain_the_distance_and_reach_what_is_required() {
             }
         };
         let lower = random.random_range(0.0..3.0);
-        let required = RequiredBounds {
+        let required = TerminationBounds {
             lower,
             upper: lower * random.random_range(0.0..1.0),
         };
@@ -80,7 +80,7 @@ fn an_axis_without_a_direction_gives_bounds_that_hold() {
             a: 0,
             b: 0,
         };
-        let required = RequiredBounds {
+        let required = TerminationBounds {
             lower: 0.5,
             upper: 0.0,
         };

@@ -116,7 +116,7 @@ fn cylinders_and_cones_are_along_y_with_the_reported_excess() {
         excess,
         ..Options::default()
     };
-    for excess in [Excess::RadiusFraction, Excess::Length(1e-3)] {
+    for excess in [Excess::DefaultRadiusFraction, Excess::Length(1e-3)] {
         let (cylinder, cone) = (Cylinder::new(0.5, 0.25), Cone::new(0.5, 0.25));
         for shape in [&cylinder as &dyn Shape, &cone] {
             let made = body(shape, &within(excess)).expect("served");

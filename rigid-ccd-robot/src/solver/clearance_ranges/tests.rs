@@ -215,7 +215,7 @@ fn an_error_of_poses_is_kept_on_both_sides() {
     let cell = lid_with_stop(2.0);
     let mut solver = cell.solver().with_settings(settings_with_margin(0.1));
     let settings = RangeSettings {
-        pose_error: 0.01,
+        max_pose_error: 0.01,
         ..RangeSettings::DEFAULT
     };
     let ranges = solver.clearance_ranges(&[[0.0], [2.0]], settings).unwrap();
@@ -257,11 +257,14 @@ fn settings_of_ranges_are_checked() {
     ] {
         let settings = RangeSettings {
             resolution,
-            pose_error,
+            max_pose_error: pose_error,
         };
         let error = solver
             .clearance_ranges(&[[0.0], [1.0]], settings)
             .unwrap_err();
-        assert!(matches!(error, PathError::RangeSetting { .. }), "{error}");
+        assert!(
+            matches!(error, PathError::InvalidRangeSetting { .. }),
+            "{error}"
+        );
     }
 }

@@ -1,9 +1,9 @@
 //! Tests the bounds on which the search relies: rounding of frames, and displacements of parts.
 
 use super::*;
-use crate::solver::displacement::Displacements;
+use crate::solver::displacement::DisplacementBounds;
 use crate::solver::kinematics::Kinematics;
-use crate::solver::rounding::point_error;
+use crate::solver::rounding::point_error_bound;
 use rigid_ccd::oracle::Frame;
 
 /// Tests that frames are as near to the poses of links as the bound on rounding says, and that the bound is not a million
@@ -24,7 +24,7 @@ fn frames_are_within_the_bound_on_rounding() {
         let mut frames = Vec::new();
         kinematics.place(positions.iter().copied(), &mut frames);
         let largest = positions.iter().map(|position| position.abs());
-        let bound = point_error(kinematics, cell.parts(), largest);
+        let bound = point_error_bound(kinematics, cell.parts(), largest);
         for part in &cell.parts()[..cell.robot_part_count()] {
             let link = cell.link_of(part.owner);
             let pose = robot
@@ -58,7 +58,7 @@ fn displacements_are_within_their_bounds() {
         let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
         let half = random.random_range(0.01..0.5);
         let share = FramesAndRates::new(kinematics, &ends, 0.5);
-        let mut displacements = Displacements::new(kinematics, parts);
+        let mut displacements = DisplacementBounds::new(kinematics, parts);
         displacements.update(
             kinematics,
             parts,

@@ -91,7 +91,7 @@ fn wrong_facets_open_no_hole() {
         }],
         ..Polytope::default()
     };
-    let cube = Body::new(&Pieces::polytopes(&[polytope]).unwrap(), Volume::Solid).unwrap();
+    let cube = Body::new(&Pieces::from_polytopes(&[polytope]).unwrap(), Volume::Solid).unwrap();
     let placed = PlacedBody::new(Arc::new(cube), Pose::IDENTITY, 0, 1);
     assert!(placed.body.has_surface());
     let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y, 3.0 * DVec3::Z];

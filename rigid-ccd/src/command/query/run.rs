@@ -5,7 +5,7 @@ use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, TimedQuestion, answer_timed};
+use crate::batch::{BatchSize, BodyPair, Solve, TimedAnswer, TimedQuestion, answer_timed};
 use crate::command::bad_rows::BadRowCounter;
 use crate::command::files::{Rows, input_name};
 use crate::command::output::OutputError;
@@ -21,7 +21,7 @@ use std::time::Instant;
 /// The state of `ccd query` while it answers rows.
 pub(super) struct QueryRun<'a> {
     pub(super) args: &'a QueryArgs,
-    pub(super) bodies: Bodies<'a>,
+    pub(super) bodies: BodyPair<'a>,
     pub(super) timed_question: TimedQuestion,
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
     pub(super) batch_size: BatchSize,

@@ -68,7 +68,7 @@ impl Summary {
         self.iterations += answer.stats.iterations;
         self.oracle_calls += answer.stats.oracle_calls;
         self.advancements += answer.stats.advancements;
-        self.oracle_steps += answer.stats.effort.steps;
+        self.oracle_steps += answer.stats.oracle_effort.steps;
         self.raised_tolerance_count += usize::from(answer.tolerance > self.tolerance);
         self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
         self.time_histogram.add(timed.micros);
@@ -95,7 +95,7 @@ struct TimeHistogram {
     /// For each value of a time's leading bits, the number of times. These bits sort as the times do.
     counts: BTreeMap<u64, u64>,
     count: u64,
-    total: f64,
+    total_micros: f64,
 }
 
 /// The number of low bits dropped from a time: all except the leading 10 of its fraction.
@@ -108,12 +108,12 @@ impl TimeHistogram {
             .entry(micros.to_bits() >> DROPPED_LOW_BIT_COUNT)
             .or_default() += 1;
         self.count += 1;
-        self.total += micros;
+        self.total_micros += micros;
     }
 
     /// Returns the mean time; NaN without times.
     fn mean(&self) -> f64 {
-        self.total / self.count as f64
+        self.total_micros / self.count as f64
     }
 
     /// Returns the median time, rounded to a thousandth; NaN without times.

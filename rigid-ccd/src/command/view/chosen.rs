@@ -15,7 +15,7 @@ pub(in crate::command) struct ChosenRows {
     ids: Vec<String>,
     rows: Vec<(Movements, ResultRow)>,
     /// The number of rows that cannot be drawn.
-    omitted_count: usize,
+    undrawable_count: usize,
     /// The message about the first row that cannot be drawn.
     first_fault: Option<String>,
 }
@@ -47,7 +47,7 @@ impl ChosenRows {
         if row.status == Status::Error {
             if self.is_requested(&row.id) != Some(false) {
                 let reason = row.reason.as_deref().unwrap_or("not answered");
-                self.count_omitted(format!("row {}: {reason}", row.id));
+                self.count_undrawable(format!("row {}: {reason}", row.id));
             }
         } else if wanted && !self.needs_no_more_rows() {
             self.rows.push((course.clone(), row.clone()));
@@ -75,25 +75,25 @@ impl ChosenRows {
     }
 
     /// Counts a row that cannot be drawn; `fault` is the message about it.
-    pub(super) fn count_omitted(&mut self, fault: String) {
-        self.omitted_count += 1;
+    pub(super) fn count_undrawable(&mut self, fault: String) {
+        self.undrawable_count += 1;
         self.first_fault.get_or_insert(fault);
     }
 
     /// Returns whether no row has been added, nor counted as one that cannot be drawn.
     pub(super) fn is_empty(&self) -> bool {
-        self.rows.is_empty() && self.omitted_count == 0
+        self.rows.is_empty() && self.undrawable_count == 0
     }
 
     /// Returns whether no row has been counted as one that cannot be drawn.
     pub(super) fn are_all_rows_drawable(&self) -> bool {
-        self.omitted_count == 0
+        self.undrawable_count == 0
     }
 
     /// Describes the chosen rows that could not be drawn; `None` if there are none.
     pub(super) fn describe_faults(&self) -> Option<String> {
         let fault = self.first_fault.as_ref()?;
-        Some(match self.omitted_count {
+        Some(match self.undrawable_count {
             1 => format!("one row is no valid query, and is not shown: {fault}"),
             count => {
                 format!("{count} rows are no valid queries, and are not shown; the first: {fault}")

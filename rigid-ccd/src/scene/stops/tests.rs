@@ -97,7 +97,7 @@ fn bodies_that_stop_never_overlap() {
             stopped += 1;
             again += usize::from(stops[by].time < stop.time);
             let poses = poses(&scene, &stops, stop.time);
-            check_contact(&scene, index, stop, config.margin + config.tolerance);
+            check_stop_contact(&scene, index, stop, config.margin + config.tolerance);
             let still = |k: usize| (scene.members[k].body, Motion::still(poses[k]));
             // A query of zero duration may ignore half of its tolerance.
             let near = Settings {
@@ -120,7 +120,7 @@ fn bodies_that_stop_never_overlap() {
 
 /// Checks that a stop's contact is with the body `stop.by`, and not before the time of the stop. At the contact the
 /// witnesses are at most `reach` apart, along the normal.
-fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
+fn check_stop_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
     let by = stop.stopped_by.unwrap();
     let Impact { bodies, hit } = stop.contact.expect("no limit was reached");
     assert_eq!(bodies, super::super::pairs::in_ascending_order(index, by));

@@ -19,7 +19,7 @@ struct CylinderScene {
     body: Body,
     /// The poses of the first cylinder at times 0 and 1, and that of the second.
     poses: [Pose; 3],
-    least: f64,
+    least_distance: f64,
 }
 
 impl CylinderScene {
@@ -39,7 +39,7 @@ impl CylinderScene {
                 turned(angle, [0.0, 1.0, 0.0]),
                 turned(1.7 * angle + 0.1, [apart, 0.0, 0.5]),
             ],
-            least: apart - 2.0 * CYLINDER_RADIUS,
+            least_distance: apart - 2.0 * CYLINDER_RADIUS,
         }
     }
 
@@ -81,12 +81,12 @@ fn bounds_hold_the_distance_of_cylinders() {
         for answer in pair.closest_approach_answers(&mut solver) {
             let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
             assert!(
-                lower <= pair.least + 1e-12 && pair.least <= upper,
+                lower <= pair.least_distance + 1e-12 && pair.least_distance <= upper,
                 "{number}: {answer:?}, not {}",
-                pair.least
+                pair.least_distance
             );
             assert!(upper - lower <= excess + 2e-6 && upper - lower <= answer.tolerance);
-            false_of_bodies += u32::from(upper - excess < pair.least - 1e-5);
+            false_of_bodies += u32::from(upper - excess < pair.least_distance - 1e-5);
         }
     }
     assert!(false_of_bodies > 100, "{false_of_bodies}");
@@ -101,12 +101,12 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
         let bodies = pair.closest_approach_answers(&mut Solver::new())[0]
             .outcome
             .lower();
-        let most = pair.least + 2.0 * pair.body.excess();
+        let most = pair.least_distance + 2.0 * pair.body.excess();
         for (required, expected) in [
             (bodies - 1e-3, Some(ClearanceVerdict::Kept)),
             // The cylinders keep this clearance, but the bodies do not.
-            (0.5 * (bodies + pair.least), None),
-            (pair.least, None),
+            (0.5 * (bodies + pair.least_distance), None),
+            (pair.least_distance, None),
             (most + 1e-3, Some(ClearanceVerdict::Violated)),
         ] {
             let mut solver = Solver::new().with_settings(Settings {
@@ -123,11 +123,11 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
                 assert!(
                     is_right,
                     "{number}: {required} of {}: {answer:?}",
-                    pair.least
+                    pair.least_distance
                 );
                 between += u32::from(found == ClearanceVerdict::Unverified);
                 let upper = answer.outcome.upper();
-                assert!(upper >= pair.least, "{number}: {answer:?}");
+                assert!(upper >= pair.least_distance, "{number}: {answer:?}");
                 // The bounds for an unverified clearance differ by the excess.
                 if found == ClearanceVerdict::Unverified {
                     let lower = answer.outcome.lower();

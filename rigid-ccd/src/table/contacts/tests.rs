@@ -51,7 +51,7 @@ fn a_pair_fills_a_row() {
 #[test]
 fn outcomes_without_a_contact_have_no_rows() {
     let body = ccd_core::Body::sphere(1.0).unwrap();
-    let bodies = Bodies { a: &body, b: &body };
+    let bodies = BodyPair { a: &body, b: &body };
     let still = ccd_core::Motion::still(ccd_core::Pose::IDENTITY);
     let course = Movements::Motions(Motions {
         id: String::new(),

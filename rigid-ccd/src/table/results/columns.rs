@@ -50,9 +50,18 @@ const LAST_TIME_COLUMN: Column = Column("last_time", Number(|row| row.last_time)
 /// The columns of the counters, in order; they follow all other columns.
 pub const COUNTER_COLUMNS: [Column; 5] = [
     Column("advancements", Count(|row| Some(row.stats?.advancements))),
-    Column("oracle_steps", Count(|row| Some(row.stats?.effort.steps))),
-    Column("cycles", Count(|row| Some(row.stats?.effort.cycles))),
-    Column("fallbacks", Count(|row| Some(row.stats?.effort.fallbacks))),
+    Column(
+        "oracle_steps",
+        Count(|row| Some(row.stats?.oracle_effort.steps)),
+    ),
+    Column(
+        "cycles",
+        Count(|row| Some(row.stats?.oracle_effort.cycle_count)),
+    ),
+    Column(
+        "fallbacks",
+        Count(|row| Some(row.stats?.oracle_effort.fallbacks)),
+    ),
     Column("front", Count(|row| Some(row.stats?.peak_front))),
 ];
 

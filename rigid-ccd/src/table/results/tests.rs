@@ -191,9 +191,9 @@ fn counters_follow_the_other_columns() {
         stats: Stats {
             peak_front: 11,
             advancements: 12,
-            effort: Effort {
+            oracle_effort: Effort {
                 steps: 13,
-                cycles: 14,
+                cycle_count: 14,
                 fallbacks: 15,
             },
             ..Stats::default()

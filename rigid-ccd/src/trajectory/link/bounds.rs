@@ -33,10 +33,10 @@ struct SpeedBounds {
 /// Bounds on a joint's position and rate over an interval of time, in radians or as a length.
 pub(super) struct PositionBounds {
     /// The largest absolute value of the position in the interval.
-    pub(super) max_position: f64,
+    pub(super) max_abs_position: f64,
     /// The largest absolute value of the position in the interval and at time 0. All positions are computed from the
     /// one at time 0.
-    pub(super) max_position_with_start: f64,
+    pub(super) max_abs_with_start: f64,
     pub(super) first: f64,
     /// The absolute value of the joint's rate.
     pub(super) rate: f64,
@@ -46,7 +46,7 @@ impl PositionBounds {
     /// Returns the largest distance by which a prismatic joint slides; 0 for other joints.
     fn max_slide_distance(&self, joint: &Joint) -> f64 {
         match joint.kind() {
-            JointKind::Prismatic(_) => self.max_position_with_start,
+            JointKind::Prismatic(_) => self.max_abs_with_start,
             JointKind::Fixed | JointKind::Revolute(_) => 0.0,
         }
     }
@@ -84,7 +84,7 @@ impl LinkBounds {
         match joint.kind() {
             JointKind::Fixed => {}
             JointKind::Prismatic(_) => {
-                self.add_arm_motion(positions.max_position);
+                self.add_arm_motion(positions.max_abs_position);
                 let (turn, turning) = (
                     self.speed_bounds.max_angular_speed,
                     self.acceleration_bounds.angular_acceleration,
@@ -94,7 +94,7 @@ impl LinkBounds {
                 self.speed_bounds.max_linear_speed += rate;
             }
             JointKind::Revolute(axis) => {
-                self.max_angle_sum += positions.max_position_with_start;
+                self.max_angle_sum += positions.max_abs_with_start;
                 if rate > 0.0 {
                     self.add_rotation(axis, rate);
                 } else {

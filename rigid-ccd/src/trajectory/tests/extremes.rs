@@ -46,7 +46,7 @@ fn times_may_be_far_from_0() {
         };
         let keys: Vec<_> = (0..50).map(&mut key).collect();
         let point = Curve::bezier(&[[0.0; 3]], 2.0).unwrap();
-        let slerp = Spline::new(point, OrientationCurve::slerp(&keys).unwrap());
+        let slerp = Spline::new(point, OrientationCurve::piecewise_slerp(&keys).unwrap());
         check_deviation_between("slerp", &slerp, epoch, epoch + 0.49, &mut rng);
         let thrown = random_ballistic(&mut rng).unwrap();
         check_deviation_between("ballistic", &thrown, -1e3, -999.0, &mut rng);
@@ -73,7 +73,10 @@ fn places_may_come_from_afar() {
 fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
     let curve = Curve::bezier(&points(&mut rng, 4), 1.0).unwrap();
-    let spline = Spline::new(curve, OrientationCurve::slerp(&keys(&mut rng, 3)).unwrap());
+    let spline = Spline::new(
+        curve,
+        OrientationCurve::piecewise_slerp(&keys(&mut rng, 3)).unwrap(),
+    );
     let stops = [0.0, 1.0].map(|time| (time, random_motion(&mut rng).unwrap().start()));
     let poses = Poses::new(stops.to_vec()).unwrap();
     for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
@@ -103,7 +106,7 @@ fn axes_have_any_length_but_0() {
         );
         let keys = [(0.0, [0.0, 0.0, 0.0, length])];
         assert_eq!(
-            OrientationCurve::slerp(&keys).unwrap().at(0.0).0,
+            OrientationCurve::piecewise_slerp(&keys).unwrap().at(0.0).0,
             DQuat::IDENTITY
         );
     }
@@ -121,7 +124,7 @@ fn differences_that_overflow_are_unbounded() {
             (duration, [0.0, 0.0, 0.6, 0.8]),
         ];
         let curve = Curve::bezier(&points, duration).unwrap();
-        let spline = Spline::new(curve, OrientationCurve::slerp(&keys).unwrap());
+        let spline = Spline::new(curve, OrientationCurve::piecewise_slerp(&keys).unwrap());
         if let Ok(stretch) = spline.stretch_between(0.0, duration) {
             let deviation = stretch.deviation_bound.shift;
             assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");

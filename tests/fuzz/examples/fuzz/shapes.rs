@@ -113,7 +113,7 @@ pub fn hull(draw: &mut RandomSource, count: usize) -> Shape {
         faces.extend(rim.map(|&[a, b]| [a, b, p]));
     }
     faces.sort_unstable();
-    shape(vertices, faces, MeshClass::Points)
+    shape(vertices, faces, MeshClass::VertexHull)
 }
 
 /// Returns a random shape of this module, with up to about 30 triangles.

@@ -17,7 +17,7 @@ pub struct Tally {
     /// The number of unresolved answers by reason, for all methods.
     unresolved_counts: BTreeMap<String, u64>,
     /// The number of the first query that stayed unresolved for each reason.
-    first_unresolved_query_numbers: BTreeMap<String, u64>,
+    first_unresolved_by_reason: BTreeMap<String, u64>,
     refusal_counts: BTreeMap<String, u64>,
     fault_counts: BTreeMap<Fault, u64>,
     /// The number of queries for which the referee's search was not complete.
@@ -44,7 +44,7 @@ impl Tally {
         }
         for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.methods) {
             if let Outcome::Unresolved(Unresolved { limit: reason, .. }) = outcome {
-                self.first_unresolved_query_numbers
+                self.first_unresolved_by_reason
                     .entry(format!("{reason:?}"))
                     .or_insert(number);
                 let entry = format!("{reason:?} {kind} {method}");
@@ -121,10 +121,7 @@ impl fmt::Display for Tally {
             ("by the default", &self.status_counts),
             ("asked", &self.answer_counts_by_method),
             ("unresolved", &self.unresolved_counts),
-            (
-                "first query, for --only",
-                &self.first_unresolved_query_numbers,
-            ),
+            ("first query, for --only", &self.first_unresolved_by_reason),
             ("refused", &self.refusal_counts),
         ];
         for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {

@@ -5,7 +5,7 @@ use crate::draw::RandomSource;
 use crate::engine::{Method, PieceKind};
 use crate::families::Family;
 use crate::judge::Fault;
-pub use ccd_fuzz::trial::{Failure, Trial, run_methods, shrink};
+pub use ccd_fuzz::trial::{Failure, Trial, run_and_judge, shrink};
 use std::collections::HashMap;
 use std::process;
 use std::sync::{Arc, Mutex};
@@ -20,7 +20,7 @@ pub fn run(family: Family, seed: u64, number: u64, watch: &Watchdog) -> Trial {
     let case = family.draw(&mut draw);
     let asked = methods(&mut draw, &case);
     watch.begin_query(number);
-    let trial = run_methods(case, asked);
+    let trial = run_and_judge(case, asked);
     watch.end_query();
     trial
 }

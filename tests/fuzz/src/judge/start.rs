@@ -28,9 +28,9 @@ impl StartState {
         let touching = distance <= rounding;
         let deep = touching && scene.penetration_depth(0.0) > rounding;
         let inside = if touching {
-            containment_if_touching(placed, volumes, rounding)
+            containment_of_touching_surfaces(placed, volumes, rounding)
         } else {
-            containment_if_apart(placed, volumes)
+            containment_of_separate_surfaces(placed, volumes)
         };
         StartState {
             distance,
@@ -41,15 +41,15 @@ impl StartState {
 }
 
 /// Returns whether a part of one body is inside the other body, given that the surfaces are apart.
-fn containment_if_apart(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
+fn containment_of_separate_surfaces(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
     let mut doubtful = PointLocation::Outside;
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
-        for corner in placed[1 - outer].part_corners() {
+        for corner in placed[1 - outer].corner_per_part() {
             match placed[outer].locate(corner) {
                 PointLocation::Inside => return PointLocation::Inside,
                 PointLocation::Outside => {}
-                PointLocation::Doubtful | PointLocation::Unknown => {
-                    doubtful = PointLocation::Doubtful;
+                PointLocation::InSeveralParts | PointLocation::Unknown => {
+                    doubtful = PointLocation::InSeveralParts;
                 }
             }
         }
@@ -58,7 +58,11 @@ fn containment_if_apart(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocat
 }
 
 /// Returns `Inside` for bodies that touch if a point is found well inside one body, and on or inside the other body.
-fn containment_if_touching(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> PointLocation {
+fn containment_of_touching_surfaces(
+    placed: &[Solid; 2],
+    volumes: [Volume; 2],
+    far: f64,
+) -> PointLocation {
     let well_inside = |p: Vector<DoubleDouble>, solid: &Solid| {
         solid.locate(p) == PointLocation::Inside && distance_to_surface(p, &solid.triangles) > far
     };

@@ -42,7 +42,7 @@ impl<'a> Search<'a> {
         Search {
             scene,
             limit,
-            threshold: limit.threshold,
+            threshold: limit.distance_threshold,
             search_end: until,
             violation: None,
             steps: 0,
@@ -58,7 +58,7 @@ impl<'a> Search<'a> {
             return (None, true);
         }
         for (i, p) in a.balls.iter().enumerate() {
-            let begin = self.balls_apart_until([p, &b.whole], begin);
+            let begin = self.balls_apart_until([p, &b.bounding_ball], begin);
             if !(begin < self.search_end) {
                 continue;
             }
@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
             let least = near
                 .iter()
                 .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
-            let whole = self.scene.sides.each_ref().map(|side| &side.whole);
+            let whole = self.scene.sides.each_ref().map(|side| &side.bounding_ball);
             let GapBounds {
                 rate_bound: rate,
                 rate_change_bound: bend,
@@ -184,7 +184,10 @@ impl<'a> Search<'a> {
     fn ball_gap_bounds(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapBounds {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;
-        let middles = [snapshots[0].arm_of(p.middle), snapshots[1].arm_of(q.middle)];
+        let middles = [
+            snapshots[0].world_arm(p.middle),
+            snapshots[1].world_arm(q.middle),
+        ];
         let apart = (middles[1] + between - middles[0]).length().to_f64();
         let rates = [a.track.rate.to_f64(), b.track.rate.to_f64()];
         let velocity = a.track.point_velocity(middles[0].to_f64())

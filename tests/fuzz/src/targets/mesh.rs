@@ -16,7 +16,7 @@ const SCENE_MEMORY_LIMIT: usize = 1 << 28;
 const BODY_MEMORY_LIMIT: usize = 1 << 28;
 
 /// The largest number of triangles of a mesh from which patches and hulls are made. `Auto` has a budget of its own.
-const MAX_TRIANGLES_FOR_PATCHES: usize = 48;
+const MAX_COSTLY_DETAIL_TRIANGLES: usize = 48;
 /// The largest number of triangles of a mesh from which bodies of any kind are made. Scenes of few bytes may have many.
 const MAX_BODY_TRIANGLES: usize = 1 << 11;
 /// One file in this many is made into an outer hull, which takes a hundred times as long as the other bodies.
@@ -46,7 +46,7 @@ fn read(format: Format, bytes: &[u8], memory: usize) {
             check(&mesh);
             let mut details = affordable_details(mesh.faces().len());
             if bytes.len().is_multiple_of(FILES_PER_OUTER_HULL)
-                && mesh.faces().len() <= MAX_TRIANGLES_FOR_PATCHES
+                && mesh.faces().len() <= MAX_COSTLY_DETAIL_TRIANGLES
             {
                 details.push(Detail::OuterHull);
             }
@@ -112,7 +112,7 @@ fn check_round_trip(mesh: &TriangleMesh) {
 
 fn affordable_details(triangles: usize) -> Vec<Detail> {
     let mut details = vec![Detail::Auto, Detail::Triangles];
-    if triangles <= MAX_TRIANGLES_FOR_PATCHES {
+    if triangles <= MAX_COSTLY_DETAIL_TRIANGLES {
         details.extend([Detail::Patches(Default::default()), Detail::Hull]);
     }
     details

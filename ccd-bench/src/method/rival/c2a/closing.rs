@@ -12,11 +12,11 @@ pub(super) struct ClosingSpeedBounder {
     /// The velocity of A's centre relative to B's, in the world frame.
     relative_velocity_world: DVec3,
     /// The velocity of A's centre relative to B's, in A's frame.
-    relative_velocity: DVec3,
+    relative_velocity_in_a: DVec3,
     /// B's axis of rotation in the world frame.
     axis_b_world: DVec3,
     /// B's axis of rotation in A's frame.
-    axis_b: DVec3,
+    axis_b_in_a: DVec3,
 }
 
 /// The rotation of a body, and the distances of its nodes from the axis.
@@ -38,9 +38,9 @@ impl ClosingSpeedBounder {
             a: BodyRotation::new(&trees.a),
             b: BodyRotation::new(&trees.b),
             relative_velocity_world: DVec3::ZERO,
-            relative_velocity: DVec3::ZERO,
+            relative_velocity_in_a: DVec3::ZERO,
             axis_b_world: DVec3::Z,
-            axis_b: DVec3::Z,
+            axis_b_in_a: DVec3::Z,
         }
     }
 
@@ -53,10 +53,10 @@ impl ClosingSpeedBounder {
     }
 
     /// Sets the placement of body A at the current time, and converts the motions to A's frame.
-    pub(super) fn set_frame(&mut self, frame_a: &Placement) {
+    pub(super) fn set_placement_a(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
-        self.relative_velocity = to_a * self.relative_velocity_world;
-        self.axis_b = to_a * self.axis_b_world;
+        self.relative_velocity_in_a = to_a * self.relative_velocity_world;
+        self.axis_b_in_a = to_a * self.axis_b_world;
     }
 
     /// Returns a time during which two nodes, and the triangles in them, do not touch. It is the time to close their
@@ -77,13 +77,13 @@ impl ClosingSpeedBounder {
             return 0.0;
         }
         let n = gap.direction;
-        let speed = self.relative_velocity.dot(n)
+        let speed = self.relative_velocity_in_a.dot(n)
             + self
                 .a
                 .rotational_speed_bound(&trees.a, pair.a, n.cross(self.a.axis))
             + self
                 .b
-                .rotational_speed_bound(&trees.b, pair.b, n.cross(self.axis_b));
+                .rotational_speed_bound(&trees.b, pair.b, n.cross(self.axis_b_in_a));
         if speed <= 0.0 {
             f64::INFINITY
         } else {

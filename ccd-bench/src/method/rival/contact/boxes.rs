@@ -7,7 +7,7 @@ use ccd_core::glam::{DMat3, DVec3};
 
 /// A bound on the rounding of cosines between the axes of two boxes. Without it the cross product of parallel axes
 /// would separate anything.
-const COSINE_ROUNDING: f64 = 1e-14;
+const COSINE_ROUNDING_BOUND: f64 = 1e-14;
 
 /// Returns the radius of the enclosure of a corner's position over an interval of time; `None` if one of the 15 axes
 /// separates the boxes over all of it. Both sides of every inequality are enclosed by interval arithmetic
@@ -55,7 +55,7 @@ pub(super) fn motion_spread_unless_separated(
 /// Returns upper bounds of the absolute values of cosines, each of which is known to within a radius.
 fn cosine_upper_bounds(cos: DMat3, radius: DMat3) -> DMat3 {
     let upper = |c: DVec3, r: DVec3| {
-        (c.abs() + r + COSINE_ROUNDING).min(DVec3::splat(1.0 + COSINE_ROUNDING))
+        (c.abs() + r + COSINE_ROUNDING_BOUND).min(DVec3::splat(1.0 + COSINE_ROUNDING_BOUND))
     };
     DMat3::from_cols(
         upper(cos.x_axis, radius.x_axis),

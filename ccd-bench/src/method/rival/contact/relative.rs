@@ -88,7 +88,7 @@ impl RelativeMotion {
         let (first, position_first) = self.first_motion.enclosure_over(span);
         if self.second_motion.angular_speed == 0.0 {
             let offset =
-                position_first.minus_point(self.second_motion.unrotated_reference_position());
+                position_first.minus_point(self.second_motion.non_rotating_reference_position());
             return MotionEnclosure {
                 rotation: first,
                 offset,
@@ -150,7 +150,7 @@ impl MotionCoefficients {
     }
 
     /// Returns the start position of the reference point of a body that does not rotate.
-    fn unrotated_reference_position(&self) -> DVec3 {
+    fn non_rotating_reference_position(&self) -> DVec3 {
         self.start_centre + self.constant_term * self.reference_offset
     }
 
@@ -164,9 +164,9 @@ impl MotionCoefficients {
 
     fn enclosure_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
         let half = 0.5 * span.width();
-        let (cos, sin) = self.coefficients_at(span.middle());
+        let (cos, sin) = self.rebased_coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.angular_speed * half);
-        let (turning, round) = self.enclose_turn_over_arc(cos, sin, arc);
+        let (turning, round) = self.enclose_rotation_over_arc(cos, sin, arc);
         let rotation = IntervalMat {
             middle: self.constant_term + turning.middle,
             radius: turning.radius,
@@ -182,10 +182,10 @@ impl MotionCoefficients {
     }
 
     fn rate_enclosures_over(&self, span: TimeSpan) -> (IntervalMat, IntervalVec) {
-        let (cos, sin) = self.coefficients_at(span.middle());
+        let (cos, sin) = self.rebased_coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.angular_speed * 0.5 * span.width());
         let (cos, sin) = (sin * self.angular_speed, cos * -self.angular_speed);
-        let (turning_rate, round) = self.enclose_turn_over_arc(cos, sin, arc);
+        let (turning_rate, round) = self.enclose_rotation_over_arc(cos, sin, arc);
         let velocity = IntervalVec {
             middle: self.velocity + round.middle,
             radius: round.radius,
@@ -195,7 +195,7 @@ impl MotionCoefficients {
 
     /// Returns enclosures of a rotation, given by its coefficients, and of the reference point that it rotates, for all
     /// angles in the arc.
-    fn enclose_turn_over_arc(
+    fn enclose_rotation_over_arc(
         &self,
         cos: DMat3,
         sin: DMat3,
@@ -203,13 +203,13 @@ impl MotionCoefficients {
     ) -> (IntervalMat, IntervalVec) {
         let [cos_point, sin_point] = [cos, sin].map(|part| part * self.reference_offset);
         (
-            enclose_over_arc(cos, [cos.abs(), sin.abs()], arc),
-            enclose_over_arc(cos_point, [cos_point.abs(), sin_point.abs()], arc),
+            enclose_sinusoid_over_arc(cos, [cos.abs(), sin.abs()], arc),
+            enclose_sinusoid_over_arc(cos_point, [cos_point.abs(), sin_point.abs()], arc),
         )
     }
 
     /// Returns the coefficients of cosine and sine for a rotation angle that is counted from the angle at `time`.
-    fn coefficients_at(&self, time: f64) -> (DMat3, DMat3) {
+    fn rebased_coefficients_at(&self, time: f64) -> (DMat3, DMat3) {
         let (sin, cos) = (self.angular_speed * time).sin_cos();
         (
             self.cosine_coefficient * cos + self.sine_coefficient * sin,
@@ -225,7 +225,11 @@ fn map_columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for all angles φ in the arc, given the coefficients `cos` and
 /// `sin`, and the absolute values of both.
 #[inline]
-fn enclose_over_arc<T>(cos: T, [cos_abs, sin_abs]: [T; 2], arc: SineCosineRange) -> Interval<T>
+fn enclose_sinusoid_over_arc<T>(
+    cos: T,
+    [cos_abs, sin_abs]: [T; 2],
+    arc: SineCosineRange,
+) -> Interval<T>
 where
     T: Add<Output = T> + Mul<f64, Output = T>,
 {

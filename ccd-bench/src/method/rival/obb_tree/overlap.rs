@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 
 /// A bound on the rounding of cosines between the axes of two boxes, so that the cross product of parallel axes
 /// separates nothing \[OBBTREE96 §5\].
-const COSINE_SLACK: f64 = 1e-14;
+const COSINE_ROUNDING_BOUND: f64 = 1e-14;
 
 /// Returns true if any triangles of two trees touch or cross, with A placed in B's frame.
 ///
@@ -61,9 +61,9 @@ impl Obb {
         let t = into * (placement.apply(self.centre) - other.centre);
         let cos = into * (placement.rotation * self.axes);
         let mut abs = cos.abs();
-        abs.x_axis += COSINE_SLACK;
-        abs.y_axis += COSINE_SLACK;
-        abs.z_axis += COSINE_SLACK;
+        abs.x_axis += COSINE_ROUNDING_BOUND;
+        abs.y_axis += COSINE_ROUNDING_BOUND;
+        abs.z_axis += COSINE_ROUNDING_BOUND;
         let (ha, hb) = (self.half_extents, other.half_extents);
         if (t.abs() - hb - abs * ha).max_element() > 0.0 {
             return true;

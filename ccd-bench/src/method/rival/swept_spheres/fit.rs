@@ -1,6 +1,6 @@
 //! Builds a tree of swept spheres: fits a swept rectangle to a set of triangles, and splits the set in two.
 
-use super::{Node, RssTree, principal_axes};
+use super::{Node, RssTree, mean_and_principal_axes};
 use crate::method::rival::Placement;
 use crate::method::rival::tree::{NodeContent, build_binary_tree};
 use crate::method::rival::triangles_apart::Triangle;
@@ -30,7 +30,7 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
     let (nodes, frames) = nodes.into_iter().map(node).unzip();
     RssTree {
         nodes,
-        frames,
+        frames_per_node: frames,
         triangles,
     }
 }
@@ -57,7 +57,7 @@ fn partition_triangles(part: &mut [Triangle], axis: DVec3) -> usize {
 /// Fits a rectangle across the direction in which the triangles are thinnest, and returns its frame, its side lengths
 /// and the required radius \[PQP99 §3\].
 fn fit_swept_rectangle(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
-    let (_, axes) = principal_axes(triangles.iter().flatten().copied());
+    let (_, axes) = mean_and_principal_axes(triangles.iter().flatten().copied());
     let to_axes = axes.transpose();
     let points = || triangles.iter().flatten().map(|&p| to_axes * p);
     let (low, high) = points().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {

@@ -42,7 +42,7 @@ fn nodes_hold_their_triangles_and_are_tight() {
         assert_eq!(all, (0..mesh.faces().len() as u32).collect::<Vec<_>>());
         for (k, node) in tree.nodes.iter().enumerate().take(500) {
             let below = triangle_indices_below(&tree, k as u32);
-            let inside = tree.frames[k];
+            let inside = tree.frames_per_node[k];
             let mut farthest = 0.0_f64;
             for point in below.iter().flat_map(|&t| tree.triangles[t as usize]) {
                 let local = inside.rotation.transpose() * (point - inside.translation);

@@ -6,7 +6,7 @@ fn draw_map(kind: &'static HeatMapTexts, cells: Vec<Option<HeatCell>>) -> String
         methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
         rows: vec![HeatRow {
             name: "bullet and paper".to_owned(),
-            parameter: "way against thickness".to_owned(),
+            parameter_description: "way against thickness".to_owned(),
             cells,
         }],
     };

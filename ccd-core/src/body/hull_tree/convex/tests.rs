@@ -15,7 +15,7 @@ fn is_convex_polytope(points: &[[f64; 3]], facets: &[&[u32]]) -> bool {
         facets: facets.iter().map(facet).collect(),
         ..Polytope::default()
     };
-    is_convex(&Pieces::polytopes(&[polytope]).unwrap().get(0))
+    is_convex(&Pieces::from_polytopes(&[polytope]).unwrap().get(0))
 }
 
 const PYRAMID_POINTS: [[f64; 3]; 5] = [

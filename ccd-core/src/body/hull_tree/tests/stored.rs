@@ -16,7 +16,7 @@ fn to_bytes<T: Serialize>(value: &T) -> Vec<u8> {
 fn pieces_with_hull_tree() -> (Pieces, HullTree) {
     let pieces = [box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)];
     let tree = tree(&pieces, box_hull(0.0, 3.0)).unwrap();
-    (Pieces::polytopes(&pieces).unwrap(), tree)
+    (Pieces::from_polytopes(&pieces).unwrap(), tree)
 }
 
 #[test]

@@ -1,5 +1,5 @@
 use super::*;
-use crate::tests::scene::{SoupKind, body, rng, soup};
+use crate::tests::scene::{SoupKind, body, random_triangle_soup, rng};
 
 #[test]
 fn layers_grow_evenly_up_to_all_pieces() {
@@ -23,7 +23,7 @@ fn layers_grow_evenly_up_to_all_pieces() {
 
 #[test]
 fn groups_are_half_full_at_least() {
-    let triangles = soup(&mut rng(5), SoupKind::MixedSizes, 20_000, 0.02);
+    let triangles = random_triangle_soup(&mut rng(5), SoupKind::MixedSizes, 20_000, 0.02);
     let body = body(&triangles);
     let tree = body.tree();
     let lanes: usize = tree

@@ -126,7 +126,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                     radius: 0.0,
                     are_triangles: triangles,
                 };
-                let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
+                let node = fit_node(&node_points, NodeChildren::Piece(0), &mut sample);
                 let [x, y, z] = node.half_extents.map(|half| 2.0 * f64::from(half));
                 assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
@@ -163,7 +163,7 @@ fn degenerate_points_have_a_box() {
                 radius: 0.0,
                 are_triangles: triangles,
             };
-            let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
+            let node = fit_node(&node_points, NodeChildren::Piece(0), &mut sample);
             for (point, k) in points.iter().zip([0, 1, 2, 0]) {
                 let way = (*point - node.centre).dot(node.axes[k].as_dvec3());
                 assert!(way.abs() <= f64::from(node.half_extents[k]));

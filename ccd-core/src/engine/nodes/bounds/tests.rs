@@ -66,7 +66,7 @@ struct EightPairSample<C, P> {
     /// The part of the slack that allows for the rounding error of a gap.
     allowed_gap_error: f32,
     children: Vec<Solid>,
-    other_solid: Solid,
+    other_node_solid: Solid,
     /// The velocity of the children's centre of rotation relative to the other node's.
     velocity: DVec3,
     acceleration: DVec3,
@@ -83,10 +83,10 @@ struct WorstErrorShares {
     /// start.
     min_relative_excess: f64,
     /// The number of positive free times of fixed planes.
-    fixed_plane_count: usize,
-    turning_plane_count: usize,
+    fixed_plane_time_count: usize,
+    turning_plane_time_count: usize,
     /// The number of free times of bodies that accelerate.
-    accelerating_count: usize,
+    accelerating_time_count: usize,
     unbounded_free_time_count: usize,
 }
 
@@ -162,11 +162,11 @@ impl WorstErrorShares {
         // Samples that come nowhere near the bounds would prove nothing.
         assert!(self.min_relative_excess < 0.01, "{self:?}");
         assert!(
-            self.fixed_plane_count > 20_000 && self.turning_plane_count > 2_000,
+            self.fixed_plane_time_count > 20_000 && self.turning_plane_time_count > 2_000,
             "{self:?}"
         );
         assert!(
-            self.accelerating_count > 5_000 && self.unbounded_free_time_count > 500,
+            self.accelerating_time_count > 5_000 && self.unbounded_free_time_count > 500,
             "{self:?}"
         );
     }
@@ -175,7 +175,7 @@ impl WorstErrorShares {
 /// Computes the values along three axes: the two that the bounds try, and the axis `some`.
 ///
 /// Nothing is inlined: in one function without vectors, the compiler would take minutes.
-fn axis_values<L: Simd, C: Children, P: OtherNode>(
+fn values_along_three_axes<L: Simd, C: Children, P: OtherNode>(
     level: L,
     sample: &EightPairSample<C, P>,
     some: Vec3,
@@ -201,7 +201,7 @@ fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P
 fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
 ) -> AxesX8<L> {
-    let travel = pairs.velocity * splat(pairs.offset.simd_level(), pairs.motion.horizon);
+    let travel = pairs.velocity * splat(pairs.offset.simd_level(), pairs.motion.remaining_time);
     axis::closest_approach_axis(pairs.children, pairs.other_node, pairs.offset, travel)
 }
 
@@ -278,7 +278,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     fn check_random_axes(&self, rng: &mut Pcg64, worst: &mut WorstErrorShares) {
         // Axes may have any length.
         let some = random_direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
-        let found = self.axis_values_on_all_levels(some);
+        let found = self.cross_checked_axis_values(some);
         let reach = vectorize!(VectorInstructions::Best.simd_level(), level => {
             *(self.group.centre(level).length() + self.group.radius(level))
         });
@@ -295,9 +295,9 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     }
 
     /// Computes the values with all sets of vector instructions, and checks that they are equal.
-    fn axis_values_on_all_levels(&self, some: Vec3) -> [AxisValues; 3] {
+    fn cross_checked_axis_values(&self, some: Vec3) -> [AxisValues; 3] {
         let [best, baseline] = [VectorInstructions::Best, VectorInstructions::Baseline]
-            .map(|instructions| vectorize!(instructions.simd_level(), level => axis_values(level, self, some)));
+            .map(|instructions| vectorize!(instructions.simd_level(), level => values_along_three_axes(level, self, some)));
         for (best, baseline) in best.iter().zip(&baseline) {
             assert_eq!(
                 best.comparable_values(),
@@ -332,9 +332,10 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
             let n = found.normal(lane);
             let gap = |tau: f64| {
                 let child = self.children[lane].max_height(n, tau) + n.dot(self.displacement(tau));
-                (-self.other_solid.max_height(-n, tau) - child) / n.length()
+                (-self.other_node_solid.max_height(-n, tau) - child) / n.length()
             };
-            worst.fixed_plane_count += usize::from(self.check_gap_is_kept(lane, free, gap, worst));
+            worst.fixed_plane_time_count +=
+                usize::from(self.check_gap_is_kept(lane, free, gap, worst));
         }
     }
 
@@ -354,14 +355,14 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
             assert!(free[lane] <= MAX_TURNING_PLANE_TIME);
             let spin = match with {
                 LargerBody::SplitBody => child.spin,
-                LargerBody::OtherBody => self.other_solid.spin,
+                LargerBody::OtherBody => self.other_node_solid.spin,
             };
             let gap = |tau: f64| {
                 let n = DQuat::from_scaled_axis(spin * tau) * found.normal(lane);
                 let top = child.max_height(n, tau) + n.dot(self.displacement(tau));
-                (-self.other_solid.max_height(-n, tau) - top) / n.length()
+                (-self.other_node_solid.max_height(-n, tau) - top) / n.length()
             };
-            worst.turning_plane_count +=
+            worst.turning_plane_time_count +=
                 usize::from(self.check_gap_is_kept(lane, free[lane], gap, worst));
         }
     }
@@ -380,8 +381,9 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         }
         let kept = self.kept_gap;
         let travel = self.velocity.length() + self.acceleration.length();
-        let size =
-            self.children[lane].coordinate_scale() + self.other_solid.coordinate_scale() + travel;
+        let size = self.children[lane].coordinate_scale()
+            + self.other_node_solid.coordinate_scale()
+            + travel;
         let until = lesser(1.0, f64::from(free));
         for k in 0..=16 {
             let tau = until * f64::from(k) / 16.0;
@@ -392,7 +394,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
                 self.motion,
             );
         }
-        worst.accelerating_count += usize::from(self.motion.acceleration.is_some());
+        worst.accelerating_time_count += usize::from(self.motion.acceleration.is_some());
         worst.unbounded_free_time_count += usize::from(free == f32::INFINITY);
         let rest = (gap(until) - kept) / (gap(0.0) - kept);
         worst.min_relative_excess = lesser(worst.min_relative_excess, rest);

@@ -420,8 +420,10 @@ fn bound_with_fixed_planes<L: Simd, C: Children>(
     };
     let much = 0.99 * MIN_TURNING_PLANE_RADIUS_RATIO;
     let members = GroupHeader {
-        reach: members.reach.clamp(radius / much, radius * much),
+        max_distance_from_origin: members
+            .max_distance_from_origin
+            .clamp(radius / much, radius * much),
         ..*members
     };
-    motion.bound(group, &members)
+    motion.bound_group(group, &members)
 }

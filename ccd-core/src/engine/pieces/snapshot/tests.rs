@@ -9,7 +9,7 @@ use crate::tests::nearest::nearest_points;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{RngExt, SceneKind, random_direction, random_power_of_ten, rng, scene};
 
-const SAMPLES: u32 = 32;
+const SAMPLE_COUNT: u32 = 32;
 
 #[test]
 fn an_axis_separates_for_as_long_as_it_says() {
@@ -40,8 +40,8 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let free = snapshot.fixed_plane_free_time(normal, slack);
         let until = free.map_or(1.0, |free| clock + free);
         let least = gap - slack - 3.0 * problem.rounding;
-        for k in 0..=SAMPLES {
-            let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLES);
+        for k in 0..=SAMPLE_COUNT {
+            let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLE_COUNT);
             let found = heights(s, normal);
             assert!(
                 found >= least,
@@ -87,8 +87,8 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         }
         let free = snapshot.free_time(&checked, kept);
         let until = free.map_or(1.0, |free| clock + free);
-        for k in 0..=SAMPLES {
-            let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLES);
+        for k in 0..=SAMPLE_COUNT {
+            let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLE_COUNT);
             let frames = [&problem.a, &problem.b].map(|side| side.path.frame(s));
             let a = problem
                 .a

@@ -35,7 +35,7 @@ impl Query<'_> {
 /// Bounds of the least distance of both bodies in one stretch of time, as they move by its motions, and the time at which
 /// they are nearest.
 #[derive(Default)]
-pub(super) struct StretchDistance {
+pub(super) struct StretchDistanceBounds {
     pub(super) lower: f64,
     pub(super) upper: f64,
     /// The sum of both bodies' deviations, which bounds the difference between the bodies' distance and that of the
@@ -47,14 +47,14 @@ pub(super) struct StretchDistance {
     pub(super) approach_rate: f64,
 }
 
-impl StretchDistance {
+impl StretchDistanceBounds {
     /// Creates the result for motions that are farther apart than the least distance found so far. The bodies are so
     /// despite their deviations.
     pub(super) fn for_distant_motions(lower: f64) -> Self {
-        StretchDistance {
+        StretchDistanceBounds {
             lower,
             upper: lower,
-            ..StretchDistance::default()
+            ..StretchDistanceBounds::default()
         }
     }
 
@@ -86,7 +86,7 @@ impl StretchDistance {
 }
 
 /// The bounds of the bodies' least distance that a search along trajectories has found so far.
-pub(super) struct LeastDistanceSoFar {
+pub(super) struct LeastDistanceBounds {
     /// A lower bound of the distance in all finished stretches.
     pub(super) lower: f64,
     pub(super) nearest_contact: Option<(f64, Contact)>,
@@ -94,10 +94,10 @@ pub(super) struct LeastDistanceSoFar {
     pub(super) lower_bound_attempts: LowerBoundAttempts,
 }
 
-impl LeastDistanceSoFar {
+impl LeastDistanceBounds {
     pub(super) fn new(query: &Query<'_>) -> Self {
         let is_timed = query.settings.deadline.is_some() || query.settings.stop.is_some();
-        LeastDistanceSoFar {
+        LeastDistanceBounds {
             lower: f64::INFINITY,
             nearest_contact: None,
             lower_bound_attempts: LowerBoundAttempts::new(0.0, query.settings.budget)
@@ -114,14 +114,14 @@ impl LeastDistanceSoFar {
     ///
     /// # Errors
     /// The limit that was reached.
-    pub(super) fn record(
+    pub(super) fn record_stretch_outcome(
         &mut self,
         motions: &StretchMotions,
         outcome: &Outcome,
-    ) -> Result<StretchDistance, Limit> {
-        let mut seen = StretchDistance {
+    ) -> Result<StretchDistanceBounds, Limit> {
+        let mut seen = StretchDistanceBounds {
             total_deviation_bound: motions.total_deviation_bound,
-            ..StretchDistance::default()
+            ..StretchDistanceBounds::default()
         };
         match *outcome {
             Outcome::LeastDistance {
@@ -157,7 +157,7 @@ impl LeastDistanceSoFar {
         }
     }
 
-    pub(super) fn nearest_answer(&self, stretches: &WaitingStretches<'_, '_>) -> Answer {
+    pub(super) fn least_distance_answer(&self, stretches: &WaitingStretches<'_, '_>) -> Answer {
         let Some((time, contact)) = self.nearest_contact else {
             let reason = Limit::OracleGaveUp;
             return self.answer(stretches, self.unresolved_outcome(0.0, reason));

@@ -89,7 +89,7 @@ impl Trajectory for ShuttleTrajectory {
 #[test]
 fn each_part_between_two_corners_has_a_budget() {
     let mut rng = rng(9);
-    let soup = soup(&mut rng, SoupKind::WellShaped, 40, 1.0);
+    let soup = random_triangle_soup(&mut rng, SoupKind::WellShaped, 40, 1.0);
     let (body, ball) = (body(&soup), Body::sphere(0.5).unwrap());
     let ask = |laps: u32, beside: f64, budget: u64| {
         let config = Settings {
@@ -126,11 +126,18 @@ fn each_part_between_two_corners_has_a_budget() {
         }
     }
     let (first, any, closest, _) = ask(1, far, u64::MAX);
-    let works = [first.stats.work(), any.stats.work(), closest.stats.work()];
+    let works = [
+        first.stats.budgeted_work(),
+        any.stats.budgeted_work(),
+        closest.stats.budgeted_work(),
+    ];
     let budget = 4 * works.into_iter().max().unwrap();
     let laps = 64;
     let (first, any, closest, interval) = ask(laps, far, budget);
-    assert!(first.stats.work() > budget, "{first:?} within {budget}");
+    assert!(
+        first.stats.budgeted_work() > budget,
+        "{first:?} within {budget}"
+    );
     assert!(matches!(first.outcome, Outcome::Free { .. }), "{first:?}");
     assert!(matches!(any.outcome, Outcome::Free { .. }), "{any:?}");
     assert!(
@@ -171,7 +178,10 @@ fn each_part_between_two_corners_has_a_budget() {
             ..
         })
     ));
-    assert!(first.stats.work() <= 4 * u64::from(laps) * 2, "{first:?}");
+    assert!(
+        first.stats.budgeted_work() <= 4 * u64::from(laps) * 2,
+        "{first:?}"
+    );
 }
 
 /// A trajectory with unbounded deviations, with a corner near the end of every stretch, or with invalid bounds.

@@ -81,7 +81,7 @@ fn budgets_end_a_search_with_bounds_that_hold() {
         let least = sampled_least_distance(&swings);
         let query = swings.query();
         let whole = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
-        let work = whole.unwrap().stats.work();
+        let work = whole.unwrap().stats.budgeted_work();
         for share in [0.1, 0.5, 0.9] {
             swings.settings.budget = (share * work as f64) as u64 + 1;
             let query = swings.query();

@@ -43,6 +43,9 @@ fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
         "{closest:?}"
     );
     assert!(closest.outcome.upper() - closest.outcome.lower() <= config.tolerance);
-    let (most, work) = (20 * first.stats.work(), closest.stats.work());
+    let (most, work) = (
+        20 * first.stats.budgeted_work(),
+        closest.stats.budgeted_work(),
+    );
     assert!(work <= most, "{work} of {most}");
 }

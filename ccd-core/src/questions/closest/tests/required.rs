@@ -89,12 +89,14 @@ fn a_required_distance_costs_little_more_than_a_margin() {
         };
         for distance in [0.7 * lower, 1.5 * contact.separation.upper] {
             scene.settings.clearance = Some(distance);
-            required += closest_approach_answer(&scene.problem()).stats.work();
+            required += closest_approach_answer(&scene.problem())
+                .stats
+                .budgeted_work();
             scene.settings.margin = distance;
             let problem = scene.problem();
             let any = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
-            margins += any.stats.work();
-            measured += known.stats.work();
+            margins += any.stats.budgeted_work();
+            measured += known.stats.budgeted_work();
             scene.settings.margin = 0.0;
             scene.settings.clearance = None;
             assert!(!matches!(any.outcome, Outcome::Unresolved(_)));
@@ -114,7 +116,7 @@ fn searches_that_end_early_know_a_part_of_the_distance() {
         if !(whole.outcome.lower() > 0.01) {
             continue;
         }
-        scene.settings.budget = whole.stats.work() - 1;
+        scene.settings.budget = whole.stats.budgeted_work() - 1;
         let problem = scene.problem();
         let answer = closest_approach_answer(&problem);
         let Outcome::Unresolved(Unresolved {

@@ -123,7 +123,7 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let snapshot = Snapshot::new(&problem, 0, 0, tape.next_fraction());
     let [own, other] = snapshot.moving_pieces();
     let normal = unit(tape.vector(-40..=0).into())?;
-    if !own.side.path.is_turning() {
+    if !own.body_with_path.path.is_turning() {
         return None;
     }
     let sweep = PiecePastTurningPlane::new(&own, &other, normal, problem.rounding);

@@ -38,7 +38,7 @@ impl<'a> AccessorReader<'a> {
 
     /// Reads the points of a `VEC3` accessor as f64.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
-        self.with_accessor(accessor, |accessors, about| {
+        self.with_accessor_context(accessor, |accessors, about| {
             check_accessor_type(about, "VEC3")?;
             let component = ComponentType::from_code(about.component_type)?;
             let size = component.byte_count;
@@ -57,7 +57,7 @@ impl<'a> AccessorReader<'a> {
 
     /// Reads the indices of a `SCALAR` accessor.
     pub(super) fn indices(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
-        self.with_accessor(accessor, |accessors, about| {
+        self.with_accessor_context(accessor, |accessors, about| {
             check_accessor_type(about, "SCALAR")?;
             let component = ComponentType::index_type_from_code(about.component_type)?;
             let whole = |row: &[u8]| (component.read)(row) as u32;
@@ -67,7 +67,7 @@ impl<'a> AccessorReader<'a> {
     }
 
     /// Calls `read` with an accessor's description, and adds the accessor's number to its faults.
-    fn with_accessor<T>(
+    fn with_accessor_context<T>(
         &mut self,
         accessor: usize,
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
@@ -173,7 +173,7 @@ impl ComponentType {
                 ComponentType {
                     byte_count: size_of::<$type>(),
                     max_integer: Some(<$type>::MAX.into()),
-                    read: |bytes| <$type>::from_le_bytes(first_bytes(bytes)).into(),
+                    read: |bytes| <$type>::from_le_bytes(first_bytes_or_zeros(bytes)).into(),
                 }
             };
         }
@@ -186,7 +186,7 @@ impl ComponentType {
             5126 => ComponentType {
                 byte_count: 4,
                 max_integer: None,
-                read: |bytes| f32::from_le_bytes(first_bytes(bytes)).into(),
+                read: |bytes| f32::from_le_bytes(first_bytes_or_zeros(bytes)).into(),
             },
             _ => {
                 let problem = format!("has components of type {number}, which there is not");
@@ -207,6 +207,6 @@ impl ComponentType {
 }
 
 /// Returns the first `N` bytes of a slice, or `N` zeros if there are too few.
-fn first_bytes<const N: usize>(bytes: &[u8]) -> [u8; N] {
+fn first_bytes_or_zeros<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.first_chunk().copied().unwrap_or([0; N])
 }

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 /// The bytes of all buffers of a glTF. A buffer that only a compression extension fills has no data and is `None`.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
-    bytes: Vec<Option<Cow<'a, [u8]>>>,
+    bytes_by_buffer: Vec<Option<Cow<'a, [u8]>>>,
 }
 
 impl<'a> Buffers<'a> {
@@ -29,19 +29,19 @@ impl<'a> Buffers<'a> {
         let bytes: Result<_, _> = root.buffers.iter().enumerate().map(found).collect();
         Ok(Buffers {
             root,
-            bytes: bytes?,
+            bytes_by_buffer: bytes?,
         })
     }
 
     /// Returns the bytes of a buffer view, except for the first `offset` bytes.
     pub(super) fn view_bytes(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
-        let buffer = self.bytes.get(about.buffer);
+        let buffer = self.bytes_by_buffer.get(about.buffer);
         if about.extensions.meshopt.is_some() && buffer.is_none_or(Option::is_none) {
             return Err(extensions::meshopt_fault());
         }
         let found = || {
-            let Some(buffer) = element(&self.bytes, "buffer", about.buffer)? else {
+            let Some(buffer) = element(&self.bytes_by_buffer, "buffer", about.buffer)? else {
                 let problem = format!("buffer {} has neither bytes nor a file", about.buffer);
                 return Err(MeshFault::malformed_content(problem));
             };
@@ -82,7 +82,7 @@ fn buffer_bytes<'a>(
             None => {
                 let name = path_from_uri(uri)?;
                 let bytes = linked.get(&name).map(Vec::as_slice);
-                bytes.ok_or_else(|| linked_file_fault(name))?.into()
+                bytes.ok_or_else(|| missing_linked_file_fault(name))?.into()
             }
         },
     };
@@ -94,7 +94,7 @@ fn buffer_bytes<'a>(
     }
 }
 
-fn linked_file_fault(name: String) -> MeshFault {
+fn missing_linked_file_fault(name: String) -> MeshFault {
     MeshFault::UnreadableLinkedFile {
         name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
@@ -103,7 +103,7 @@ fn linked_file_fault(name: String) -> MeshFault {
 }
 
 /// Returns the path of the file of a buffer relative to the mesh; `None` for an embedded buffer.
-pub(super) fn linked_file_name(buffer: &Buffer) -> Result<Option<String>, MeshFault> {
+pub(super) fn linked_file_path(buffer: &Buffer) -> Result<Option<String>, MeshFault> {
     let uri = buffer.uri.as_deref();
     let linked = uri.filter(|uri| data_uri_payload(uri).is_none());
     linked.map(path_from_uri).transpose()

@@ -29,7 +29,7 @@ impl<'a> Container<'a> {
         };
         let version = read_u32(&mut rest)?;
         if version != GLTF_VERSION {
-            return Err(MeshFault::unsupported(
+            return Err(MeshFault::unsupported_content(
                 format!("binary glTF of version {version}"),
                 "glTF 2.0",
             ));

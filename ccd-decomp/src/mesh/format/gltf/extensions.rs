@@ -40,7 +40,7 @@ pub(super) fn check_required_extensions(root: &Root) -> Result<(), MeshFault> {
         None => Ok(()),
         Some(DRACO_EXTENSION) => Err(draco_fault()),
         Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt_fault()),
-        Some(name) => Err(MeshFault::unsupported(
+        Some(name) => Err(MeshFault::unsupported_content(
             format!("what the extension {} says", quoted(name)),
             "glTF without this extension",
         )),
@@ -48,14 +48,14 @@ pub(super) fn check_required_extensions(root: &Root) -> Result<(), MeshFault> {
 }
 
 pub(super) fn draco_fault() -> MeshFault {
-    MeshFault::unsupported(
+    MeshFault::unsupported_content(
         format!("meshes compressed by Draco ({DRACO_EXTENSION})"),
         "glTF without compression",
     )
 }
 
 pub(super) fn meshopt_fault() -> MeshFault {
-    MeshFault::unsupported(
+    MeshFault::unsupported_content(
         "buffers compressed by meshopt (EXT_meshopt_compression)",
         "glTF without compression",
     )

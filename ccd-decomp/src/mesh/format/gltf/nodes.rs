@@ -16,8 +16,8 @@ use std::collections::HashMap;
 pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Content, MeshFault> {
     let mut walk = SceneTraversal {
         root,
-        shape_of_mesh: HashMap::new(),
-        visited_nodes: vec![false; root.nodes.len()],
+        shape_index_by_mesh: HashMap::new(),
+        is_node_visited: vec![false; root.nodes.len()],
         part_names: Vec::new(),
         assembly: Assembly {
             shapes: Vec::new(),
@@ -49,8 +49,8 @@ struct SceneTraversal<'a> {
     root: &'a Root,
     accessor_reader: AccessorReader<'a>,
     /// The index of the shape for each mesh that has been read, by mesh index.
-    shape_of_mesh: HashMap<usize, usize>,
-    visited_nodes: Vec<bool>,
+    shape_index_by_mesh: HashMap<usize, usize>,
+    is_node_visited: Vec<bool>,
     part_names: Vec<Option<String>>,
     assembly: Assembly,
 }
@@ -64,7 +64,7 @@ impl SceneTraversal<'_> {
             let node = element(&self.root.nodes, "node", number)?;
             let place = || element_name("node", number, node.name.as_deref());
             // Nodes form a tree. The check also ends at cycles.
-            if std::mem::replace(&mut self.visited_nodes[number], true) {
+            if std::mem::replace(&mut self.is_node_visited[number], true) {
                 return Err(
                     MeshFault::malformed_content("is below itself, or below two others")
                         .at_element(place()),
@@ -77,7 +77,7 @@ impl SceneTraversal<'_> {
             }
             if let Some(mesh) = node.mesh {
                 let placed = match node.extensions.instancing {
-                    Some(_) => Err(MeshFault::unsupported(
+                    Some(_) => Err(MeshFault::unsupported_content(
                         "instances in a buffer (EXT_mesh_gpu_instancing)",
                         "glTF with a node for each instance",
                     )),
@@ -109,11 +109,11 @@ impl SceneTraversal<'_> {
     /// Adds remarks about content that was skipped, or that was read in its rest pose.
     fn add_remarks(&mut self) {
         let root = self.root;
-        let nodes = root.nodes.iter().zip(&self.visited_nodes);
+        let nodes = root.nodes.iter().zip(&self.is_node_visited);
         let with_mesh = nodes.filter(|(node, _)| node.mesh.is_some());
         let (shown, others): (Vec<_>, Vec<_>) = with_mesh.partition(|(_, visited)| **visited);
         let skinned = shown.iter().filter(|(node, _)| node.skin.is_some());
-        let used = self.shape_of_mesh.keys();
+        let used = self.shape_index_by_mesh.keys();
         let used = used.flat_map(|&mesh| &root.meshes[mesh].primitives);
         let thin = used.clone().filter(|used| used.is_points_or_lines());
         let changing = used.filter(|used| !used.targets.is_empty());
@@ -138,7 +138,7 @@ impl SceneTraversal<'_> {
         map: AffineMap,
     ) -> Result<(), MeshFault> {
         let about = element(&self.root.meshes, "mesh", mesh)?;
-        let shape = match self.shape_of_mesh.get(&mesh) {
+        let shape = match self.shape_index_by_mesh.get(&mesh) {
             Some(&shape) => shape,
             None => {
                 let place = || element_name("mesh", mesh, about.name.as_deref());
@@ -146,7 +146,7 @@ impl SceneTraversal<'_> {
                     .map_err(|fault| fault.at_element(place()))?;
                 self.assembly.shapes.push(shape);
                 let number = self.assembly.shapes.len() - 1;
-                self.shape_of_mesh.insert(mesh, number);
+                self.shape_index_by_mesh.insert(mesh, number);
                 number
             }
         };

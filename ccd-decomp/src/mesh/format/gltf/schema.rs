@@ -181,7 +181,7 @@ impl Root {
         })?;
         match root.asset.version.split('.').next() {
             Some("2") => Ok(root),
-            _ => Err(MeshFault::unsupported(
+            _ => Err(MeshFault::unsupported_content(
                 format!("glTF of version {:?}", root.asset.version),
                 "glTF 2.0",
             )),

@@ -77,19 +77,19 @@ fn extensions_about_looks_do_not_hinder() {
         "KHR_mesh_quantization"
     ]);
     let gltf = Gltf::triangle()
-        .set("extensionsRequired", required)
-        .set(
+        .with_value("extensionsRequired", required)
+        .with_value(
             "materials",
             json!([{"pbrMetallicRoughness": {"baseColorFactor": [1, 1]}}]),
         )
-        .set("skins", json!("anything"));
+        .with_value("skins", json!("anything"));
     assert_eq!(read(&gltf).faces().len(), 1);
 }
 
 /// Tests that the uncompressed data are read if a glTF holds its data also in Draco or meshopt compression.
 #[test]
 fn data_beside_a_compression_is_read() {
-    let mut gltf = Gltf::triangle().set(
+    let mut gltf = Gltf::triangle().with_value(
         "extensionsUsed",
         json!(["KHR_draco_mesh_compression", "EXT_meshopt_compression"]),
     );
@@ -118,7 +118,7 @@ fn whole_numbers_may_have_a_fraction_of_zero() {
     let mut gltf = gltf_with_square_points();
     let indices = gltf.add_index_accessor(&[0, 1, 2, 3]);
     gltf.add_primitive(json!({"attributes": {"POSITION": 0}, "indices": indices, "mode": 6}));
-    let mut gltf = gltf.set("scene", json!(0));
+    let mut gltf = gltf.with_value("scene", json!(0));
     let plain = read(&gltf);
     gltf.json["buffers"] = json!([{"byteLength": gltf.buffer.len()}]);
     convert_numbers_to_floats(&mut gltf.json);

@@ -1,5 +1,5 @@
 use super::super::nodes::{AabbF32, Node};
-use super::{best_neighbours, spread_bits};
+use super::{best_neighbour_indices, spread_bits};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn boxes_on_grid() -> impl Strategy<Value = Vec<Node>> {
 proptest! {
     #[test]
     fn the_best_neighbour_is_the_last_of_the_cheapest(row in boxes_on_grid(), reach in 1usize..=6) {
-        let best = best_neighbours(&row, reach);
+        let best = best_neighbour_indices(&row, reach);
         for (index, node) in row.iter().enumerate() {
             let price = |other: usize| node.cuboid.union(row[other].cuboid).half_area();
             let near = (0..row.len()).filter(|&k| k != index && k.abs_diff(index) <= reach);

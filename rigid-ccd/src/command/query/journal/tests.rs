@@ -9,7 +9,7 @@ fn recorded_options(values: [&str; 3]) -> String {
     )
 }
 
-fn run_with_options(options: &str) -> EarlierRun {
+fn earlier_run_with_options(options: &str) -> EarlierRun {
     EarlierRun {
         options: options.to_owned(),
         checkpoint: Checkpoint::default(),
@@ -18,7 +18,7 @@ fn run_with_options(options: &str) -> EarlierRun {
 
 #[test]
 fn changes_are_described() {
-    let before = run_with_options(&recorded_options(["1", "a \nb.obj", "12"]));
+    let before = earlier_run_with_options(&recorded_options(["1", "a \nb.obj", "12"]));
     for (values, expected) in [
         (["1", "a \nb.obj", "12"], None),
         (
@@ -37,7 +37,7 @@ fn changes_are_described() {
         let changes = before.describe_changes(&recorded_options(values));
         assert_eq!(changes.as_deref(), expected, "{values:?}");
     }
-    let older = run_with_options("ccd 1\nQueryArgs {\n    a: \"x\",\n}");
+    let older = earlier_run_with_options("ccd 1\nQueryArgs {\n    a: \"x\",\n}");
     let changes = older.describe_changes(&recorded_options(["1", "x", "12"]));
     assert_eq!(changes.unwrap(), "another version of ccd wrote it");
 }

@@ -19,7 +19,7 @@ fn sample_timed_answer(micros: f64, tolerance: f64) -> TimedAnswer {
                 iterations: 10,
                 oracle_calls: 2,
                 advancements: 3,
-                effort: Effort {
+                oracle_effort: Effort {
                     steps: 7,
                     ..Effort::default()
                 },

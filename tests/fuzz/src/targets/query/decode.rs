@@ -256,7 +256,7 @@ fn aim_at_corner(source: &mut NumberReader<'_>, case: &mut Case) {
         let corner = vertices[usize::from(source.read_byte()) % vertices.len()];
         let track = case.motions[k].exact_motion(case.duration);
         let placed = track.snapshot_at(time);
-        let arm = placed.arm_of(Vector::from_array(corner) - track.centre);
+        let arm = placed.world_arm(Vector::from_array(corner) - track.centre);
         arm + placed.centre
     };
     let [from, to] = [corner(0), corner(1)];

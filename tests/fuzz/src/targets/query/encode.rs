@@ -59,7 +59,7 @@ impl CaseWriter {
         let form = match shape.mesh_class {
             MeshClass::Convex => 0,
             MeshClass::Solid => 1,
-            MeshClass::TriangleSoup | MeshClass::Points => 2,
+            MeshClass::TriangleSoup | MeshClass::VertexHull => 2,
         };
         self.0.push(MESH_SHAPE_KIND | form << 3);
         let (vertices, faces) = (shape.vertices.len(), shape.faces.len());

@@ -204,7 +204,7 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
 
 /// An upper bound of the relative speed of the triangles' points in this test. Centres move by √3 (2 + 4), points up to
 /// 3 √3 from them by √3 times as much, twice.
-const MAX_SPEED: f64 = 30.0;
+const RELATIVE_SPEED_BOUND: f64 = 30.0;
 
 /// Returns a random relative motion in which the first body flies towards the start of the second.
 fn random_approaching_motion(samples: &mut RandomSource) -> RelativeMotion {
@@ -230,7 +230,7 @@ fn triangles_touch_when_samples_first_cross() {
             a: TriangleWithNormals::new(&a),
             b: TriangleWithNormals::new(&b),
         };
-        let mut clock = MotionEncloser::new(relative, tolerance / MAX_SPEED, 1 << 20);
+        let mut clock = MotionEncloser::new(relative, tolerance / RELATIVE_SPEED_BOUND, 1 << 20);
         let touch = first_touch(&triangles, HalvedInterval::whole_duration(1.0), &mut clock);
         let span = TimeSpan {
             start: 0.0,

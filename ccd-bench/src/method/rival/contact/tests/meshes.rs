@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
 /// The number of steps between the samples of a motion for the reference answer.
-const SAMPLE_COUNT: u32 = 1000;
+const SAMPLE_INTERVAL_COUNT: u32 = 1000;
 
 fn placement(query: &Motions, time: f64) -> Placement {
     let [a, b] = [query.a, query.b].map(|motion| RivalMotion::new(&motion).placement_at(time));
@@ -18,10 +18,10 @@ fn placement(query: &Motions, time: f64) -> Placement {
 }
 
 /// Returns the time of the first sample at which the two meshes touch or cross.
-fn first_crossing_time(tree: &ObbTree, query: &Motions) -> Option<f64> {
+fn first_sampled_crossing_time(tree: &ObbTree, query: &Motions) -> Option<f64> {
     let mut stack = Vec::new();
-    (0..=SAMPLE_COUNT)
-        .map(|k| query.duration * f64::from(k) / f64::from(SAMPLE_COUNT))
+    (0..=SAMPLE_INTERVAL_COUNT)
+        .map(|k| query.duration * f64::from(k) / f64::from(SAMPLE_INTERVAL_COUNT))
         .find(|&time| trees_intersect(tree, tree, &placement(query, time), &mut stack))
 }
 
@@ -47,7 +47,7 @@ fn assert_contacts_fit_samples(queries: &[Motions], tolerance: f64) -> usize {
     for query in queries {
         let reply = contact.answer(query, tolerance);
         let moved = to_screw_motions(query).unwrap();
-        let crossing = first_crossing_time(&tree, &moved);
+        let crossing = first_sampled_crossing_time(&tree, &moved);
         match reply.claim {
             ContactClaim::Contact { time } => {
                 assert!(crossing.is_none_or(|crossing| time <= crossing), "late");

@@ -13,7 +13,12 @@ const ROD_HALF_LENGTH: f64 = 2.0;
 /// The half width of this rod.
 const ROD_HALF_WIDTH: f64 = 0.05;
 
-fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Motions) -> ContactClaim {
+fn claim_for_query(
+    a: &TriangleMesh,
+    b: &TriangleMesh,
+    tolerance: f64,
+    query: &Motions,
+) -> ContactClaim {
     Contact::new(a, b).answer(query, tolerance).claim
 }
 
@@ -27,8 +32,8 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Motions, exact: f64, speed
             ..query.clone()
         };
         let claims = [
-            ask(meshes[0], meshes[1], tolerance, query),
-            ask(meshes[1], meshes[0], tolerance, &swapped),
+            claim_for_query(meshes[0], meshes[1], tolerance, query),
+            claim_for_query(meshes[1], meshes[0], tolerance, &swapped),
         ];
         for claim in claims {
             let ContactClaim::Contact { time } = claim else {
@@ -116,7 +121,7 @@ fn a_rod_turns_past_a_wall() {
         let a = constant_velocity_motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, PI * DVec3::Y);
         let query = query(a, resting_motion((radius * share + 0.5) * DVec3::X));
         let exact = (lesser(1.0, share).asin() - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / PI;
-        match ask(&rod, &wall, 1e-7, &query) {
+        match claim_for_query(&rod, &wall, 1e-7, &query) {
             ContactClaim::Contact { time } => {
                 assert!(
                     hits && time <= exact + 1e-9 && time > exact - 1e-3,
@@ -173,7 +178,7 @@ fn both_bodies_turn() {
 fn surfaces_that_cross_at_the_start_touch_there() {
     let cube = cuboid(0.5, 0.5, 0.5);
     let a = constant_velocity_motion(0.9 * DVec3::Z, DQuat::IDENTITY, DVec3::Z, DVec3::Y);
-    let claim = ask(&cube, &cube, 1e-3, &query(a, resting_motion(DVec3::ZERO)));
+    let claim = claim_for_query(&cube, &cube, 1e-3, &query(a, resting_motion(DVec3::ZERO)));
     assert_eq!(claim, ContactClaim::Contact { time: 0.0 });
 }
 
@@ -184,7 +189,10 @@ fn bodies_at_rest_are_free() {
         resting_motion(1.001 * DVec3::Z),
         resting_motion(DVec3::ZERO),
     );
-    assert_eq!(ask(&cube, &cube, 1e-3, &apart), ContactClaim::NoContact);
+    assert_eq!(
+        claim_for_query(&cube, &cube, 1e-3, &apart),
+        ContactClaim::NoContact
+    );
 }
 
 #[test]
@@ -229,7 +237,7 @@ fn invalid_tolerances_are_never_late() {
     let query = flat_fall_query();
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(3.0, 3.0, 0.5));
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        match ask(&cube, &slab, tolerance, &query) {
+        match claim_for_query(&cube, &slab, tolerance, &query) {
             ContactClaim::Contact { time } => assert!(time <= 0.625 + 1e-12),
             ContactClaim::Unresolved { safe_until } => assert!(safe_until <= 0.625 + 1e-12),
             claim => panic!("{claim:?} at tolerance {tolerance}"),

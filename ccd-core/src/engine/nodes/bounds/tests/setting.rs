@@ -99,7 +99,7 @@ pub(super) struct PairConfiguration {
     rotation: DMat3,
     other_position: DVec3,
     /// The scale of the children's sizes, and of their distances from the group's origin.
-    size: f64,
+    children_scale: f64,
     origin: DVec3,
     velocity: DVec3,
     acceleration: Option<DVec3>,
@@ -123,7 +123,7 @@ impl PairConfiguration {
         PairConfiguration {
             rotation: DMat3::from_quat(random_rotation(rng)),
             other_position: place,
-            size,
+            children_scale: size,
             origin: random_point_in_ball(rng, offset),
             velocity: if rng.random_bool(0.8) {
                 random_direction(rng) * fast
@@ -140,12 +140,12 @@ impl PairConfiguration {
 
     /// Returns the scale of the children's sizes, and of their distances from the group's origin.
     pub(super) fn size(&self) -> f64 {
-        self.size
+        self.children_scale
     }
 
     /// Moves the other node to the distance `far`, in units of the sum of both sizes.
     pub(super) fn with_relative_distance(self, far: f64, other: &Shape) -> Self {
-        let far = far * (f64::from(other.node.radius) + self.size);
+        let far = far * (f64::from(other.node.radius) + self.children_scale);
         PairConfiguration {
             other_position: self.other_position / self.other_position.length() * far,
             ..self
@@ -183,8 +183,8 @@ impl PairConfiguration {
     }
 
     fn random_child_shape(&self, rng: &mut impl RngExt) -> Shape {
-        let size = self.size * random_power_of_ten(rng, -2.0, 0.0);
-        let centre = self.origin + random_point_in_ball(rng, self.size);
+        let size = self.children_scale * random_power_of_ten(rng, -2.0, 0.0);
+        let centre = self.origin + random_point_in_ball(rng, self.children_scale);
         Shape::random_box(rng, size, centre)
     }
 
@@ -212,7 +212,7 @@ impl PairConfiguration {
             radius: node.radius,
             piece: false,
         };
-        let reach = group.header.reach;
+        let reach = group.header.max_distance_from_origin;
         self.build_sample(group, boxed, reach, children, self.other_solid(other))
     }
 
@@ -240,7 +240,7 @@ impl PairConfiguration {
             radius: round_up_to_f32(arms.map(DVec3::length).into_iter().fold(0.0, greater))
                 .next_up(),
         };
-        let reach = group.header.reach;
+        let reach = group.header.max_distance_from_origin;
         self.build_sample(group, triangle, reach, children, far)
     }
 
@@ -279,7 +279,7 @@ impl PairConfiguration {
                 acceleration: self.acceleration.map(|change| change.as_vec3()),
                 split_rotation: split,
                 other_rotation: turning_far,
-                horizon: 1.0,
+                remaining_time: 1.0,
                 slack: (kept + allowed).next_up(),
                 closed_gap_threshold: LEAST_GAP_F32,
                 rate_allowance: RATE_ERROR_F32 * speed,
@@ -290,7 +290,7 @@ impl PairConfiguration {
             kept_gap: f64::from(kept),
             allowed_gap_error: allowed,
             children,
-            other_solid: far,
+            other_node_solid: far,
             velocity: self.velocity,
             acceleration: self.acceleration.unwrap_or(DVec3::ZERO),
         }

@@ -47,7 +47,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
             (self.children[lane].second_derivative_bound(n)
-                + self.other_solid.second_derivative_bound(n)) as f32
+                + self.other_node_solid.second_derivative_bound(n)) as f32
                 + LEAST_SECOND_DERIVATIVE_F32
         });
         let closed = self.motion.closed_gap_threshold;
@@ -70,9 +70,9 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         let (n, rate) = (found.normal(lane), found.rate[lane]);
         let exact = n.dot(self.velocity)
             + child.max_rotational_rate(n)
-            + self.other_solid.max_rotational_rate(-n);
+            + self.other_node_solid.max_rotational_rate(-n);
         let below = exact - f64::from(rate);
-        let gap = -self.other_solid.max_height(-n, 0.0) - child.max_height(n, 0.0);
+        let gap = -self.other_node_solid.max_height(-n, 0.0) - child.max_height(n, 0.0);
         let above = f64::from(found.gap[lane]) - gap;
         let mut shares = ErrorShares {
             gap: error_share(above, self.allowed_gap_error.into()),
@@ -81,7 +81,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         };
         let turning = [
             (motion.split_rotation, child),
-            (motion.other_rotation, &self.other_solid),
+            (motion.other_rotation, &self.other_node_solid),
         ];
         for ((turning, body), length) in turning.iter().zip(found.cross_product_lengths) {
             let across = n.cross(body.spin).length();

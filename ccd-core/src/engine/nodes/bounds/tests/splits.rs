@@ -1,7 +1,7 @@
 //! Tests which pairs the bounds choose to visit again, and which nodes to split, against choices computed in f64.
 
 use super::setting::{PairConfiguration, Shape};
-use super::{EightPairSample, axis_values, widest_gap_axis};
+use super::{EightPairSample, values_along_three_axes, widest_gap_axis};
 use crate::body::tree::LANES;
 use crate::engine::nodes::bounds::{EightPairBounds, bound_eight_pairs};
 use crate::engine::nodes::eight_pairs::LargerBody;
@@ -10,14 +10,15 @@ use crate::math::order::greater;
 use crate::settings::VectorInstructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::tuning::{
-    ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_SWEEP, MIN_TURNING_PLANE_RADIUS_RATIO, REVISIT_DISTANCE,
+    ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_DISTANCE_RATIO, MIN_REVISIT_SWEEP,
+    MIN_TURNING_PLANE_RADIUS_RATIO,
 };
 use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
 /// The values of eight pairs from which the bounds choose.
-struct EightPairValues {
+struct SplitChoiceInputs {
     radius: [f32; LANES],
     /// The distances of the small nodes from the other body's centre of rotation.
     arm_lengths: [f32; LANES],
@@ -45,12 +46,13 @@ fn bounds<L: Simd, C: Children, P: OtherNode>(
 }
 
 impl<C: Children, P: OtherNode> EightPairSample<C, P> {
-    fn pair_values(&self) -> EightPairValues {
+    fn split_choice_inputs(&self) -> SplitChoiceInputs {
         let level = VectorInstructions::Best.simd_level();
-        let [along, passing, _] = vectorize!(level, level => axis_values(level, self, Vec3::X));
+        let [along, passing, _] =
+            vectorize!(level, level => values_along_three_axes(level, self, Vec3::X));
         vectorize!(level, level => {
             let axis = widest_gap_axis(&self.pairs(level));
-            EightPairValues {
+            SplitChoiceInputs {
                 radius: *self.group.radius(level),
                 arm_lengths: *self.motion.other_rotation.distances_from_centre(self.group.centre(level)),
                 child_extent: *axis.child_extent,
@@ -64,7 +66,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     }
 
     /// Sets `motion.larger` to the body whose nodes are much larger, or to `None` if neither body's nodes are.
-    fn determine_larger_body(mut self) -> Self {
+    fn with_larger_body(mut self) -> Self {
         let level = VectorInstructions::Best.simd_level();
         let radii = vectorize!(level, level => *self.group.radius(level));
         let reach = radii.into_iter().fold(0.0, greater);
@@ -96,8 +98,11 @@ struct ChoiceCounts {
 }
 
 impl ChoiceCounts {
-    fn check_choices<C: Children, P: OtherNode>(&mut self, sample: &EightPairSample<C, P>) {
-        let rows = sample.pair_values();
+    fn check_and_count_choices<C: Children, P: OtherNode>(
+        &mut self,
+        sample: &EightPairSample<C, P>,
+    ) {
+        let rows = sample.split_choice_inputs();
         for lane in 0..LANES {
             let revisit = rows.computed_bounds.revisit_mask >> lane & 1 == 1;
             let split_child = rows.computed_bounds.split_child_mask >> lane & 1 == 1;
@@ -120,7 +125,7 @@ impl ChoiceCounts {
     }
 }
 
-impl EightPairValues {
+impl SplitChoiceInputs {
     fn should_revisit<C, P: OtherNode>(
         &self,
         lane: usize,
@@ -132,8 +137,9 @@ impl EightPairValues {
             f64::from(sample.other_node.radius()),
         );
         let apart = f64::from(self.gap[lane]) - f64::from(motion.slack);
-        let clear_of =
-            |size: f64| exceeds_beyond_rounding(apart, size * f64::from(REVISIT_DISTANCE));
+        let clear_of = |size: f64| {
+            exceeds_beyond_rounding(apart, size * f64::from(MIN_REVISIT_DISTANCE_RATIO))
+        };
         let far = clear_of(radius + other);
         let free = |row: usize| f64::from(self.free_times[row][lane]);
         let fixed = greater(free(0), free(1));
@@ -213,12 +219,12 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
         let other = Shape::new(rng);
         let mut boxes = PairConfiguration::new(rng, &other).box_sample(rng, &other);
         boxes.other_node.piece = rng.random_bool(0.3);
-        decisions.check_choices(&boxes);
-        decisions.check_choices(&boxes.determine_larger_body());
+        decisions.check_and_count_choices(&boxes);
+        decisions.check_and_count_choices(&boxes.with_larger_body());
         let other = Shape::new(rng).triangle();
         let triangles = PairConfiguration::new(rng, &other).triangle_sample(rng, &other);
-        decisions.check_choices(&triangles);
-        decisions.check_choices(&triangles.determine_larger_body());
+        decisions.check_and_count_choices(&triangles);
+        decisions.check_and_count_choices(&triangles.with_larger_body());
     };
     for _ in 0..1_000 {
         check(&mut rng);

@@ -55,7 +55,7 @@ impl Search {
         let of = |found: &AxisValues, lane: usize| {
             (self.select_share)(&sample.error_shares(found, &sample.axis_free_times(found), lane))
         };
-        let found = sample.axis_values_on_all_levels(some);
+        let found = sample.cross_checked_axis_values(some);
         let all = found
             .iter()
             .flat_map(|axis| (0..LANES).map(move |k| of(axis, k)));

@@ -28,7 +28,7 @@ struct ExactRotation {
 
 impl ExactRotation {
     /// Returns the vector from the centre to a point after a rotation by an angle.
-    fn arm(&self, point: DVec3, angle: f64) -> DoubleDouble3 {
+    fn rotated_arm(&self, point: DVec3, angle: f64) -> DoubleDouble3 {
         let local = DoubleDouble3::from(point) - self.centre;
         let rotation = self.frame.rotation;
         let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(DoubleDouble3::from);
@@ -63,7 +63,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     let piece = body.piece(0);
     let heights = Heights::new(side, &piece, &turning.frame, normal, clock);
     let share_of = |(point, found): (&DVec3, PointHeight)| {
-        let arm = turning.arm(*point, side.path.rate * tau);
+        let arm = turning.rotated_arm(*point, side.path.rate * tau);
         let velocity = DoubleDouble3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = DoubleDouble3::from(normal).dot(velocity);
         let off = (DoubleDouble::from(found.rate) - exact).get().abs();
@@ -157,7 +157,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let arms: Vec<DoubleDouble3> = piece
         .points
         .iter()
-        .map(|&p| turning.arm(p, angle.1))
+        .map(|&p| turning.rotated_arm(p, angle.1))
         .collect();
     let miss = |direction: DVec3, of: &dyn Fn(&DoubleDouble3) -> DoubleDouble| {
         let chosen = piece.extremal_point(frame.inverse_transform_vector(-direction));

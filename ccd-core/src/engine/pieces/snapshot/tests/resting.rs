@@ -137,10 +137,13 @@ fn solids_keep_to_their_sides_of_the_plane() {
 
 #[test]
 fn of_two_planes_the_one_of_the_longer_time_counts() {
-    assert_eq!(longer_time(Some(1.0), Some(2.0)), Some(2.0));
-    assert_eq!(longer_time(Some(2.0), Some(1.0)), Some(2.0));
+    assert_eq!(greater_free_time(Some(1.0), Some(2.0)), Some(2.0));
+    assert_eq!(greater_free_time(Some(2.0), Some(1.0)), Some(2.0));
     assert_eq!(
-        (longer_time(None, Some(1.0)), longer_time(Some(1.0), None)),
+        (
+            greater_free_time(None, Some(1.0)),
+            greater_free_time(Some(1.0), None)
+        ),
         (None, None)
     );
 }
@@ -181,11 +184,12 @@ fn what_is_left_of_the_rounding_is_no_time() {
                     .iter()
                     .map(move |&v| free_time(pair, whole, v, 1.0 + left))
             };
-            assert!(ask(0.5 * MIN_RESTING_SLACK).all(|free| free == Some(0.0)));
-            let more: Vec<_> = ask(2.0 * MIN_RESTING_SLACK).collect();
+            assert!(ask(0.5 * RESTING_SLACK_PER_ROUNDING).all(|free| free == Some(0.0)));
+            let more: Vec<_> = ask(2.0 * RESTING_SLACK_PER_ROUNDING).collect();
             // The plane of two sheets lets them part in one of both directions.
             assert!(
-                more.iter().any(|free| *free > Some(MIN_RESTING_SLACK)),
+                more.iter()
+                    .any(|free| *free > Some(RESTING_SLACK_PER_ROUNDING)),
                 "{more:?}"
             );
         }

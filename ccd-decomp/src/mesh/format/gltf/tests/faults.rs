@@ -211,7 +211,7 @@ fn sparse_accessors_stay_within_their_list() {
 #[case::two_parents(json!([{"children": [1, 2]}, {"children": [3]}, {"children": [3]}, {"mesh": 0}]))]
 #[case::twice(json!([{"children": [1, 1]}, {"mesh": 0}]))]
 fn nodes_that_form_no_tree_are_errors(#[case] nodes: Value) {
-    let mut gltf = Gltf::triangle().set("nodes", nodes);
+    let mut gltf = Gltf::triangle().with_value("nodes", nodes);
     let message = error(&gltf).to_string();
     assert!(
         message.contains("is below itself, or below two others"),
@@ -228,7 +228,7 @@ fn nodes_may_be_deep() {
     let count = 200_000;
     let mut nodes: Vec<Value> = (1..count).map(|k| json!({"children": [k]})).collect();
     nodes.push(json!({"mesh": 0, "translation": [1, 0, 0]}));
-    let gltf = Gltf::triangle().set("nodes", json!(nodes));
+    let gltf = Gltf::triangle().with_value("nodes", json!(nodes));
     assert_eq!(read(&gltf).vertices()[0].x, 1.0);
 }
 
@@ -275,8 +275,8 @@ fn instances_are_limited() {
     let nodes = vec![json!({"mesh": 0}); INSTANCE_COUNT];
     let tops: Vec<usize> = (0..INSTANCE_COUNT).collect();
     let gltf = gltf
-        .set("nodes", json!(nodes))
-        .set("scenes", json!([{"nodes": tops}]));
+        .with_value("nodes", json!(nodes))
+        .with_value("scenes", json!([{"nodes": tops}]));
     let error = error(&gltf);
     assert!(
         matches!(error.fault, MeshFault::TooManyRepeats { .. }),
@@ -293,7 +293,7 @@ fn instances_are_limited() {
     let meshes = vec![json!({"primitives": [{"attributes": {"POSITION": 0}}]}); INSTANCE_COUNT];
     gltf.json.as_object_mut().unwrap().remove("nodes");
     gltf.json.as_object_mut().unwrap().remove("scenes");
-    let gltf = gltf.set("meshes", json!(meshes));
+    let gltf = gltf.with_value("meshes", json!(meshes));
     let message = super::error(&gltf).to_string();
     assert!(message.contains("too often for its size"), "{message}");
 }

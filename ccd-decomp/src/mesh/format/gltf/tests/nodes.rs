@@ -43,7 +43,7 @@ proptest! {
         let text = format!("{digits}e{exponent}");
         let expected: f64 = text.parse().unwrap();
         prop_assume!(expected.abs() <= 1e12);
-        let gltf = Gltf::triangle().set("nodes", json!([{"mesh": 0, "translation": [0, 0, 777]}]));
+        let gltf = Gltf::triangle().with_value("nodes", json!([{"mesh": 0, "translation": [0, 0, 777]}]));
         let bytes = String::from_utf8(gltf.text_with_embedded_buffer()).unwrap().replace("777", &text);
         let mesh = TriangleMesh::from_reader(Format::Gltf, bytes.as_bytes()).unwrap();
         prop_assert_eq!(mesh.vertices()[0].z, expected);
@@ -52,7 +52,7 @@ proptest! {
 
 #[test]
 fn nodes_are_placed_in_those_above_them() {
-    let gltf = Gltf::triangle().set(
+    let gltf = Gltf::triangle().with_value(
         "nodes",
         json!([
             {"children": [1], "translation": [10, 0, 0]},
@@ -84,7 +84,7 @@ fn mirrored_nodes_turn_the_faces_round() {
         gltf.json["nodes"][0]["scale"] = json!(scale);
         assert_eq!(read(&gltf).faces(), faces);
     }
-    let gltf = gltf.set(
+    let gltf = gltf.with_value(
         "nodes",
         json!([{"children": [1], "scale": [1, -1, 1]}, {"mesh": 0, "scale": [1, 1, -3]}]),
     );
@@ -94,8 +94,8 @@ fn mirrored_nodes_turn_the_faces_round() {
 #[test]
 fn a_mesh_may_be_used_twice() {
     let gltf = Gltf::triangle()
-        .set("scenes", json!([{"nodes": [0, 1, 2]}]))
-        .set(
+        .with_value("scenes", json!([{"nodes": [0, 1, 2]}]))
+        .with_value(
             "nodes",
             json!([
                 {"mesh": 0, "name": "left"},
@@ -103,7 +103,7 @@ fn a_mesh_may_be_used_twice() {
                 {"mesh": 0, "name": "", "translation": [7, 0, 0]},
             ]),
         )
-        .set(
+        .with_value(
             "meshes",
             json!([{"name": "tile", "primitives": [{"attributes": {"POSITION": 0}}]}]),
         );
@@ -121,8 +121,8 @@ fn a_mesh_may_be_used_twice() {
 #[test]
 fn the_scene_that_is_shown_is_read() {
     let mut gltf = Gltf::triangle()
-        .set("scenes", json!([{}, {"nodes": [1]}, {"nodes": [0]}]))
-        .set("nodes", json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "children": [2]}, {"mesh": 0, "name": "c"}]));
+        .with_value("scenes", json!([{}, {"nodes": [1]}, {"nodes": [0]}]))
+        .with_value("nodes", json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "children": [2]}, {"mesh": 0, "name": "c"}]));
     let names = |gltf: &Gltf| -> Vec<String> {
         let file = mesh_file(gltf);
         file.part_names()
@@ -144,7 +144,7 @@ fn the_scene_that_is_shown_is_read() {
 
 #[test]
 fn what_is_scaled_to_nothing_is_hidden() {
-    let mut gltf = Gltf::triangle().set(
+    let mut gltf = Gltf::triangle().with_value(
         "nodes",
         json!([{"mesh": 0, "children": [1]}, {"scale": [0, 0, 0], "children": [2]}, {"mesh": 0}]),
     );

@@ -133,7 +133,7 @@ fn quantized_positions_are_read(
     #[case] bytes: &[u8],
     #[case] expected: DVec3,
 ) {
-    let mut gltf = Gltf::new().set("extensionsRequired", json!(["KHR_mesh_quantization"]));
+    let mut gltf = Gltf::new().with_value("extensionsRequired", json!(["KHR_mesh_quantization"]));
     let stride = bytes.len().next_multiple_of(4);
     let mut rows = vec![0; 3 * stride];
     rows[stride..][..bytes.len()].copy_from_slice(bytes);
