@@ -304,7 +304,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Converts a clock to a time of the motions, rounded so that it is never late.
+    /// Converts a clock, from 0 to 1 over the duration, to a time of the motions, rounded down.
     pub(crate) fn time_of_clock(&self, s: f64) -> f64 {
         if s >= 1.0 {
             self.start_time + self.duration

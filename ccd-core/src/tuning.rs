@@ -191,8 +191,8 @@ pub const MAX_SCREW_DRIFT: f64 = 1.0 / 256.0;
 /// smaller body's radius. With a smaller pitch, nodes would span many pitches.
 pub const MIN_SCREW_ADVANCE: f64 = 1.0 / 65536.0;
 
-/// The least distance of a node from the axis of a screw for which a profile is computed, in units of the centre's
-/// distance from the axis. Nodes that extend nearer have profiles too wide to prove anything.
+/// The least distance of a node from the axis of a screw, as a share of the distance of the node's centre, for which
+/// its bounds in screw coordinates are computed. Nodes that extend nearer have profiles too wide to prove anything.
 pub const MIN_PROFILE_DISTANCE_SHARE: f64 = 0.25;
 
 /// The number of splits in a search after which nodes are compared along a screw. Profiles of nodes are worth their

@@ -132,13 +132,13 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CertificationResult {
         let distance = witness.distance();
         let axis = best_axis(placed, pair, &witness);
         if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
-            return certified_along_axis(pair, &witness, axis.direction);
+            return certified_with_axis(pair, &witness, axis.direction);
         }
         match neighbourhood::nearer_pair(placed, pair, distance) {
             Some(nearer) => pair = nearer,
             // No pair is nearer: only the axis is uncertain.
             None if axis.gap >= 0.5 * distance => {
-                return certified_along_axis(pair, &witness, axis.direction);
+                return certified_with_axis(pair, &witness, axis.direction);
             }
             None => return CertificationResult::Uncertified(axis.direction),
         }
@@ -147,7 +147,7 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CertificationResult {
 }
 
 /// Returns the certified claim with the points of a witness and the given axis.
-fn certified_along_axis(pair: Pair, witness: &Witness, axis: DVec3) -> CertificationResult {
+fn certified_with_axis(pair: Pair, witness: &Witness, axis: DVec3) -> CertificationResult {
     let claim = Claim {
         axis,
         ..witness.claim

@@ -5,9 +5,9 @@ use crate::penetration;
 use crate::placed::{PlacedPolytope, RoundingScale};
 use ccd_core::glam::DVec3;
 
-/// Returns the step out of a local minimum of a feature of X: to the face of Y that the feature is farthest in front of, or
-/// to a common point, proven by exact signs, if it is behind all faces. The local minimum itself is returned if the
-/// feature is behind all faces up to rounding, but exact signs could not prove a common point.
+/// Returns the step out of a local minimum of a feature of X. It leads to the face of Y that the feature is farthest in
+/// front of, or to a common point, proven by exact signs, if it is behind all faces. The local minimum itself is
+/// returned if the feature is behind all faces up to rounding, but exact signs could not prove a common point.
 pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     minimum: LocalMinimum,

@@ -86,7 +86,10 @@ impl Cell {
         };
         for link in 0..cell.robot.links().len() {
             for body in cell.robot.links()[link].bodies.clone() {
-                cell.add_robot_body(body.body, RobotBodyPlacement::of_link(link, body.pose));
+                cell.add_robot_body(
+                    body.body,
+                    RobotBodyPlacement::for_link_body(link, body.pose),
+                );
             }
         }
         cell
@@ -341,7 +344,7 @@ impl Cell {
 }
 
 impl RobotBodyPlacement {
-    fn of_link(link: usize, pose: Pose) -> Self {
+    fn for_link_body(link: usize, pose: Pose) -> Self {
         RobotBodyPlacement {
             link,
             pose,

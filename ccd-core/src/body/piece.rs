@@ -168,7 +168,7 @@ impl<'a> Piece<'a> {
 /// A convex combination of up to four points of a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ConvexCombination {
-    indices: [u32; 4],
+    point_indices: [u32; 4],
     weights: [f64; 4],
     len: u8,
 }
@@ -176,7 +176,7 @@ pub struct ConvexCombination {
 impl ConvexCombination {
     /// The empty combination, to which terms can be [added](ConvexCombination::push).
     pub const EMPTY: ConvexCombination = ConvexCombination {
-        indices: [0; 4],
+        point_indices: [0; 4],
         weights: [0.0; 4],
         len: 0,
     };
@@ -204,10 +204,10 @@ impl ConvexCombination {
             return;
         }
         let len = self.len as usize;
-        if let Some(k) = self.indices[..len].iter().position(|&i| i == index) {
+        if let Some(k) = self.point_indices[..len].iter().position(|&i| i == index) {
             self.weights[k] += weight;
         } else if len < 4 {
-            self.indices[len] = index;
+            self.point_indices[len] = index;
             self.weights[len] = weight;
             self.len += 1;
         }
@@ -215,7 +215,7 @@ impl ConvexCombination {
 
     /// Returns the indices of the points in the combination.
     pub fn point_indices(&self) -> &[u32] {
-        &self.indices[..self.len as usize]
+        &self.point_indices[..self.len as usize]
     }
 
     /// Returns the position of the combination; `None` if it is empty, or has an index that `points` lacks.

@@ -252,7 +252,7 @@ impl EndPoses {
         let [start, end] =
             [0, 1].map(|k| DoubleDouble3::from(self.positions[k]) + centre.rotated(self.turned[k]));
         let arm = (DoubleDouble3::from(point) - centre).rotated(self.turned[0]);
-        let ([x, y, z], w) = self.relative_rotation();
+        let ([x, y, z], w) = self.rotation_from_start_to_end();
         let axis = DoubleDouble3([x, y, z]);
         let sine = axis.length();
         let arm = if sine.high > 0.0 {
@@ -265,7 +265,7 @@ impl EndPoses {
 
     /// Returns a quaternion that rotates the first orientation to the second; it is not normalised, and its real part
     /// is not negative.
-    fn relative_rotation(&self) -> ([DoubleDouble; 3], DoubleDouble) {
+    fn rotation_from_start_to_end(&self) -> ([DoubleDouble; 3], DoubleDouble) {
         let [from, to] = self.turned;
         let [v, u] = [from.xyz(), to.xyz()].map(DoubleDouble3::from);
         let [a, b] = [from.w, to.w].map(DoubleDouble::from);

@@ -19,8 +19,8 @@ pub struct Topology {
     pub branching_edges: Tally<Edge>,
     /// Edges with more than two faces, equally many in both directions. Closed parts touch there.
     pub edges_shared_by_parts: Tally<Edge>,
-    /// Wrongly oriented shells, if other shells are right; one face of each. Bodies are made with these shells
-    /// reversed.
+    /// One face of each wrongly oriented shell; none if all shells are wrongly oriented. Bodies are made with these
+    /// shells reversed.
     pub wrong_shells: Tally<u32>,
     /// Shells for which it is unclear whether they bound a solid or a cavity; one face of each. They are inside a shell
     /// and cross another shell, or their nesting cannot be determined.

@@ -64,7 +64,7 @@ impl MeshSource {
         Ok((mesh, unit))
     }
 
-    /// Returns the kind of pieces to make: `asked`, or a surface if the mesh is to be hollow.
+    /// Returns `asked`, or `Detail::Surface` if the mesh is to be hollow.
     pub fn detail(&self, asked: Detail) -> Detail {
         if self.adjustments.is_hollow {
             Detail::Surface

@@ -53,8 +53,8 @@ pub(crate) struct Part {
     pub(crate) half_extents: DVec3,
     /// The radius of the ball about `centre` around the grown hull.
     pub(crate) ball_radius: f64,
-    /// A bound of the numbers of which the corners were computed: the body's position, and its largest coordinates. Both
-    /// may be far larger than the distance of the corners from the frame's origin.
+    /// A bound of the numbers from which the corners were computed, for their rounding: the body's position and its
+    /// largest coordinates. Both may be far larger than the distance of the corners from the frame's origin.
     pub(crate) reach: f64,
 }
 

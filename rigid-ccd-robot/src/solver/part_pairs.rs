@@ -76,7 +76,7 @@ impl PartPair {
         both.all(|part| parts[part as usize].is_convex)
     }
 
-    /// Returns the numbers of both bodies.
+    /// Returns the numbers in the cell of the bodies to which the parts belong.
     pub(crate) fn body_numbers(&self, parts: &[Part]) -> [usize; 2] {
         [self.a, self.b].map(|part| parts[part as usize].owner)
     }
@@ -105,7 +105,7 @@ impl<'c> PartPairs<'c> {
         self.update_margins();
     }
 
-    /// Adds a distance to the margins of all pairs, instead of the one before.
+    /// Sets the distance that is added to the margins of all pairs; it replaces the previous one.
     pub(crate) fn set_margin_increase(&mut self, growth: f64) {
         self.margin_increase = growth;
         self.update_margins();

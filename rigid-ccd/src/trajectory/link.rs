@@ -223,7 +223,7 @@ struct LinkState {
 }
 
 impl LinkState {
-    /// Creates the state of a link at rest.
+    /// Creates the state of a link at a pose, with zero velocities and accelerations.
     fn state_at_rest(pose: Pose) -> Self {
         LinkState {
             pose,

@@ -1,5 +1,5 @@
-//! Generates solids of cells: sheets of four-sided cells, thickened, in some of which cells are missing. Their tops and
-//! bottoms are large regions of coplanar triangles, rarely convex.
+//! Generates thick plates from grids of quadrilateral cells, some of which are left out. Their tops and bottoms are
+//! large regions of coplanar triangles, rarely convex.
 
 use super::{GridExtent, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};

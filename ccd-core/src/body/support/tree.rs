@@ -9,9 +9,9 @@ use glam::{DMat3, DVec3, Vec3};
 /// The number of points in a block, and of children in a group.
 const LANES: usize = 8;
 
-/// The points of a piece in blocks of eight, under a tree of discs. There are discs around the points of every block,
-/// of every eight blocks, and so on up to one group. On a curved surface, discs shrink with the square of their width,
-/// so that few of them extend beyond the farthest point.
+/// The points of a piece in blocks of eight, under a tree of bounding discs. There are discs around the points of every
+/// block, of every eight blocks, and so on up to one group. On a curved surface, discs shrink with the square of their
+/// width, so that few of them extend beyond the farthest point.
 ///
 /// # Memory
 /// About 70 bytes for each point.

@@ -90,7 +90,8 @@ struct PassingPairs<L: Simd> {
 }
 
 impl<L: Simd> PassingPairs<L> {
-    /// Computes the values; `None` unless a body turns whose nodes are much larger than the other body's.
+    /// Computes the values of eight pairs of a small and a large turning node; `None` if no body turns whose nodes are
+    /// much larger than the other's.
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
         pairs: &EightPairs<'_, L, C, P>,

@@ -250,7 +250,7 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// Returns the track of the point that is lowest along a direction, in the body's current pose.
+    /// Returns the height over time of the point that is lowest along a direction in the body's current pose.
     fn lowest_track(&self, direction: DVec3) -> HeightFunction {
         let index = self
             .piece

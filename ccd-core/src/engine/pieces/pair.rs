@@ -32,8 +32,8 @@ pub(crate) struct Pair<C> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ContactRule {
     /// The pair counts as in contact once it is within the query's tolerance. The clock proves half of the tolerance.
-    Apart,
-    /// Like `Apart`, for a pair that was in contact at the start and has separated since.
+    ApartAtStart,
+    /// Like `ApartAtStart`, for a pair that was in contact at the start and has separated since.
     SeparatedAfterStart,
     /// The pair was in contact at the start, up to rounding. It is in contact again once its gap cannot be proven to be
     /// above `floor`.
@@ -64,7 +64,7 @@ impl<C: Default + Clone> Pair<C> {
         Pair {
             a,
             b,
-            contact_rule: ContactRule::Apart,
+            contact_rule: ContactRule::ApartAtStart,
             was_advanced: false,
             cache: C::default(),
         }
@@ -128,7 +128,7 @@ impl<C: Default + Clone> Pair<C> {
                 Some(ContactRule::TouchingPlane(level))
             };
             let goal = match self.contact_rule {
-                ContactRule::Apart => self
+                ContactRule::ApartAtStart => self
                     .rule_ignoring_start_contact(problem, oracle, meter)
                     .or_else(level),
                 ContactRule::SeparatedAfterStart => level(),
@@ -140,11 +140,11 @@ impl<C: Default + Clone> Pair<C> {
                 Some(goal) => self.contact_rule = goal,
                 None => return in_contact(&checked),
             }
-        } else if checked.lower > apart && self.contact_rule != ContactRule::Apart {
+        } else if checked.lower > apart && self.contact_rule != ContactRule::ApartAtStart {
             self.contact_rule = ContactRule::SeparatedAfterStart;
         }
         let (kept, is_resting) = match self.contact_rule {
-            ContactRule::Apart | ContactRule::SeparatedAfterStart => (problem.gap(), false),
+            ContactRule::ApartAtStart | ContactRule::SeparatedAfterStart => (problem.gap(), false),
             ContactRule::InContactAtStart { floor } => (floor, true),
             ContactRule::TouchingPlane(level) => {
                 let free = snapshot.touching_plane_free_time(&level, checked.witness_a);

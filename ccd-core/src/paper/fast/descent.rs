@@ -1,5 +1,5 @@
-//! Computes the distance of two bodies at one clock by a descent from the last front. This is Algorithm 3 of the paper
-//! `[FAST06]`.
+//! Computes the distance of two bodies at one time, descending from where the last descent ended. This is Algorithm 3
+//! of the paper `[FAST06]`.
 
 use super::hull_pair::{FeatureOwners, HullTreePair};
 use super::reach::AxisDistanceCache;

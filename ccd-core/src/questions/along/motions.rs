@@ -93,7 +93,7 @@ impl StretchMotions {
         }
     }
 
-    /// Returns whether a part of the given length is so much shorter than the stretch that a cut is worthwhile.
+    /// Returns whether it is worthwhile to cut the stretch down to a length, which has to be much shorter.
     pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
         length < MAX_CUT_LENGTH_SHARE * self.span.length()
     }
@@ -148,7 +148,8 @@ impl StretchMotions {
         greater(least, LEAST_TOLERANCE)
     }
 
-    /// Converts a distance of the motions to a lower bound of the bodies' distance.
+    /// Converts a distance between the approximate motions to a lower bound of the bodies' distance: subtracts the
+    /// deviations.
     pub(super) fn lower_bound_for_bodies(&self, distance: f64) -> f64 {
         if self.total_deviation_bound > 0.0 {
             (distance - self.total_deviation_bound).next_down()

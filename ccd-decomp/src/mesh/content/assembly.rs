@@ -13,7 +13,7 @@ use std::ops::Range;
 /// Every part names a shape with a face.
 #[derive(Debug)]
 pub(crate) struct Assembly {
-    /// The shapes, as lists of triangles; the corners of a shape are indices into its own vertices.
+    /// The shapes, as lists of polygons, whose corners are indices into the shape's own vertices.
     pub(crate) shapes: Vec<Polygons>,
     pub(crate) parts: Vec<Part>,
     pub(crate) budget: ExpansionBudget,

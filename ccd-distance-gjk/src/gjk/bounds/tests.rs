@@ -14,8 +14,8 @@ fn random_points(random: &mut Pcg64, centre: DVec3) -> Vec<DVec3> {
     (0..count).map(|_| centre + point()).collect()
 }
 
-/// Tests random pairs of hulls: bounds contain the oracle's distance, and a search ends with one of the required bounds,
-/// or with bounds that are equal up to rounding.
+/// Tests on random pairs of hulls that the bounds contain the oracle's distance, and that a search ends with a required
+/// bound, or with bounds that are equal up to rounding.
 #[test]
 fn bounds_contain_the_distance_and_reach_what_is_required() {
     let mut random = Pcg64::seed_from_u64(1);

@@ -1,4 +1,4 @@
-//! The status of a row of results.
+//! The status of a row of results: contact, free, touching, overlapping and others, or error.
 
 use crate::batch::question::Question;
 use ccd_core::{ClearanceVerdict, HitKind, Outcome};

@@ -9,8 +9,8 @@ use ccd_core::glam::{DMat3, DVec3};
 /// would separate anything.
 const COSINE_ROUNDING_BOUND: f64 = 1e-14;
 
-/// Returns the radius of the enclosure of a corner's position over an interval of time; `None` if one of the 15 axes
-/// separates the boxes over all of it. Both sides of every inequality are enclosed by interval arithmetic
+/// Returns the largest half width of the enclosure of a corner's position over an interval of time; `None` if one of
+/// the 15 axes separates the boxes throughout. Both sides of every inequality are enclosed by interval arithmetic
 /// \[CONTACT02\].
 pub(super) fn motion_spread_unless_separated(
     a: &Obb,

@@ -74,8 +74,7 @@ impl MotionEncloser {
         }
     }
 
-    /// Returns true if an interval must not be halved, because its width is at the resolution or it comes from the
-    /// maximum number of halvings.
+    /// Returns true if an interval is no wider than the resolution, or was halved as often as is allowed.
     pub(super) fn is_too_short_to_halve(&self, interval: HalvedInterval) -> bool {
         !(interval.span.width() > self.resolution) || interval.halving_depth >= MAX_HALVING_DEPTH
     }

@@ -8,7 +8,7 @@ use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, rng, scene};
 use crate::tuning::MIN_TURNING_PLANE_RADIUS_RATIO;
 
 /// The number of sampled times within a lane's free time, both ends included.
-const SAMPLE_COUNT: usize = 17;
+const SAMPLED_TIME_COUNT: usize = 17;
 
 /// Counters that show that a test covers its cases.
 #[derive(Debug, Default)]
@@ -252,8 +252,8 @@ impl SceneAudit<'_> {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
         let mut prover = AxisSearch::default();
-        for k in 0..SAMPLE_COUNT {
-            let share = k as f64 / (SAMPLE_COUNT - 1) as f64;
+        for k in 0..SAMPLED_TIME_COUNT {
+            let share = k as f64 / (SAMPLED_TIME_COUNT - 1) as f64;
             let s = lane.start_clock + share * (lane.end_clock - lane.start_clock);
             let (near, far) = self.triangles_at(lane, s);
             if prover.separates(&near, &far, kept) {

@@ -109,8 +109,8 @@ fn rate_f32() {
     .run();
 }
 
-/// Tests the errors of closing rates for a node that turns about its own middle far from the group. The speed from
-/// which the allowance is computed is tiny, except for the share of the node's position.
+/// Tests the rounding of closing rates of a node that turns about its own middle, far from the eight children it is
+/// paired with. The speed from which the allowance is computed is tiny, except for the share of the node's position.
 #[test]
 fn places() {
     Search {
