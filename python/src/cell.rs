@@ -306,24 +306,17 @@ impl PyCell {
             let solver = &self.cell_with_solver;
             solver.ask(settings, |solver| ask.ask(solver, &path))
         };
-        let longer = settings
-            .deadline
-            .map(|deadline| deadline.checked_sub(FIRST_ATTEMPT_TIME_LIMIT));
+        let limit = settings.deadline.unwrap_or(Duration::MAX);
+        let first_limit = limit.min(FIRST_ATTEMPT_TIME_LIMIT);
         let first = Settings {
-            deadline: Some(
-                settings
-                    .deadline
-                    .map_or(FIRST_ATTEMPT_TIME_LIMIT, |deadline| {
-                        deadline.min(FIRST_ATTEMPT_TIME_LIMIT)
-                    }),
-            ),
+            deadline: Some(first_limit),
             ..settings.clone()
         };
         let mut found = py.detach(|| question(first));
-        if ended_by_deadline(&found) && longer != Some(None) {
+        if ended_by_deadline(&found) && limit > first_limit {
             let work = |stop: &Arc<_>| {
                 question(Settings {
-                    deadline: longer.flatten(),
+                    deadline: settings.deadline.map(|_| limit - first_limit),
                     stop: Some(Arc::clone(stop)),
                     ..settings
                 })
