@@ -6,7 +6,7 @@ use crate::motion::{GivenPose, read_given_pose};
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
-use rigid_ccd::trajectory;
+use rigid_ccd::{InputError, Pose, trajectory};
 use rigid_ccd_robot::{Joint, PositionRule};
 
 /// A joint of a `Robot`, as in URDF: `Joint.revolute`, `Joint.prismatic` or `Joint.fixed`. It holds the link `child` on the
@@ -20,6 +20,9 @@ pub(crate) struct PyJoint {
 
 /// A joint that follows another one: its name, the multiplier and the offset.
 type Mimic = (String, f64, f64);
+
+/// Makes a joint from the pose of its frame and its axis.
+type MakeJoint = fn(Pose, [f64; 3]) -> Result<trajectory::Joint, InputError>;
 
 /// What joints with a degree of freedom are made of, besides their names.
 type Moving<'a, 'py> = (
@@ -53,7 +56,13 @@ impl PyJoint {
         mimic: Option<Mimic>,
     ) -> PyResult<Self> {
         let moving = (origin, axis, limits, mimic);
-        PyJoint::moving_joint(class.py(), "revolute", [name, parent, child], moving)
+        let make = |pose, axis: [f64; 3]| trajectory::Joint::revolute(pose, axis);
+        PyJoint::moving_joint(
+            class.py(),
+            ("revolute", make),
+            [name, parent, child],
+            moving,
+        )
     }
 
     /// Makes a joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
@@ -71,7 +80,13 @@ impl PyJoint {
         mimic: Option<Mimic>,
     ) -> PyResult<Self> {
         let moving = (origin, axis, limits, mimic);
-        PyJoint::moving_joint(class.py(), "prismatic", [name, parent, child], moving)
+        let make = |pose, axis: [f64; 3]| trajectory::Joint::prismatic(pose, axis);
+        PyJoint::moving_joint(
+            class.py(),
+            ("prismatic", make),
+            [name, parent, child],
+            moving,
+        )
     }
 
     /// Makes a joint without a degree of freedom, which has no position.
@@ -127,21 +142,17 @@ impl PyJoint {
 }
 
 impl PyJoint {
-    /// Makes a joint that turns or slides; `kind` is the name of its constructor.
+    /// Makes a joint that turns or slides, by a constructor that Python calls `kind`.
     fn moving_joint(
         py: Python<'_>,
-        kind: &'static str,
+        (kind, make): (&'static str, MakeJoint),
         names: [&str; 3],
         (origin, axis, limits, mimic): Moving<'_, '_>,
     ) -> PyResult<Self> {
         let origin = read_origin(origin)?;
         let pose = origin.pose("origin")?;
         let axis = axis.map_or(Ok([0.0, 0.0, 1.0]), |axis| finite_numbers(axis, "axis"))?;
-        let joint = match kind {
-            "revolute" => trajectory::Joint::revolute(pose, axis),
-            _ => trajectory::Joint::prismatic(pose, axis),
-        };
-        let mut joint = joint.map_err(input_error)?;
+        let mut joint = make(pose, axis).map_err(input_error)?;
         let limits: Option<[f64; 2]> =
             limits.map(|limits| numbers(limits, "limits")).transpose()?;
         if let Some([low, high]) = limits {
