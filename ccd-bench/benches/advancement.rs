@@ -18,7 +18,7 @@ use ccd_core::Settings;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use rigid_ccd::batch::ScheduleKind;
+use rigid_ccd_cli::ScheduleKind;
 use settings::criterion_settings;
 use std::time::Duration;
 

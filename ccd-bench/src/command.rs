@@ -11,7 +11,7 @@ use answer::AnswerArgs;
 use chart::ChartArgs;
 use clap::{Parser, Subcommand};
 use judge::JudgeArgs;
-use rigid_ccd::command::{OutputError, print_error_and_get_exit_code};
+use rigid_ccd_cli::{OutputError, print_error_and_get_exit_code};
 use stability::StabilityArgs;
 use std::env;
 use std::ffi::OsString;

@@ -17,10 +17,9 @@ use ccd_core::Answer;
 use ccd_core::{InputError, Outcome, Settings, VectorInstructions};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
-use rigid_ccd::batch::{
-    BodyPair, BoundKind, OracleKind, Question, ScheduleKind, Solve, SolverKind,
-};
+use rigid_ccd::batch::{BodyPair, Question};
 use rigid_ccd::table::motions::Motions;
+use rigid_ccd_cli::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 use std::fmt;
 
 /// A method that answers queries: one of this project, a published one, or a library.

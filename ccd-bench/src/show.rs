@@ -7,7 +7,7 @@ pub mod presentation;
 pub mod tables;
 pub mod views;
 
-use rigid_ccd::command::OutputError;
+use rigid_ccd_cli::OutputError;
 use std::path::Path;
 
 /// Writes a text into a file, or returns an error that names the file.

@@ -5,17 +5,9 @@
 
 mod batch_size;
 pub(crate) mod question;
-#[cfg(feature = "command")]
-mod solver_kind;
-#[cfg(feature = "command")]
-mod timed;
 
 pub use batch_size::BatchSize;
 pub use question::Question;
-#[cfg(feature = "command")]
-pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
-#[cfg(feature = "command")]
-pub(crate) use timed::{TimedQuestion, answer_timed};
 
 use crate::ParallelSolver;
 use crate::table::courses::Movements;

@@ -57,10 +57,8 @@
 //!
 //! # Features
 //! - `meshes` (default): [`load`], and [`mesh`] for everything that `ccd-decomp` does with meshes.
-//! - `gltf`: meshes from files of this format, too; `command` has it.
-//! - `tables`, `pages`: what the command and the Python package share; no stable interface, and not in this
-//!   documentation.
-//! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
+//! - `gltf`: meshes from files of this format, too.
+//! - `tables`: what the command and the Python package share; no stable interface, and not in this documentation.
 //! - `scenes` (default): [`Scene`], many moving bodies.
 //! - `vmarch`: the distance backend [`oracle::Vmarch`].
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
@@ -100,17 +98,11 @@ pub mod answer;
 #[doc(hidden)]
 pub mod batch;
 pub mod body;
-#[cfg(feature = "command")]
-#[doc(hidden)]
-pub mod command;
 mod error;
 #[cfg(feature = "meshes")]
 mod load;
 pub mod oracle;
 mod parallel;
-#[cfg(feature = "pages")]
-#[doc(hidden)]
-pub mod picture;
 mod remark;
 #[cfg(feature = "scenes")]
 pub mod scene;
@@ -119,7 +111,8 @@ mod solver;
 #[doc(hidden)]
 pub mod table;
 #[cfg(feature = "tables")]
-mod text;
+#[doc(hidden)]
+pub mod text;
 pub mod trajectory;
 
 pub use ccd_core::glam;
@@ -134,6 +127,8 @@ pub use ccd_decomp as mesh;
 pub use error::Error;
 #[cfg(feature = "meshes")]
 pub use load::{load, load_adjusted, load_in_unit, load_parts};
+#[doc(hidden)]
+pub use parallel::CachePadded;
 pub use parallel::{ParallelSolver, first_contacts};
 pub use remark::Remark;
 #[cfg(feature = "scenes")]

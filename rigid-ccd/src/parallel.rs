@@ -95,7 +95,7 @@ pub struct ParallelSolver<S = Solver> {
 /// A value aligned to its own cache lines, which avoids false sharing between threads. Processors fetch lines of 64
 /// bytes in pairs. Two lines, where the one of `crossbeam-utils` is a dependency.
 #[repr(align(128))]
-pub(crate) struct CachePadded<S>(pub(crate) S);
+pub struct CachePadded<S>(pub S);
 
 impl<S> ParallelSolver<S> {
     /// Creates a solver for each core, for example `ParallelSolver::new(Solver::new)`.

@@ -81,10 +81,15 @@ impl Remark {
     /// # Complexity
     /// Linear in the body's points.
     pub fn size(body: &Body) -> f64 {
-        sides(point_box_corners(body))
-            .to_array()
-            .into_iter()
-            .fold(0.0, greater)
+        Remark::sides(body).into_iter().fold(0.0, greater)
+    }
+
+    /// Returns the sides of a body's axis-aligned bounding box in the body's frame.
+    ///
+    /// # Complexity
+    /// Linear in the body's points.
+    pub fn sides(body: &Body) -> [f64; 3] {
+        sides(point_box_corners(body)).to_array()
     }
 
     /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their
@@ -149,7 +154,7 @@ impl Remark {
 }
 
 /// Returns two opposite corners of a box about each point of a body. The box holds the ball of the piece's radius.
-pub(crate) fn point_box_corners(body: &Body) -> impl Iterator<Item = DVec3> {
+fn point_box_corners(body: &Body) -> impl Iterator<Item = DVec3> {
     body.pieces().iter().flat_map(|piece| {
         let radius = DVec3::splat(piece.radius);
         let both = move |&point: &DVec3| [point - radius, point + radius];
@@ -158,7 +163,7 @@ pub(crate) fn point_box_corners(body: &Body) -> impl Iterator<Item = DVec3> {
 }
 
 /// Returns the side lengths of the axis-aligned bounding box of points.
-pub(crate) fn sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
+fn sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for point in points {
         for (axis, x) in point.to_array().into_iter().enumerate() {

@@ -3,8 +3,6 @@
 //! Public only because `ccd-bench` and the Python package share them; no stable interface.
 
 pub mod columns;
-#[cfg(feature = "command")]
-pub(crate) mod contacts;
 pub mod courses;
 pub mod csv_records;
 mod error;

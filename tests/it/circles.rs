@@ -13,7 +13,7 @@ type Module = Vec<String>;
 /// The modules of the same crate that each module of a crate imports.
 type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
-const CRATES: [&str; 12] = [
+const CRATES: [&str; 13] = [
     "ccd-core",
     "ccd-distance-gjk",
     "ccd-distance-vmarch",
@@ -23,6 +23,7 @@ const CRATES: [&str; 12] = [
     "ccd-web",
     "ccd-bench",
     "rigid-ccd",
+    "rigid-ccd-cli",
     "rigid-ccd-parry",
     "rigid-ccd-robot",
     "python",

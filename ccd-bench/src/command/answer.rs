@@ -10,8 +10,9 @@ use anyhow::{Context, Result, anyhow, bail};
 use ccd_core::Body;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
-use rigid_ccd::batch::{BodyPair, ScheduleKind};
-use rigid_ccd::command::{OutputError, RunOutcome};
+use rigid_ccd::batch::BodyPair;
+use rigid_ccd_cli::ScheduleKind;
+use rigid_ccd_cli::{OutputError, RunOutcome};
 use std::cell::OnceCell;
 use std::io::{self, Write};
 #[cfg(unix)]

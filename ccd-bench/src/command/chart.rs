@@ -12,7 +12,7 @@ use crate::scene::scene_descriptions;
 use crate::show::presentation::write_report;
 use anyhow::{Result, ensure};
 use clap::Args;
-use rigid_ccd::command::{RunOutcome, parse_seconds};
+use rigid_ccd_cli::{RunOutcome, parse_seconds};
 use std::path::PathBuf;
 use std::time::Duration;
 

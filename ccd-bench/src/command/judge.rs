@@ -9,7 +9,7 @@ use crate::run::contest::{judge, judge_outcome};
 use crate::truth::{Referee, Surface, TruthRow};
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
-use rigid_ccd::command::{
+use rigid_ccd_cli::{
     BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions, tolerance,
 };
 use std::num::NonZeroU32;

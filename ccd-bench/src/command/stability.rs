@@ -13,7 +13,7 @@ use crate::stability::{
 };
 use anyhow::{Result, ensure};
 use clap::Args;
-use rigid_ccd::command::RunOutcome;
+use rigid_ccd_cli::RunOutcome;
 use std::path::PathBuf;
 
 /// Find where each method fails: families of scenes that get harder step by step

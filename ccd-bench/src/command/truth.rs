@@ -7,11 +7,11 @@ use anyhow::{Context, Result};
 use ccd_core::order::greater;
 use clap::Args;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
-use rigid_ccd::command::{
+use rigid_ccd::table::motions::MotionRow;
+use rigid_ccd_cli::{
     BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions, print_error,
     refuse_overwriting,
 };
-use rigid_ccd::table::motions::MotionRow;
 use std::collections::HashMap;
 use std::io::{self, Write};
 use std::path::PathBuf;

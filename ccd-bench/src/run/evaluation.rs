@@ -8,7 +8,7 @@ use crate::run::contest::{
 use crate::scene::{ModelBodyCache, PieceKind, Scene, SceneBody, SceneDescription};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
-use rigid_ccd::command::{Progress, TotalWork};
+use rigid_ccd_cli::{Progress, TotalWork};
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -5,10 +5,11 @@ use crate::scene::Scene;
 use anyhow::Result;
 use ccd_core::{Outcome, Settings, VectorInstructions};
 use ccd_view::{Animation, AnimationGroup, Meshes};
-use rigid_ccd::batch::{Question, SolverKind};
-use rigid_ccd::picture::{Painter, QueryContext, TimeMeaning, drawn_mesh};
+use rigid_ccd::batch::Question;
 use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::results::ResultRow;
+use rigid_ccd_cli::SolverKind;
+use rigid_ccd_cli::picture::{Painter, QueryContext, TimeMeaning, drawn_mesh};
 
 /// The views of all scenes; equal meshes are stored once.
 #[derive(Clone, Debug, Default)]

@@ -11,7 +11,7 @@ use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
-use rigid_ccd::command::{Progress, TotalWork};
+use rigid_ccd_cli::{Progress, TotalWork};
 use std::io;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};

@@ -1,7 +1,7 @@
 //! Tests the `ccd-bench` program by running its commands and reading their output.
 
 mod chart;
-#[path = "../../../rigid-ccd/tests/cli/command.rs"]
+#[path = "../../../rigid-ccd-cli/tests/cli/command.rs"]
 mod command;
 mod judge;
 mod peer;

@@ -5,12 +5,11 @@ use std::fmt;
 
 /// A question about the motions of two bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "command", derive(clap::ValueEnum))]
 pub enum Question {
     /// When do the bodies first touch?
     #[default]
     FirstContact,
-    /// Do they touch at all? The time is that of any contact
+    /// Do they touch at all? The time is that of any contact.
     IsFree,
     /// When do they first touch, and when last?
     ContactInterval,
@@ -31,7 +30,7 @@ impl Question {
     ];
 
     /// Returns the question's name on the command line.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Question::FirstContact => "first-contact",
             Question::IsFree => "is-free",
@@ -65,6 +64,3 @@ impl fmt::Display for Question {
         f.pad(self.name())
     }
 }
-
-#[cfg(all(test, feature = "command"))]
-mod tests;

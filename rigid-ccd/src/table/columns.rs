@@ -154,7 +154,7 @@ impl Columns {
     ///
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
-    pub(crate) fn from_header(header: &[String], form: TableKind) -> Result<Self, TableError> {
+    pub fn from_header(header: &[String], form: TableKind) -> Result<Self, TableError> {
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty);
         }
@@ -335,7 +335,6 @@ pub(in crate::table) const DURATION_COLUMN_INDEX: usize = 2 * BODY_COLUMNS.len()
 pub(in crate::table) const TIME_COLUMN: usize = 1;
 const TIME_COLUMN_NAME: &str = "t";
 /// The index of the column `body` among those of a scene's table.
-#[cfg(feature = "command")]
-pub(crate) const BODY_COLUMN_INDEX: usize = BODY_COLUMNS.len() + 1;
+pub const BODY_COLUMN_INDEX: usize = BODY_COLUMNS.len() + 1;
 /// The name of the column that describes a body in a scene's table.
-pub(crate) const BODY_COLUMN_NAME: &str = "body";
+pub const BODY_COLUMN_NAME: &str = "body";

@@ -8,8 +8,7 @@ mod write;
 pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
 pub use row::query;
-#[cfg(feature = "command")]
-pub(crate) use row::{BodyRow, body_row};
+pub use row::{BodyRow, body_row};
 pub use write::write;
 
 use crate::Remark;

@@ -6,8 +6,7 @@ mod tests;
 mod columns;
 mod status;
 
-#[cfg(feature = "command")]
-pub(crate) use columns::reordered_columns;
+pub use columns::reordered_columns;
 pub use columns::{COLUMNS, COUNTER_COLUMNS, CellGetter, Column, Line, columns, names};
 pub use status::Status;
 
@@ -99,8 +98,7 @@ impl ResultRow {
     }
 
     /// Creates the row of a contact; its id and its counts stay empty.
-    #[cfg(feature = "command")]
-    pub(crate) fn from_hit(hit: &ccd_core::Hit) -> Self {
+    pub fn from_hit(hit: &ccd_core::Hit) -> Self {
         let row = ResultRow {
             status: Status::from(&hit.kind),
             ..ResultRow::default()
@@ -109,8 +107,7 @@ impl ResultRow {
     }
 
     /// Creates the row of two features in contact; its status and its counts have their defaults.
-    #[cfg(feature = "command")]
-    pub(crate) fn from_feature_pair(id: &str, time: f64, pair: &Contact) -> Self {
+    pub fn from_feature_pair(id: &str, time: f64, pair: &Contact) -> Self {
         let row = ResultRow {
             id: id.to_owned(),
             ..ResultRow::default()

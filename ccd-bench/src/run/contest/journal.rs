@@ -3,7 +3,7 @@
 use crate::run::measured::{MeasurementCell, Trial, write};
 use anyhow::{Context, Result};
 use ccd_file::Claim;
-use rigid_ccd::command::print_error;
+use rigid_ccd_cli::print_error;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::{HashMap, HashSet};

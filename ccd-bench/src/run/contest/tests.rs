@@ -8,7 +8,7 @@ use crate::truth::Truth;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::batch::SolverKind;
+use rigid_ccd_cli::SolverKind;
 use rstest::rstest;
 
 /// Returns a cube of side 1 about the origin.

@@ -1,7 +1,6 @@
 //! Parses one row of a table as the motions or poses of bodies.
 
 use super::Motions;
-#[cfg(feature = "command")]
 use crate::table::columns::BODY_COLUMN_INDEX;
 use crate::table::columns::{
     Columns, DURATION_COLUMN_INDEX, ID_COLUMN, Quantity, Side, TIME_COLUMN,
@@ -46,19 +45,17 @@ pub fn query<R: Record>(
 }
 
 /// A body of a scene, as a row of its table gives it.
-#[cfg(feature = "command")]
-pub(crate) struct BodyRow {
+pub struct BodyRow {
     /// The id of the row; its index by default.
-    pub(crate) id: String,
+    pub id: String,
     /// The description of the body in the column `body_row`.
-    pub(crate) text: String,
+    pub text: String,
     /// The motion of the body, from time 0.
-    pub(crate) motion: Motion,
+    pub motion: Motion,
 }
 
 /// Parses a row of the table of a scene, in which all motions end at `duration`; `index` is the default id.
-#[cfg(feature = "command")]
-pub(crate) fn body_row<R: Record>(
+pub fn body_row<R: Record>(
     columns: &Columns,
     record: &R,
     index: usize,

@@ -72,8 +72,7 @@ pub fn columns(question: Question) -> Vec<Column> {
 }
 
 /// Returns the columns of results in another order: the columns `first`, then all others that are not `left_out`.
-#[cfg(feature = "command")]
-pub(crate) fn reordered_columns(first: &[&str], left_out: &[&str]) -> Vec<Column> {
+pub fn reordered_columns(first: &[&str], left_out: &[&str]) -> Vec<Column> {
     let named = |name: &&str| COLUMNS.into_iter().find(|column| column.0 == *name);
     let is_other = |Column(name, _): &Column| !first.contains(name) && !left_out.contains(name);
     let others = COLUMNS.into_iter().filter(is_other);

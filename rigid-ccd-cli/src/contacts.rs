@@ -1,0 +1,58 @@
+//! The table of contacts: all pairs of features in contact, written as CSV.
+
+#[cfg(test)]
+mod tests;
+
+use ccd_core::{Answer, Contact, ContactsError, InputError, Outcome, Settings};
+use rigid_ccd::batch::{BodyPair, Question};
+use rigid_ccd::table::courses::Movements;
+use rigid_ccd::table::results::{Column, ResultRow, reordered_columns};
+
+/// Returns the columns of the table of contacts, in order.
+pub(crate) fn columns() -> Vec<Column> {
+    reordered_columns(
+        &["id", "time", "feature_a", "feature_b"],
+        &["status", "iterations", "oracle_calls", "micros", "reason"],
+    )
+}
+
+/// The error of listing contacts.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub(crate) enum ContactListError {
+    /// The query is not valid.
+    #[error("{0}")]
+    Input(#[from] InputError),
+    /// The contacts cannot be listed.
+    #[error("{0}; raise --budget, or reduce --tolerance")]
+    ContactsNotListable(#[from] ContactsError),
+}
+
+/// Lists all pairs of features in contact at the time of an answer's contact, nearest first; empty for other answers.
+///
+/// # Errors
+/// The query is not valid, or the contacts cannot be listed.
+pub(crate) fn contact_rows(
+    bodies: BodyPair<'_>,
+    course: &Movements,
+    settings: &Settings,
+    (question, answer): (Question, &Answer),
+) -> Result<Vec<ResultRow>, ContactListError> {
+    let Some(time) = time_of_contact(question, &answer.outcome) else {
+        return Ok(Vec::new());
+    };
+    let query = bodies.query(question, course, settings)?;
+    let pairs = query.contacts_at(time)?;
+    let row = |pair: &Contact| {
+        ResultRow::from_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
+    };
+    Ok(pairs.iter().map(row).collect())
+}
+
+/// Returns the time of a contact or of touching, if the question is about a contact.
+fn time_of_contact(question: Question, outcome: &Outcome) -> Option<f64> {
+    match *outcome {
+        Outcome::Contact { time, .. } if question.is_for_one_contact() => Some(time),
+        Outcome::Touching { .. } => Some(0.0),
+        _ => None,
+    }
+}

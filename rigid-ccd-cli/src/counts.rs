@@ -1,0 +1,26 @@
+//! Counts of rows by status.
+
+use rigid_ccd::table::results::Status;
+use serde::{Deserialize, Serialize};
+
+/// The number of rows of each status, in the order of [`Status::ALL`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct StatusCounts([usize; Status::ALL.len()]);
+
+impl StatusCounts {
+    /// Adds one row with the given status.
+    pub(super) fn add(&mut self, status: Status) {
+        self.0[status as usize] += 1;
+    }
+
+    /// Returns the number of rows of all statuses together.
+    pub(super) fn row_count(&self) -> usize {
+        self.0.iter().sum()
+    }
+
+    /// Returns the statuses with at least one row, each with its number of rows.
+    pub(super) fn nonzero_counts(&self) -> impl Iterator<Item = (Status, usize)> {
+        let all = Status::ALL.into_iter().zip(self.0);
+        all.filter(|&(_, count)| count > 0)
+    }
+}

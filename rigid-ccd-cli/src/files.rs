@@ -1,0 +1,101 @@
+//! Opens input tables from files or standard input, and names files in messages.
+
+use super::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
+use anyhow::{Context, Result, anyhow, bail};
+use ccd_file::{PARTIAL_EXTENSION, resolve_links};
+use rigid_ccd::table::courses::MovementRows;
+use rigid_ccd::table::csv_records::CsvRecords;
+use rigid_ccd::table::motions::MotionRows;
+use rigid_ccd::table::paths::Grouping;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Returns an error if an output, or a temporary file of the output, would overwrite an input.
+pub fn refuse_overwriting(
+    (read, source): (&str, &Path),
+    (written, target): (&str, &Path),
+) -> Result<()> {
+    if is_standard_output(target) {
+        return Ok(());
+    }
+    if is_same_file(source, target) {
+        bail!("{written} would overwrite the file of {read}; give {written} another file");
+    }
+    let end = resolve_links(target).unwrap_or_else(|_| target.to_owned());
+    for ending in [PARTIAL_EXTENSION, JOURNAL_EXTENSION] {
+        let mut name = end.clone().into_os_string();
+        name.push(ending);
+        let pending = PathBuf::from(name);
+        if is_same_file(source, &pending) {
+            let pending = pending.display();
+            bail!(
+                "{written} would overwrite {pending}, the file of {read}; give {written} another file"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// A reader of a table's bytes, from a file or standard input.
+type Source = Box<dyn Read>;
+
+/// Opens a table of motions, and returns its rows and, if known, its length in bytes.
+pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Option<u64>)> {
+    let (input, length) = open_table(path)?;
+    let rows = MotionRows::new(input).with_context(|| input_name(path))?;
+    Ok((rows, length))
+}
+
+/// The rows of a table of motions or paths, from a file or standard input.
+pub(super) type Rows = MovementRows<CsvRecords<Source>>;
+
+/// Opens a table of motions or paths, and returns its rows and, if known, its length in bytes.
+pub(super) fn open_movement_rows(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
+    let (input, length) = open_table(path)?;
+    let rows = MovementRows::new(input, grouping).with_context(|| input_name(path))?;
+    Ok((rows, length))
+}
+
+fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
+    let name = || input_name(path);
+    let advice = "give --motions a CSV file, or - for standard input";
+    if is_dash(path) {
+        return Ok((Box::new(io::stdin().lock()), None));
+    }
+    let (about, file) = File::open(path)
+        .and_then(|file| Ok((file.metadata()?, file)))
+        .map_err(|error| anyhow!("{error}; {advice}"))
+        .with_context(name)?;
+    if about.is_dir() {
+        bail!("{}: is a folder; {advice}", name());
+    }
+    let length = about.is_file().then_some(about.len());
+    Ok((Box::new(file), length))
+}
+
+/// Returns the name that messages give to an input: its path, or standard input.
+pub fn input_name(path: &Path) -> String {
+    if is_dash(path) {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
+    }
+}
+
+/// Returns whether two paths refer to the same file, which need not exist.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    a == b || real_path(a).is_some_and(|a| Some(a) == real_path(b))
+}
+
+fn real_path(path: &Path) -> Option<PathBuf> {
+    let missing = || {
+        let path = resolve_links(path).ok()?;
+        let folder = match path.parent()? {
+            here if here.as_os_str().is_empty() => Path::new("."),
+            folder => folder,
+        };
+        Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
+    };
+    fs::canonicalize(path).ok().or_else(missing)
+}

@@ -1,0 +1,179 @@
+//! Converts answers to the views of an HTML page, which `ccd-view` writes.
+//!
+//! Public only because the pages of `ccd-bench` share it; no stable interface.
+
+mod course;
+mod drawn;
+mod gap;
+mod scene;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+pub use ccd_view::{AnimationGroup, Page, PageError};
+pub use course::shown_motions;
+pub use drawn::drawn_mesh;
+pub use gap::{GapOverTime, gap};
+pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
+pub use verdict::{QueryContext, TimeMeaning};
+
+use ccd_core::glam::DVec3;
+use ccd_core::{Body, InputError, Pose};
+use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
+use drawn::feature_corners;
+use rigid_ccd::Solver;
+use rigid_ccd::batch::BodyPair;
+use rigid_ccd::table::courses::Movements;
+use rigid_ccd::table::results::{ResultRow, Status};
+
+/// The colours of body A and body B, in CSS.
+pub const BODY_COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
+
+/// Makes views of a page from answers about two bodies.
+pub struct Painter<'a> {
+    bodies: BodyPair<'a>,
+    query_context: QueryContext,
+    meshes: Meshes,
+    mesh_index_by_body: [usize; 2],
+    solver: Solver,
+}
+
+/// The error of a row that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum ViewError {
+    /// The motions of the row are out of range.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The bodies are farther apart than the row says, so the row is about other bodies or other motions.
+    #[error(
+        "at {time} the bodies are at least {least_distance} apart, but the row says at most {reported_distance_upper}: it is the answer about \
+         other bodies, or other motions"
+    )]
+    BodiesMismatch {
+        /// The time at which the distances are compared.
+        time: f64,
+        /// A lower bound of the distance of the given bodies at that time.
+        least_distance: f64,
+        /// The upper bound of the distance according to the row.
+        reported_distance_upper: f64,
+    },
+}
+
+impl<'a> Painter<'a> {
+    /// Creates a painter for answers about two bodies; `asked` describes the query of the answers.
+    pub fn new(bodies: BodyPair<'a>, asked: QueryContext) -> Self {
+        let mut meshes = Meshes::default();
+        let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn_mesh(body)));
+        Painter {
+            bodies,
+            query_context: asked,
+            meshes,
+            mesh_index_by_body: numbers,
+            solver: Solver::new(),
+        }
+    }
+
+    /// Makes a page of the given views, with the meshes of both bodies.
+    pub fn page<'t>(&self, title: &'t str, views: Vec<Animation>) -> Page<'t> {
+        let name = String::new();
+        Page {
+            title,
+            groups: vec![AnimationGroup { name, views }],
+            meshes: self.meshes.clone(),
+        }
+    }
+
+    /// Makes the view of a row: its motions, its contact, and the distance over time.
+    ///
+    /// # Errors
+    /// [`ViewError`].
+    pub fn view(&mut self, query: &Movements, row: &ResultRow) -> Result<Animation, ViewError> {
+        let start = query.start();
+        let duration = query.duration();
+        let time = row.time.map(|time| (time - start).clamp(0.0, duration));
+        let [a, b] = query.poses(time.unwrap_or(0.0))?;
+        if self.query_context.time_meaning == TimeMeaning::TableTime {
+            self.check_distance(row, [a, b])?;
+        }
+        let contact = time.and_then(|time| self.contact(row, time, [a, b]));
+        let measured_at = match (self.query_context.time_meaning, row.time) {
+            // A path has one row for each of its poses.
+            (TimeMeaning::MeasurementTime, Some(time)) => format!(" at {}", verdict::number(time)),
+            _ => String::new(),
+        };
+        let name = format!("{}{measured_at} ({})", row.id, row.status.name());
+        let mut view = Animation::new(&name, "", duration);
+        let (mut proven, mut nearest) = (None, 0.0);
+        if row.status != Status::Error {
+            let floor = match (row.status, self.query_context.time_meaning) {
+                (Status::Free, TimeMeaning::FirstContact | TimeMeaning::SomeContact) => {
+                    self.query_context.margin
+                }
+                _ => 0.0,
+            };
+            let found = gap(&mut self.solver, self.bodies, query, floor)?;
+            view.ghost_times = found.ghost_times(duration);
+            proven = found.least_proven_gap();
+            nearest = found.least_distance_time();
+            view.gap = Some(found.gap);
+        }
+        view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
+        let looks = self.mesh_index_by_body.into_iter().zip(BODY_COLORS);
+        let shown = ["A", "B"].iter().zip(looks).zip(shown_motions(query)?);
+        view.bodies = shown
+            .map(|((name, (mesh, color)), motion)| ShownBody::new(name, mesh, color, motion))
+            .collect();
+        Ok(Animation {
+            start,
+            // For bodies that do not touch, show the time at which they are nearest.
+            time: match row.status {
+                Status::Free => nearest,
+                _ => time.unwrap_or(nearest),
+            },
+            origin: (query.poses(0.0)?[1]
+                .transform_point(self.meshes.middle(self.mesh_index_by_body[1])))
+            .to_array(),
+            contacts: contact.into_iter().collect(),
+            ..view
+        })
+    }
+
+    /// Returns an error if the bodies are farther apart than the row of a table of results says.
+    fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
+        let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
+            return Ok(());
+        };
+        let found = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
+        let measured = found.outcome.lower();
+        // The table rounds the poses.
+        if measured > told + found.tolerance {
+            return Err(ViewError::BodiesMismatch {
+                time,
+                least_distance: measured,
+                reported_distance_upper: told,
+            });
+        }
+        Ok(())
+    }
+
+    /// Returns the touching or nearest points of a row, with their features.
+    fn contact(&self, row: &ResultRow, time: f64, poses: [Pose; 2]) -> Option<ShownContact> {
+        let point = |cells: [Option<f64>; 3]| {
+            let [x, y, z] = cells;
+            Some(DVec3::new(x?, y?, z?))
+        };
+        let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
+        let feature_corners = |k: usize, body: &Body, feature: &Option<String>| {
+            let feature = feature.as_deref().unwrap_or_default();
+            feature_corners(body, &poses[k], feature, witnesses[k])
+        };
+        Some(ShownContact {
+            time,
+            words: verdict::contact(row),
+            witnesses: Some(witnesses),
+            normal: point(row.normal),
+            highlight_a: feature_corners(0, self.bodies.a, &row.feature_a),
+            highlight_b: feature_corners(1, self.bodies.b, &row.feature_b),
+        })
+    }
+}

@@ -1,0 +1,34 @@
+//! Converts the motions or paths of a row to the motions that a page shows.
+
+use ccd_core::{InputError, Trajectory};
+use ccd_view::{Keyframe, ShownMotion};
+use rigid_ccd::table::courses::Movements;
+
+/// Returns the motions of both bodies in the form for a page: a path becomes keyframes, one for each pose.
+///
+/// # Errors
+/// If a path has no pose at one of its times.
+pub fn shown_motions(movements: &Movements) -> Result<[ShownMotion; 2], InputError> {
+    let path = match movements {
+        Movements::Motions(query) => {
+            return Ok([ShownMotion::from(&query.a), ShownMotion::from(&query.b)]);
+        }
+        Movements::Path(path) => path,
+    };
+    let [a, b] = [&path.a, &path.b].map(|poses| {
+        let centre = poses.centre();
+        let keys = poses
+            .times()
+            .zip(poses.rotation_vectors())
+            .map(|(time, turn)| {
+                let (pose, turn) = (poses.pose(time)?, turn?);
+                let place = pose.transform_point(centre);
+                Ok(Keyframe::new(time, &pose, place, turn))
+            });
+        Ok(ShownMotion::Keyframes {
+            centre: centre.to_array(),
+            keys: keys.collect::<Result<_, InputError>>()?,
+        })
+    });
+    Ok([a?, b?])
+}

@@ -1,0 +1,233 @@
+//! Computes the distance of two bodies over time, with a proven lower bound of this distance.
+
+use ccd_core::order::{greater, lesser};
+use ccd_core::{Body, InputError, Settings, Stretch};
+use ccd_view::{GapCurve, GapSample};
+use rigid_ccd::Solver;
+use rigid_ccd::batch::BodyPair;
+use rigid_ccd::table::courses::Movements;
+use std::time::{Duration, Instant};
+
+/// The maximum number of poses, besides the start, at which a query's bodies are also drawn as translucent ghosts.
+const MAX_GHOSTS: f64 = 12.0;
+/// The maximum number of times at which the distance is measured.
+const MAX_MEASUREMENTS: usize = 96;
+/// The maximum number of steps of conservative advancement.
+const MAX_ADVANCEMENT_STEPS: usize = 48;
+/// The time limit for all measurements of one query, checked after each measurement.
+const TIME_LIMIT: Duration = Duration::from_secs(1);
+/// The budget of one measurement of a distance, in the units of [`Settings::budget`].
+const MEASUREMENT_BUDGET: u64 = 100_000;
+/// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
+const ROUNDING_FACTOR: f64 = 1.0 + 1e-9;
+
+/// The distance of two bodies over time, and the steps of conservative advancement.
+#[derive(Clone, Debug)]
+pub struct GapOverTime {
+    /// The measured distances, and the proven lower bound between them.
+    pub gap: GapCurve,
+    /// The times of the steps, starting with 0; from each step to the next the bodies are proven to stay apart.
+    pub step_times: Vec<f64>,
+}
+
+impl GapOverTime {
+    /// Returns the least value of the proven lower bound; `None` without a bound.
+    pub(super) fn least_proven_gap(&self) -> Option<f64> {
+        let gaps = self.gap.proven.iter().map(|[_, gap]| *gap);
+        gaps.reduce(lesser)
+    }
+
+    /// Returns the times at which the bodies are also drawn as translucent ghosts: steps more than a twelfth of
+    /// `duration` apart.
+    pub fn ghost_times(&self, duration: f64) -> Vec<f64> {
+        let mut drawn: Vec<f64> = Vec::new();
+        for &step in &self.step_times {
+            if drawn
+                .last()
+                .is_none_or(|last| step - last > duration / MAX_GHOSTS)
+            {
+                drawn.push(step);
+            }
+        }
+        drawn
+    }
+
+    /// Returns the time at which the measured distance is least.
+    pub fn least_distance_time(&self) -> f64 {
+        let points = self.gap.points.iter();
+        let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
+        nearest.map_or(0.0, |point| point.time)
+    }
+}
+
+/// Samples the distance of two bodies over time, most densely where its proven lower bound is loose. Between two
+/// samples the lower bound follows from a bound on the bodies' closing speed. It is nowhere less than `floor`, which
+/// the answer proves for all times.
+///
+/// # Errors
+/// If the motions are out of range.
+pub fn gap(
+    solver: &mut Solver,
+    bodies: BodyPair<'_>,
+    course: &Movements,
+    floor: f64,
+) -> Result<GapOverTime, InputError> {
+    solver.set_settings(Settings {
+        budget: MEASUREMENT_BUDGET,
+        ..Settings::DEFAULT
+    });
+    let mut survey = GapSampler {
+        solver,
+        bodies,
+        movements: course,
+        distance_lower_bound: greater(floor, 0.0),
+        deadline: Instant::now() + TIME_LIMIT,
+    };
+    let (mut points, steps) = survey.advance()?;
+    survey.add_measurements(&mut points)?;
+    Ok(GapOverTime {
+        gap: GapCurve {
+            proven: survey.proven(&points)?,
+            points,
+        },
+        step_times: steps,
+    })
+}
+
+struct GapSampler<'a> {
+    solver: &'a mut Solver,
+    bodies: BodyPair<'a>,
+    movements: &'a Movements,
+    distance_lower_bound: f64,
+    deadline: Instant,
+}
+
+/// Bounds that hold between two times: of the closing speed of two bodies, and of their deviation from their motions.
+#[derive(Clone, Copy, Debug)]
+struct ApproachBounds {
+    /// The bound of the closing speed.
+    speed: f64,
+    /// The bound of the deviation, at the measured times and between them.
+    deviation: f64,
+}
+
+impl GapSampler<'_> {
+    /// Advances conservatively from the start until the bodies may touch, then measures at the end.
+    fn advance(&mut self) -> Result<(Vec<GapSample>, Vec<f64>), InputError> {
+        let end = self.movements.duration();
+        let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
+        while points.len() < MAX_ADVANCEMENT_STEPS && Instant::now() < self.deadline {
+            let point = self.measure(time)?;
+            points.push(point);
+            steps.push(time);
+            let ApproachBounds { speed, deviation } = self.approach_bounds(time, end)?;
+            let next = time + (point.lower - deviation) / speed;
+            // At a contact the steps become shorter than rounding.
+            if !(point.lower > deviation && next > time && next < end) {
+                break;
+            }
+            time = next;
+        }
+        if points.last().is_none_or(|last| last.time < end) {
+            points.push(self.measure(end)?);
+        }
+        Ok((points, steps))
+    }
+
+    /// Measures the distance at more times, each in the middle of the interval with the largest gain.
+    fn add_measurements(&mut self, points: &mut Vec<GapSample>) -> Result<(), InputError> {
+        let mut worths = Vec::new();
+        for k in 1..points.len() {
+            worths.push(self.gain_of_measurement_between(points[k - 1], points[k])?);
+        }
+        while points.len() < MAX_MEASUREMENTS && Instant::now() < self.deadline {
+            let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
+            let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
+                return Ok(());
+            };
+            let (before, after) = (points[worst], points[worst + 1]);
+            let middle = self.measure(0.5 * before.time + 0.5 * after.time)?;
+            worths[worst] = self.gain_of_measurement_between(before, middle)?;
+            worths.insert(worst + 1, self.gain_of_measurement_between(middle, after)?);
+            points.insert(worst + 1, middle);
+        }
+        Ok(())
+    }
+
+    /// Returns the gain of one more measurement between two others: an upper bound of the area between the distance and
+    /// its proven lower bound.
+    fn gain_of_measurement_between(
+        &self,
+        before: GapSample,
+        after: GapSample,
+    ) -> Result<f64, InputError> {
+        let time = after.time - before.time;
+        if !(time > 1e-6 * self.movements.duration()) {
+            return Ok(0.0);
+        }
+        let ApproachBounds { speed, deviation } = self.approach_bounds(before.time, after.time)?;
+        let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
+        let most = greater(before.upper, after.upper);
+        Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
+    }
+
+    fn measure(&mut self, time: f64) -> Result<GapSample, InputError> {
+        let [a, b] = self.movements.poses(time)?;
+        let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
+        let closest = &answer.outcome;
+        let (lower, upper) = (greater(closest.lower(), 0.0), closest.upper());
+        let upper = if upper.is_finite() { upper } else { lower };
+        Ok(GapSample { time, lower, upper })
+    }
+
+    /// Bounds the closing speed of the bodies between two times, and how far their trajectories deviate from the motions that
+    /// approximate them there.
+    fn approach_bounds(&self, from: f64, to: f64) -> Result<ApproachBounds, InputError> {
+        let [a, b] = self.movements.trajectories();
+        let (a, b) = (a.stretch_between(from, to)?, b.stretch_between(from, to)?);
+        let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
+        let shift = (a.motion.velocity() - b.motion.velocity()).length();
+        let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
+        let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
+        Ok(ApproachBounds {
+            speed: (shift + turns + gains) * ROUNDING_FACTOR,
+            deviation: 2.0
+                * (a.deviation_bound.at(reach_a) + b.deviation_bound.at(reach_b))
+                * ROUNDING_FACTOR,
+        })
+    }
+
+    /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
+    /// measurement, but not below what is proven for all times.
+    fn proven(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
+        let floor = self.distance_lower_bound;
+        let mut line = Vec::new();
+        for two in points.windows(2) {
+            let [one, two] = [two[0], two[1]];
+            let ApproachBounds { speed, deviation } = self.approach_bounds(one.time, two.time)?;
+            let height = |point: GapSample| greater(point.lower - deviation, floor);
+            let (left, right) = (height(one), height(two));
+            line.push([one.time, left]);
+            // Add the point at which both lines meet, or those at which they meet the floor.
+            let time = two.time - one.time;
+            let lowest = 0.5 * (left + right - speed * time);
+            if speed > 0.0 && lowest > floor {
+                let meets = 0.5 * (time + (left - right) / speed);
+                line.push([one.time + meets.clamp(0.0, time), lowest]);
+            } else if speed > 0.0 {
+                let ends = [(left - floor) / speed, time - (right - floor) / speed];
+                line.extend(ends.map(|end| [one.time + end.clamp(0.0, time), floor]));
+            }
+            line.push([two.time, right]);
+        }
+        if let ([], [only]) = (line.as_slice(), points) {
+            line.push([only.time, only.lower]);
+        }
+        Ok(line)
+    }
+}
+
+/// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
+fn extent((stretch, body): (&Stretch, &Body)) -> f64 {
+    body.bounding_radius() + stretch.motion.centre().length()
+}

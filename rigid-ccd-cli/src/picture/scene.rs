@@ -1,0 +1,144 @@
+//! Draws a scene of many bodies as a view of a page.
+
+use super::drawn::{drawn_mesh, feature_corners};
+use super::verdict::number;
+use ccd_core::HitKind;
+use ccd_core::glam::DVec3;
+use ccd_core::{Body, Feature, Motion};
+use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
+use rigid_ccd::scene::{Impact, PairError};
+use std::collections::HashMap;
+
+/// The colour of bodies that do not move, in CSS.
+const FIXED_COLOR: &str = "#b8b8b8";
+/// The step in hue from one body to the next, in degrees: the golden angle.
+const HUE_STEP: f64 = 137.508;
+
+/// A body of a scene to draw, with its name in the legend.
+#[derive(Clone, Debug)]
+pub(crate) struct DrawnBody<'a> {
+    pub(crate) name: String,
+    pub(crate) body: &'a Body,
+    pub(crate) motion: Motion,
+}
+
+/// Returns the view of all bodies and their contacts; the contacts are in order of time. Bodies that are the same are
+/// drawn from one mesh.
+pub(crate) fn scene_view(
+    name: &str,
+    bodies: &[DrawnBody<'_>],
+    contacts: &[Result<Impact, PairError>],
+    duration: f64,
+) -> (Meshes, Animation) {
+    let mut meshes = Meshes::default();
+    let mut known = HashMap::new();
+    let shown = bodies.iter().enumerate().map(|(k, shown)| {
+        let address: *const Body = shown.body;
+        let mesh = *known
+            .entry(address)
+            .or_insert_with(|| meshes.add(&drawn_mesh(shown.body)));
+        let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
+        let color = if moves {
+            format!(
+                "hsl({:.0}, 55%, 52%)",
+                (150.0 + HUE_STEP * k as f64) % 360.0
+            )
+        } else {
+            FIXED_COLOR.to_owned()
+        };
+        ShownBody::new(&shown.name, mesh, &color, &shown.motion)
+    });
+    let shown: Vec<ShownBody> = shown.collect();
+    let hits = impacts(contacts);
+    let origin = bodies
+        .first()
+        .zip(shown.first())
+        .map_or(DVec3::ZERO, |(body, first)| {
+            body.motion
+                .start()
+                .transform_point(meshes.middle(first.mesh))
+        });
+    let view = Animation {
+        bodies: shown,
+        contacts: hits.iter().map(|impact| contact(bodies, impact)).collect(),
+        time: hits.first().map_or(0.0, |impact| impact.hit.time),
+        origin: origin.to_array(),
+        ..Animation::new(name, &scene_verdict(bodies, contacts, duration), duration)
+    };
+    (meshes, view)
+}
+
+/// Describes in words which bodies touch.
+pub(crate) fn scene_verdict(
+    bodies: &[DrawnBody<'_>],
+    contacts: &[Result<Impact, PairError>],
+    duration: f64,
+) -> String {
+    let hits = impacts(contacts);
+    let all = match bodies.len() {
+        1 => "One body".to_owned(),
+        count => format!("{count} bodies"),
+    };
+    let end = format!("to the end at {}", number(duration));
+    let mut words = match hits.first() {
+        None if contacts.is_empty() => format!("{all}, no contact, {end}. Proven."),
+        None => format!("{all}, no contact found, {end}."),
+        Some(first) => {
+            let [a, b] = first.bodies.map(|k| &bodies[k].name);
+            format!(
+                "{all}, {} in contact, {end}. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
+                pair_count_text(hits.len()),
+                number(first.hit.time),
+            )
+        }
+    };
+    if let Some(error) = contacts.iter().find_map(|found| found.as_ref().err()) {
+        let [a, b] = error.bodies.map(|k| &bodies[k].name);
+        let open = contacts.len() - hits.len();
+        words += &format!(
+            " {} without an answer, such as {a} and {b}: {}.",
+            pair_count_text(open),
+            error.error
+        );
+    }
+    words
+}
+
+fn impacts(contacts: &[Result<Impact, PairError>]) -> Vec<&Impact> {
+    let hits = contacts.iter().filter_map(|found| found.as_ref().ok());
+    hits.collect()
+}
+
+fn pair_count_text(count: usize) -> String {
+    match count {
+        1 => "one pair".to_owned(),
+        count => format!("{count} pairs"),
+    }
+}
+
+fn contact(bodies: &[DrawnBody<'_>], impact: &Impact) -> ShownContact {
+    let Impact {
+        bodies: [a, b],
+        hit,
+    } = *impact;
+    let (a, b) = (&bodies[a], &bodies[b]);
+    let at = |shown: &DrawnBody<'_>, feature: Option<Feature>, witness: DVec3| {
+        let pose = shown.motion.pose(hit.time);
+        let feature = feature.map_or_else(String::new, |feature| feature.to_string());
+        feature_corners(shown.body, &pose, &feature, witness)
+    };
+    let when = match hit.kind {
+        HitKind::Contact(_) => number(hit.time),
+        HitKind::Touching(_) => "at the start".to_owned(),
+        HitKind::Overlapping(_) => "overlapping at the start".to_owned(),
+    };
+    let (touching, witness_a, witness_b) = (hit.contact(), hit.witness_a(), hit.witness_b());
+    ShownContact {
+        time: hit.time,
+        words: format!("{when}: {} and {}", a.name, b.name),
+        highlight_a: at(a, touching.map(|contact| contact.feature_a), witness_a),
+        highlight_b: at(b, touching.map(|contact| contact.feature_b), witness_b),
+        witnesses: Some([witness_a, witness_b]),
+        normal: touching.map(|contact| contact.separation.normal),
+    }
+}

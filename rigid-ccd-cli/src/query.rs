@@ -1,0 +1,280 @@
+//! `ccd query`: reads two bodies and a table of motions, and writes a table of results.
+
+mod args;
+mod help;
+mod journal;
+mod limits;
+mod outputs;
+mod resume;
+mod run;
+mod summary;
+
+pub(super) use args::QueryArgs;
+
+use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
+use super::output::{Output, is_standard_output};
+use super::view::{ChosenRows, title, write_rows_page};
+use super::{RunOutcome, print_error};
+use crate::bad_rows::BadRowCounter;
+use crate::pair::Pair;
+use crate::picture::{Painter, QueryContext, TimeMeaning};
+use crate::progress::Progress;
+use crate::solver_kind::{BoundKind, ScheduleKind, SolverKind};
+use crate::timed::TimedQuestion;
+use anyhow::{Result, bail};
+use ccd_core::schedule::Shortcuts;
+use ccd_core::{Settings, StartPolicy};
+use clap::ArgMatches;
+use journal::{Checkpoint, FILE_CHECKSUM_PREFIX, options_text};
+use outputs::{ClaimedFiles, OpenedTables};
+use rigid_ccd::batch::{BatchSize, Question, parallel_solver};
+use run::QueryRun;
+use std::io::{self, Write};
+use std::iter::once;
+use std::num::NonZeroUsize;
+use summary::Summary;
+
+/// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
+pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
+    refuse_shared_files(args)?;
+    refuse_options_unfit_for_each_other(args)?;
+    let (mut rows, length) = open_movement_rows(&args.motions, args.ask.path_grouping())?;
+    refuse_options_unfit_for_paths(args, &rows)?;
+    let places = ClaimedFiles::claim(args)?;
+    let html = args.html.as_deref().map(Output::claim).transpose()?;
+    let pair = args.bodies.load(method(args), args.quiet)?;
+    let (mut outputs, earlier) =
+        match OpenedTables::new(args, places, &recorded_options(args, given, &pair))? {
+            OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
+            OpenedTables::Finished(end) => {
+                return resume::verify_and_report_finished(args, &mut rows, end);
+            }
+        };
+    if args.resume {
+        resume::report(args, earlier);
+    }
+    let start = resume::skip_rows(args, &mut rows, earlier)?;
+    outputs.save(start)?;
+    let timing = timed_question(args);
+    if timing.method.bound == BoundKind::Published {
+        print_error("--bound published: times are not certified, contacts may be late or missed");
+    }
+    let solver = parallel_solver(args.threads, || timing.method.solver(args.instructions));
+    let mut run = QueryRun {
+        args,
+        bodies: pair.bodies(),
+        timed_question: timing,
+        batch_size: BatchSize::new(solver.threads()),
+        solver,
+        bad_rows: BadRowCounter::new(input_name(&args.motions)),
+        progress: Progress::for_rows(length, args.quiet),
+        outputs,
+        page_rows: args
+            .html
+            .as_ref()
+            .map(|_| ChosenRows::new(args.html_ids.clone())),
+        summary: Summary::new(args.tolerance).with_earlier_counts(start.counts),
+    };
+    let end = run.answer_rows(&mut rows, start)?;
+    run.outputs.finish(end)?;
+    drop(run.progress);
+    run.bad_rows.print_total();
+    let shown = write_page(args, &pair, run.page_rows.zip(html))?;
+    if run.summary.counts.row_count() == 0 && earlier.is_none() {
+        warn_of_no_rows(args, start.rows);
+    }
+    if !args.quiet {
+        print_summary(args, &run.summary);
+        pair.print_remarks(args.tolerance, &rows);
+    }
+    Ok(report_run_outcome(args, end).max(shown))
+}
+
+/// Writes the HTML page of the chosen rows, if `--html` is given.
+fn write_page(
+    args: &QueryArgs,
+    pair: &Pair,
+    page: Option<(ChosenRows, Output)>,
+) -> Result<RunOutcome> {
+    let Some((chosen, html)) = page else {
+        return Ok(RunOutcome::AllAnswered);
+    };
+    let painter = Painter::new(pair.bodies(), query_context(args));
+    write_rows_page((&title(&args.bodies), painter), chosen, html, args.quiet)
+}
+
+/// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
+fn query_context(args: &QueryArgs) -> QueryContext {
+    let claim = match (args.bound, args.ask) {
+        (Some(BoundKind::Published), _) => TimeMeaning::UncertifiedFirstContact,
+        (_, Question::IsFree) => TimeMeaning::SomeContact,
+        (_, Question::Distance) => TimeMeaning::MeasurementTime,
+        _ if ignores_start_contacts(args) => TimeMeaning::FirstContactAfterParting,
+        (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
+            TimeMeaning::FirstContact
+        }
+    };
+    QueryContext {
+        time_meaning: claim,
+        margin: args.margin,
+        clearance: args.clearance,
+    }
+}
+
+/// Refuses an output that is also an input or another output.
+fn refuse_shared_files(args: &QueryArgs) -> Result<()> {
+    let mut read = vec![("--motions", args.motions.clone())];
+    read.extend(args.bodies.files_with_options()?);
+    let mut written = vec![("--out", &args.out)];
+    written.extend(args.html.iter().map(|path| ("--html", path)));
+    written.extend(args.contacts.iter().map(|path| ("--contacts", path)));
+    for (k, &(option, target)) in written.iter().enumerate() {
+        for (read, source) in &read {
+            refuse_overwriting((read, source), (option, target))?;
+        }
+        for &(other, path) in &written[..k] {
+            if is_standard_output(path) && is_standard_output(target) {
+                bail!("{option} - and {other} - are both standard output; give one of them a file");
+            }
+            refuse_overwriting((other, path), (option, target))?;
+            refuse_overwriting((option, target), (other, path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses `--bound` for a schedule that uses no bound on the motion, options that do not apply to the question of
+/// `--ask`, and `--check` with options under which no answer is a proof.
+fn refuse_options_unfit_for_each_other(args: &QueryArgs) -> Result<()> {
+    let ask = args.ask;
+    if let Some(bound) = args.bound
+        && !args.schedule.uses_velocity_bound()
+    {
+        bail!("--bound {bound} needs --schedule fast or naive");
+    }
+    if args.clearance.is_some() && !ask.is_for_a_distance() {
+        bail!(
+            "--clearance needs --ask closest-approach or distance; --margin keeps a distance otherwise"
+        );
+    }
+    if args.margin > 0.0 && ask.is_for_a_distance() {
+        bail!(
+            "--ask {ask} measures distances without a margin; use --clearance instead of --margin"
+        );
+    }
+    if args.contacts.is_some() && !ask.is_for_one_contact() {
+        bail!("--contacts needs --ask first-contact or is-free");
+    }
+    if ask != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
+        bail!("--ask {ask} needs --schedule best-first");
+    }
+    if ignores_start_contacts(args) && !ask.is_for_one_contact() {
+        bail!("--start leave needs --ask first-contact or is-free");
+    }
+    if args.check && args.bound == Some(BoundKind::Published) {
+        bail!("--check needs certified answers, which --bound published does not give");
+    }
+    if args.check && ask.is_for_a_distance() && args.clearance.is_none() {
+        bail!(
+            "--check needs --clearance with --ask {ask}: a distance alone is neither good nor bad"
+        );
+    }
+    Ok(())
+}
+
+/// Refuses options for tables of motions if the table contains paths.
+fn refuse_options_unfit_for_paths(args: &QueryArgs, rows: &Rows) -> Result<()> {
+    if rows.is_path_table() && args.schedule != ScheduleKind::BestFirst {
+        bail!(
+            "--schedule {} needs a table of motions, not of paths",
+            args.schedule
+        );
+    }
+    if rows.is_path_table() && ignores_start_contacts(args) {
+        bail!("--start leave needs a table of motions, not of paths");
+    }
+    Ok(())
+}
+
+fn ignores_start_contacts(args: &QueryArgs) -> bool {
+    args.start == StartPolicy::Leave
+}
+
+/// Returns the version, the options and the bodies' checksums that determine the tables of the run. The checksum of the
+/// motions is in each checkpoint.
+fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> String {
+    let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
+    let checksums = (pair.checksums.iter())
+        .map(|(option, checksum)| (format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum.clone()));
+    let options = args.recorded_options(given).into_iter();
+    options_text(once(version).chain(options).chain(checksums))
+}
+
+fn method(args: &QueryArgs) -> SolverKind {
+    SolverKind {
+        schedule: args.schedule,
+        oracle: args.oracle,
+        bound: args.bound.unwrap_or_default(),
+    }
+}
+
+fn timed_question(args: &QueryArgs) -> TimedQuestion {
+    TimedQuestion {
+        question: args.ask,
+        method: method(args),
+        settings: Settings {
+            tolerance: args.tolerance,
+            margin: args.margin,
+            clearance: args.clearance,
+            start: args.start,
+            budget: args.budget,
+            deadline: args.deadline,
+            vector_instructions: args.instructions,
+            shortcuts: (args.without.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each)),
+            stop: None,
+        },
+        repetitions: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
+    }
+}
+
+/// Warns that no row was answered, and says why.
+fn warn_of_no_rows(args: &QueryArgs, skipped: usize) {
+    let input = input_name(&args.motions);
+    if args.rows.includes_all_rows() {
+        print_error(&format!("{input}: has a header, but no rows"));
+    } else {
+        print_error(&format!(
+            "{input}: has {skipped} rows, and --rows {} selects none of them",
+            args.rows
+        ));
+    }
+}
+
+fn print_summary(args: &QueryArgs, summary: &Summary) {
+    let prefix = match args.bound {
+        Some(BoundKind::Published) => "not certified: ",
+        Some(BoundKind::Sound) | None => "",
+    };
+    let _ = writeln!(io::stderr(), "{prefix}{summary}");
+    if let (true, Some(means)) = (args.counters, summary.describe_means()) {
+        let _ = writeln!(io::stderr(), "{means}");
+    }
+}
+
+/// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
+fn report_run_outcome(args: &QueryArgs, end: Checkpoint) -> RunOutcome {
+    let counts = end.counts.nonzero_counts();
+    let failed = counts.filter(|(status, _)| !status.proves_distance_kept());
+    let failed: usize = failed.map(|(_, count)| count).sum();
+    if args.check && failed > 0 {
+        let rows = end.counts.row_count();
+        print_error(&format!(
+            "--check: {failed} of {rows} rows are not proven free or kept"
+        ));
+    }
+    match (end.bad_rows, failed) {
+        (0, 1..) if args.check => RunOutcome::SomeRowsUnproven,
+        (0, _) => RunOutcome::AllAnswered,
+        _ => RunOutcome::SomeRowsBad,
+    }
+}

@@ -1,0 +1,167 @@
+//! Answers the selected rows of a query, and writes them in order.
+
+use super::args::QueryArgs;
+use super::journal::Checkpoint;
+use super::outputs::Outputs;
+use super::summary::Summary;
+use crate::bad_rows::BadRowCounter;
+use crate::contacts;
+use crate::files::{Rows, input_name};
+use crate::output::OutputError;
+use crate::progress::Progress;
+use crate::solver_kind::Solve;
+use crate::timed::{TimedQuestion, answer_timed};
+use crate::view::ChosenRows;
+use anyhow::{Context, Result};
+use rigid_ccd::ParallelSolver;
+use rigid_ccd::batch::{BatchSize, BodyPair, TimedAnswer};
+use rigid_ccd::table::courses::{CourseRow, Movements};
+use rigid_ccd::table::motions::{RowPosition, RowProblem, TableError};
+use rigid_ccd::table::results::{Line, ResultRow, Status};
+use std::time::Instant;
+
+/// The state of `ccd query` while it answers rows.
+pub(super) struct QueryRun<'a> {
+    pub(super) args: &'a QueryArgs,
+    pub(super) bodies: BodyPair<'a>,
+    pub(super) timed_question: TimedQuestion,
+    pub(super) solver: ParallelSolver<Box<dyn Solve>>,
+    pub(super) batch_size: BatchSize,
+    pub(super) bad_rows: BadRowCounter,
+    pub(super) progress: Progress,
+    pub(super) outputs: Outputs,
+    /// The rows chosen for the page of `--html`; `None` without this option.
+    pub(super) page_rows: Option<ChosenRows>,
+    pub(super) summary: Summary,
+}
+
+/// The answer to a row with its duration, or what is wrong with the row.
+type RowAnswer = Result<TimedAnswer, RowProblem>;
+
+impl QueryRun<'_> {
+    /// Answers the selected rows from `start` on, and returns the last checkpoint.
+    pub(super) fn answer_rows(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
+        let mut done = start;
+        self.progress.begin_batch(0, rows.consumed_bytes());
+        loop {
+            let end = self.args.rows.end;
+            let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
+            let (batch, broken) = read_rows(rows, self.batch_size.row_count().min(remaining));
+            if batch.is_empty() && broken.is_none() {
+                return Ok(done);
+            }
+            self.progress
+                .begin_batch(batch.len(), rows.consumed_bytes());
+            let answers = self.answer(&batch);
+            self.write(&batch, &answers)?;
+            done = Checkpoint {
+                rows: done.rows + batch.len(),
+                checksum: rows.checksum(),
+                bad_rows: start.bad_rows + self.bad_rows.count(),
+                counts: self.summary.counts,
+                ..done
+            };
+            self.outputs.save(done)?;
+            if let Some(error) = broken {
+                return Err(error).with_context(|| input_name(&self.args.motions));
+            }
+        }
+    }
+
+    /// Answers the rows of a batch on all threads.
+    fn answer(&mut self, batch: &[CourseRow]) -> Vec<RowAnswer> {
+        let (bodies, timing, progress) = (self.bodies, &self.timed_question, &self.progress);
+        let start = Instant::now();
+        let answers = self.solver.map(batch, |solver, row| {
+            let answer = match row {
+                Ok((_, course)) => answer_timed(bodies, course, timing, solver.as_mut()),
+                Err(error) => Err(error.problem.clone()),
+            };
+            progress.step();
+            answer
+        });
+        self.batch_size.adapt(start.elapsed());
+        answers
+    }
+
+    /// Writes the results and contacts of a batch of answered rows, and reports the bad ones.
+    fn write(&mut self, batch: &[CourseRow], answers: &[RowAnswer]) -> Result<(), OutputError> {
+        let (columns, mut answered) = (self.args.columns(), Vec::new());
+        let timing = &self.timed_question;
+        for (asked, answer) in batch.iter().zip(answers) {
+            let (position, course, mut row) = match asked {
+                Ok((position, course)) => {
+                    let row = self
+                        .bodies
+                        .row(timing.question, &timing.settings, course, answer);
+                    (*position, Some(course), row)
+                }
+                Err(error) => {
+                    let row = ResultRow::error(&error.id, &error.problem);
+                    (error.position, None, row)
+                }
+            };
+            match answer {
+                Ok(timed) => self.summary.add(row.status, timed),
+                Err(problem) => {
+                    self.bad_rows.report(position, problem, &self.progress);
+                    self.summary.counts.add(Status::Error);
+                }
+            }
+            row.micros = row.micros.filter(|_| !self.args.no_micros);
+            if let (Some(shown), Some(course)) = (&mut self.page_rows, course) {
+                shown.add_if_wanted(course, &row);
+            }
+            self.outputs.results.row(&Line(&columns, &row))?;
+            if let (Some(course), Ok(timed)) = (course, answer) {
+                answered.push((position, course, timed));
+            }
+        }
+        self.find_and_write_contacts(&answered)
+    }
+
+    /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
+    fn find_and_write_contacts(
+        &mut self,
+        answered: &[(RowPosition, &Movements, &TimedAnswer)],
+    ) -> Result<(), OutputError> {
+        let Some(table) = &mut self.outputs.contacts else {
+            return Ok(());
+        };
+        let (bodies, columns) = (self.bodies, contacts::columns());
+        let timing = &self.timed_question;
+        // A row may have very many contacts.
+        for few in answered.chunks(CONTACT_BATCH_ROWS) {
+            let all = self.solver.map(few, |_, (_, course, timed)| {
+                let answered = (timing.question, &timed.answer);
+                contacts::contact_rows(bodies, course, &timing.settings, answered)
+            });
+            for ((position, ..), rows) in few.iter().zip(all) {
+                match rows {
+                    Ok(rows) => {
+                        for row in rows {
+                            table.row(&Line(&columns, &row))?;
+                        }
+                    }
+                    Err(error) => {
+                        let problem = format!("contacts: {error}");
+                        self.bad_rows.report(*position, &problem, &self.progress);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads up to `count` rows, and returns the error that ended the table early, if any.
+fn read_rows(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
+    let mut broken = None;
+    let read = rows
+        .take(count)
+        .map_while(|row| row.map_err(|error| broken = Some(error)).ok());
+    (read.collect(), broken)
+}
+
+/// The number of rows whose contacts are in memory at the same time.
+const CONTACT_BATCH_ROWS: usize = 64;

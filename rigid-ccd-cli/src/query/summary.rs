@@ -1,0 +1,180 @@
+//! The summary that a run prints after its last row.
+
+#[cfg(test)]
+mod tests;
+
+use super::limits::LIMIT_ADVICE;
+use crate::counts::StatusCounts;
+use ccd_core::order::greater;
+use rigid_ccd::batch::TimedAnswer;
+use rigid_ccd::table::results::Status;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// The counts of rows, the times and the counters of work that a run's summary prints. Its size does not depend on the
+/// number of answers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Summary {
+    /// The number of rows of each status, including those of an earlier run.
+    pub(super) counts: StatusCounts,
+    /// The number of rows that an earlier run answered; only their status is known.
+    earlier_row_count: usize,
+    /// The times of the queries of this run, in microseconds.
+    time_histogram: TimeHistogram,
+    /// The number of pairs of nodes visited in all queries.
+    pub(super) iterations: u64,
+    /// The number of calls of the distance backend in all queries.
+    pub(super) oracle_calls: u64,
+    /// The number of steps that advanced all pairs together, in all queries.
+    pub(super) advancements: u64,
+    /// The number of steps in the distance backend's searches, in all queries.
+    pub(super) oracle_steps: u64,
+    /// The tolerance given for the queries, in the scene's unit of length.
+    tolerance: f64,
+    /// For each of the [`LIMIT_ADVICE`], the number of queries that the limit ended.
+    limit_counts: [usize; LIMIT_ADVICE.len()],
+    /// The number of answers with a larger tolerance than the given one, because of rounding.
+    pub(super) raised_tolerance_count: usize,
+    /// The largest tolerance of any answer, in the scene's unit of length.
+    pub(super) largest_tolerance: f64,
+}
+
+impl Summary {
+    /// Creates an empty summary of queries with the given tolerance.
+    pub(super) fn new(tolerance: f64) -> Self {
+        Summary {
+            tolerance,
+            largest_tolerance: tolerance,
+            ..Summary::default()
+        }
+    }
+
+    /// Returns the summary with the counts of an earlier run's rows in place of its own.
+    pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
+        Summary {
+            counts,
+            earlier_row_count: counts.row_count(),
+            ..self
+        }
+    }
+
+    /// Adds the time and the counters of an answer, and counts its status.
+    pub(super) fn add(&mut self, status: Status, timed: &TimedAnswer) {
+        let answer = &timed.answer;
+        self.counts.add(status);
+        for (count, (limit, _)) in self.limit_counts.iter_mut().zip(LIMIT_ADVICE) {
+            *count += usize::from(answer.outcome.limit() == Some(limit));
+        }
+        self.iterations += answer.stats.iterations;
+        self.oracle_calls += answer.stats.oracle_calls;
+        self.advancements += answer.stats.advancements;
+        self.oracle_steps += answer.stats.oracle_effort.steps;
+        self.raised_tolerance_count += usize::from(answer.tolerance > self.tolerance);
+        self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
+        self.time_histogram.add(timed.micros);
+    }
+
+    /// Returns the means of the counters as one line; `None` without answers.
+    pub(super) fn describe_means(&self) -> Option<String> {
+        let count = self.time_histogram.count;
+        let mean = |total: u64| total as f64 / count as f64;
+        (count > 0).then(|| {
+            format!(
+                "means: {:.1} advancements, {:.1} oracle calls, {:.1} oracle steps",
+                mean(self.advancements),
+                mean(self.oracle_calls),
+                mean(self.oracle_steps)
+            )
+        })
+    }
+}
+
+/// A histogram of times with a relative resolution of a thousandth; its size does not grow with the number of times.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct TimeHistogram {
+    /// For each value of a time's leading bits, the number of times. These bits sort as the times do.
+    counts: BTreeMap<u64, u64>,
+    count: u64,
+    total_micros: f64,
+}
+
+/// The number of low bits dropped from a time: all except the leading 10 of its fraction.
+const DROPPED_LOW_BIT_COUNT: u32 = f64::MANTISSA_DIGITS - 1 - 10;
+
+impl TimeHistogram {
+    fn add(&mut self, micros: f64) {
+        *self
+            .counts
+            .entry(micros.to_bits() >> DROPPED_LOW_BIT_COUNT)
+            .or_default() += 1;
+        self.count += 1;
+        self.total_micros += micros;
+    }
+
+    /// Returns the mean time; NaN without times.
+    fn mean(&self) -> f64 {
+        self.total_micros / self.count as f64
+    }
+
+    /// Returns the median time, rounded to a thousandth; NaN without times.
+    fn median(&self) -> f64 {
+        0.5 * (self.time_at_rank(self.count.saturating_sub(1) / 2)
+            + self.time_at_rank(self.count / 2))
+    }
+
+    /// Returns the time at an index in ascending order of times.
+    fn time_at_rank(&self, index: u64) -> f64 {
+        let mut passed = 0;
+        for (&bits, &count) in &self.counts {
+            passed += count;
+            if passed > index {
+                return f64::from_bits(bits << DROPPED_LOW_BIT_COUNT);
+            }
+        }
+        f64::NAN
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (rows, counts) = (self.counts.row_count(), self.counts.nonzero_counts());
+        let counts = counts.map(|(status, count)| format!("{count} {}", status.name()));
+        let counts: Vec<String> = counts.collect();
+        let plural = if rows == 1 { "" } else { "s" };
+        write!(f, "{rows} row{plural}")?;
+        if counts.is_empty() {
+            return Ok(());
+        }
+        write!(f, ": {}", counts.join(", "))?;
+        match rows - self.earlier_row_count {
+            _ if self.earlier_row_count == 0 => {}
+            0 => write!(f, "; 0 in this run")?,
+            here => write!(f, "; {here} in this run")?,
+        }
+        if self.time_histogram.count == 0 {
+            return Ok(());
+        }
+        write!(
+            f,
+            "; median {:.1} µs, mean {:.1} µs; {} iterations, {} oracle calls",
+            self.time_histogram.median(),
+            self.time_histogram.mean(),
+            self.iterations,
+            self.oracle_calls
+        )?;
+        for (count, (_, advice)) in self.limit_counts.iter().zip(LIMIT_ADVICE) {
+            if *count > 0 {
+                write!(f, "\n{count} unresolved: {advice}")?;
+            }
+        }
+        if self.raised_tolerance_count > 0 {
+            write!(
+                f,
+                "\n--tolerance {:e} cannot be certified at these coordinates: raised for {} rows, to \
+                 at most {:.2e}",
+                self.tolerance, self.raised_tolerance_count, self.largest_tolerance
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,201 @@
+//! `ccd view`: writes a page that shows queries, or a scene of many bodies.
+
+mod args;
+mod chosen;
+
+pub(super) use args::ViewArgs;
+pub(super) use chosen::ChosenRows;
+
+use super::files::{input_name, open_movement_rows, refuse_overwriting};
+use super::output::Output;
+use super::pair::BodiesArgs;
+use super::scene_table;
+use super::{RunOutcome, print_error};
+use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
+use crate::solver_kind::SolverKind;
+use crate::timed::{TimedQuestion, answer_timed};
+use anyhow::{Context, Result, bail};
+use ccd_core::{Settings, VectorInstructions};
+use ccd_view::{AnimationGroup, Page};
+use rigid_ccd::batch::Question;
+use rigid_ccd::table::results::{self, ResultRow};
+use std::collections::{HashMap, VecDeque};
+use std::ffi::OsStr;
+use std::fs::File;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+/// The maximum number of rows that are read to choose a few of them for the page.
+const MAX_ROWS_READ: usize = 10_000;
+
+/// Runs `ccd view`: writes the page of a table of motions or of a scene.
+pub(super) fn run(args: &ViewArgs) -> Result<RunOutcome> {
+    match (&args.scene, args.rows()) {
+        (Some(scene), _) => view_scene(args, scene),
+        (None, Some((bodies, motions))) => view_rows(args, &bodies, motions),
+        // The parser prevents this.
+        (None, None) => bail!("give either --a, --b and --motions, or --scene"),
+    }
+}
+
+fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<RunOutcome> {
+    let mut read = bodies.files_with_options()?;
+    read.push(("--motions", motions.to_owned()));
+    read.extend(args.results.iter().map(|path| ("--results", path.clone())));
+    for (option, path) in &read {
+        refuse_overwriting((option, path), ("--out", &args.out))?;
+    }
+    let (mut rows, _) = open_movement_rows(motions, Question::FirstContact.path_grouping())?;
+    let out = Output::claim(&args.out)?;
+    let pair = bodies.load(SolverKind::default(), args.quiet)?;
+    let mut known = args.results.as_deref().map(read_results).transpose()?;
+    let mut chosen = ChosenRows::new(args.ids.clone());
+    let timing = TimedQuestion {
+        question: Question::FirstContact,
+        method: SolverKind::default(),
+        settings: settings(args),
+        repetitions: NonZeroUsize::MIN,
+    };
+    let asked = QueryContext {
+        time_meaning: known
+            .as_ref()
+            .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
+        margin: args.margin,
+        clearance: None,
+    };
+    let mut solver = timing.method.solver(VectorInstructions::Best);
+    for row in rows.by_ref().take(MAX_ROWS_READ) {
+        let course = match row.with_context(|| input_name(motions))? {
+            Ok((_, course)) => course,
+            Err(fault) => {
+                chosen.count_undrawable(fault.to_string());
+                continue;
+            }
+        };
+        if chosen.is_requested(course.id()) == Some(false) {
+            continue;
+        }
+        let row = match &mut known {
+            Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
+            None => {
+                let answer = answer_timed(pair.bodies(), &course, &timing, solver.as_mut());
+                let (question, settings) = (timing.question, &timing.settings);
+                Some(pair.bodies().row(question, settings, &course, &answer))
+            }
+        };
+        if let Some(row) = row {
+            chosen.add_if_wanted(&course, &row);
+        }
+        if chosen.needs_no_more_rows() {
+            break;
+        }
+    }
+    if args.results.is_none() && !args.quiet {
+        pair.print_remarks(args.tolerance, &rows);
+    }
+    if let (Some(results), true) = (&args.results, chosen.is_empty()) {
+        let (motions, results) = (input_name(motions), results.display());
+        bail!("no row of {motions} is in {results}");
+    }
+    let painter = Painter::new(pair.bodies(), asked);
+    write_rows_page((&title(bodies), painter), chosen, out, args.quiet)
+}
+
+/// Returns the title of a page about two bodies: their names without folders, and the unit.
+pub(super) fn title(bodies: &BodiesArgs) -> String {
+    let [a, b] = [&bodies.a, &bodies.b].map(|text| {
+        let name = Path::new(text).file_name();
+        name.map_or(text.into(), OsStr::to_string_lossy)
+    });
+    let unit = bodies.meshes.unit();
+    let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
+    format!("{a} and {b}{unit}")
+}
+
+/// Writes the page of the chosen rows under a title. If no row can be shown, writes no page and prints a message.
+pub(super) fn write_rows_page(
+    (title, mut painter): (&str, Painter<'_>),
+    mut chosen: ChosenRows,
+    out: Output,
+    quiet: bool,
+) -> Result<RunOutcome> {
+    let all_found = chosen.ids_without_row().next().is_none();
+    for id in chosen.ids_without_row() {
+        print_error(&format!("no row has the id {id:?}"));
+    }
+    let mut views = Vec::new();
+    for (course, row) in chosen.take_rows() {
+        match painter.view(&course, &row) {
+            Ok(view) => views.push(view),
+            Err(error) => chosen.count_undrawable(format!("row {}: {error}", row.id)),
+        }
+    }
+    if let Some(faults) = chosen.describe_faults() {
+        print_error(&faults);
+    }
+    if views.is_empty() {
+        print_error("there is no row to show, and no page");
+        return Ok(RunOutcome::SomeRowsBad);
+    }
+    write_page(&painter.page(title, views), out, quiet)?;
+    Ok(if all_found && chosen.are_all_rows_drawable() {
+        RunOutcome::AllAnswered
+    } else {
+        RunOutcome::SomeRowsBad
+    })
+}
+
+fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
+    let html = page.html()?;
+    let told = (!quiet && !out.is_stream()).then(|| out.name());
+    out.write(|writer| writer.write_all(html.as_bytes()))?;
+    if let Some(name) = told {
+        print_error(&format!("open {name} in a browser"));
+    }
+    Ok(())
+}
+
+/// Reads a table of results into lists by id; rows with the same id stay in their order.
+fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
+    let name = || path.display().to_string();
+    let file = File::open(path).with_context(name)?;
+    let rows = results::read(file).with_context(name)?;
+    let mut known: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
+    for row in rows {
+        known.entry(row.id.clone()).or_default().push_back(row);
+    }
+    Ok(known)
+}
+
+fn settings(args: &ViewArgs) -> Settings {
+    Settings {
+        tolerance: args.tolerance,
+        margin: args.margin,
+        ..Settings::DEFAULT
+    }
+}
+
+fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
+    let table = scene_table::read(("--scene", path), args.scene_args(), &args.out)?;
+    if !args.quiet {
+        table.report(args.tolerance);
+    }
+    let out = Output::claim(&args.out)?;
+    let shown = table.bodies_to_draw();
+    let contacts = table.contacts(settings(args));
+    let title = input_name(path);
+    let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
+    if !args.quiet {
+        print_error(&view.verdict);
+    }
+    let page = Page {
+        title: &title,
+        meshes,
+        groups: vec![AnimationGroup {
+            name: String::new(),
+            views: vec![view],
+        }],
+    };
+    write_page(&page, out, args.quiet)?;
+    Ok(RunOutcome::AllAnswered)
+}

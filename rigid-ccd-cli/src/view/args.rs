@@ -1,0 +1,104 @@
+//! The options of `ccd view`.
+
+use crate::meshes::MeshArgs;
+use crate::numbers::{parse_nonnegative, tolerance};
+use crate::pair::BodiesArgs;
+use crate::scene_table::SceneArgs;
+use ccd_core::limits::DEFAULT_TOLERANCE;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
+#[derive(Clone, Debug, Args)]
+#[command(after_help = AFTER_HELP, arg_required_else_help = true)]
+pub(crate) struct ViewArgs {
+    /// Body A, in the forms of `ccd query --a`
+    #[arg(long, value_name = "BODY", requires_all = ["b", "motions"])]
+    a: Option<String>,
+    /// Body B, in the same forms
+    #[arg(long, value_name = "BODY", requires_all = ["a", "motions"])]
+    b: Option<String>,
+    #[command(flatten)]
+    meshes: MeshArgs,
+    /// Table of motions or paths to show, CSV, as of `ccd query`; - reads standard input
+    #[arg(
+        long,
+        value_name = "CSV",
+        required_unless_present = "scene",
+        requires = "a"
+    )]
+    motions: Option<PathBuf>,
+    /// Table of results of `ccd query`: show its answers instead of solving the queries
+    #[arg(
+        long,
+        value_name = "CSV",
+        requires = "motions",
+        conflicts_with = "scene"
+    )]
+    pub(super) results: Option<PathBuf>,
+    /// Show the rows with these ids [default: up to 4 of each status, in the table's order]
+    #[arg(
+        long,
+        value_name = "ID,...",
+        value_delimiter = ',',
+        requires = "motions",
+        conflicts_with = "scene"
+    )]
+    pub(super) ids: Vec<String>,
+    /// Table of the bodies of one scene, CSV: column `body` as in --a, columns px, vx, ... as in a table of motions
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]
+    pub(super) scene: Option<PathBuf>,
+    /// Time at which the motions of --scene end [default: 1]
+    #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true)]
+    duration: Option<f64>,
+    /// Report a contact at a distance of at most margin + tolerance
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
+    pub(super) tolerance: f64,
+    /// Distance to keep between the bodies
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true)]
+    pub(super) margin: f64,
+    /// Write the page to this file, HTML
+    #[arg(long, value_name = "HTML", default_value = "view.html")]
+    pub(super) out: PathBuf,
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+impl ViewArgs {
+    /// Returns the two bodies and the table of motions; `None` if an option for them is missing.
+    pub(super) fn rows(&self) -> Option<(BodiesArgs, &Path)> {
+        let bodies = BodiesArgs {
+            a: self.a.clone()?,
+            b: self.b.clone()?,
+            meshes: self.meshes.clone(),
+        };
+        Some((bodies, self.motions.as_deref()?))
+    }
+
+    /// Returns how the bodies of `--scene` are read.
+    pub(super) fn scene_args(&self) -> SceneArgs<'_> {
+        SceneArgs {
+            meshes: &self.meshes,
+            duration: self.duration,
+        }
+    }
+}
+
+const AFTER_HELP: &str = "\
+The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
+time, ghosts of the steps, the measured gap over time with a proven lower bound, and what touches.
+A motion is shown for its first contact. `ccd query --ask ... --html` shows the other questions.
+
+Examples:
+  ccd view --a knot.obj --b knot.obj --motions motions.csv --ids 3,17
+  ccd view --a knot.obj --b knot.obj --motions motions.csv --results results.csv --out knots.html
+  ccd view --scene scene.csv --duration 0.5
+  printf 'id,a_px,a_vx\\nhit,-3,4\\n' | ccd view --a box:.5,.5,.5 --b sphere:.3 --motions -
+  printf 'body,id,px,vx\\nsphere:.5,ball,-3,4\\n\"box:.5,1,1\",wall,0,0\\n' > balls.csv; ccd view --scene balls.csv
+
+Table of a scene: a row for each body.
+  body,id,px,py,pz,vx,vz,wy
+  part.obj,lid,0,0,2,0,-1,3
+  \"box:1,1,0.1\",table,0,0,0,0,0,0
+(A body with commas in it is quoted. Columns that are left out are 0; an empty cell is an error.)";

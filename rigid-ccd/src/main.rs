@@ -1,7 +1,0 @@
-//! The `ccd` command.
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    rigid_ccd::command::main()
-}
